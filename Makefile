@@ -11,13 +11,13 @@ help:
 	@echo "make test               build and run every check"
 	@echo "make test-all           the same with what takes long: fuzzing, TSan everywhere, clang-tidy"
 	@echo "make test-tsan          the modules that have threads under the thread sanitizer"
-	@echo "make tidy               clang-tidy on what differs from main; ALL=1: on everything"
+	@echo "make tidy               clang-tidy on what differs from main, on main from the last commit; SINCE=COMMIT, or ALL=1 for everything"
 	@echo "make soak MINUTES=120   a recorded session under random faults; SEED=n repeats one"
 	@echo "make test-arm64         tests of the SIMD kernels on emulated 64-bit ARM"
 	@echo "make build              build/release/apps/theatron/theatron, and the browser client beside it"
 	@echo "make fuzz TIME=600      every fuzz target, TIME seconds each"
 	@echo "make bench-web FOLDERS='DIR ...'   depth codecs natively and under node"
-	@echo "make figures            repeat the sizes and likenesses that docs/ states, and compare"
+	@echo "make figures            repeat the sizes and likenesses that docs/ states, and compare; SLOW=1: also what takes many minutes"
 	@echo "make format             clang-format over all sources"
 
 setup:
@@ -46,7 +46,8 @@ test-tsan: setup
 	@tools/test_tsan.sh $(MODULES)
 
 tidy: setup
-	@tools/tidy.sh $(if $(ALL),--all,$$(git merge-base HEAD main))
+	@base=$$(git merge-base HEAD main); [ "$$base" != "$$(git rev-parse HEAD)" ] || base=HEAD^; \
+	tools/tidy.sh $(if $(ALL),--all,$(or $(SINCE),$$base))
 
 soak: build
 	@cmake --build --preset release --target link_shaper slow_disk capture_test
@@ -63,7 +64,7 @@ bench-web: setup
 	@tools/bench_web.sh $(FOLDERS)
 
 figures: build
-	@tools/figures.py --program build/release/apps/theatron/theatron
+	@tools/figures.py --program build/release/apps/theatron/theatron $(if $(SLOW),--slow)
 
 format: setup
 	@git ls-files '*.h' '*.cpp' '*.cu' | xargs clang-format -i

@@ -5,7 +5,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 modules=("$@")
-[ $# -gt 0 ] || modules=(base capture net receive record send session)
+[ $# -gt 0 ] || modules=(base capture client host net publish receive record send session sound)
 
 cmake --preset tsan > /dev/null
 cmake --build --preset tsan --target "${modules[@]/%/_test}"

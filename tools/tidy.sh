@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # clang-tidy over the sources that differ from a commit, or over all of them. Fails on any finding.
+# Eight sources are checked at once, as they are compiled at once (cmake/CompileTogether.cmake): their common
+# headers are read once, which is most of the time. Sources of the web build alone are left out.
 # Usage: tidy.sh COMMIT|--all
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -10,19 +12,27 @@ since=${1:?a commit or --all}
 cmake --preset dev > /dev/null
 cmake --build --preset dev --target generated
 
-sources() { git ls-files -- 'src/*.cpp' 'apps/*.cpp' | grep -v '_web\.cpp$'; }
+changed=$(mktemp)
+trap 'rm -f "$changed"' EXIT
 if [ "$since" = --all ]; then
-    mapfile -t files < <(sources)
+    git ls-files -- '*.cpp' > "$changed"
 elif git rev-parse --quiet --verify "$since^{commit}" > /dev/null; then
-    # A header is checked where the source of the same name includes it.
-    mapfile -t files < <(comm -12 <(sources | sort) \
-        <(git diff --name-only "$since" -- 'src/*' 'apps/*' | sed 's/\.h$/.cpp/' | sort -u))
+    git diff --name-only --diff-filter=d "$since" -- '*.cpp' '*.h' > "$changed"
 else
     echo "tidy: there is no commit $since here to compare with, so nothing is checked."
     exit 0
 fi
-[ ${#files[@]} -gt 0 ] || { echo "tidy: no source has changed."; exit 0; }
-echo "tidy: ${#files[@]} file(s)"
-printf '%s\0' "${files[@]}" |
-    xargs -0 -n 1 -P "$(nproc)" clang-tidy --quiet --warnings-as-errors='*' \
-        --header-filter="^$PWD/(src|apps)/" -p build/dev 2> /dev/null
+mapfile -t units < <(tools/compiled_units.py build/dev "$changed")
+[ ${#units[@]} -gt 0 ] || { echo "tidy: no source has changed."; exit 0; }
+echo "tidy: ${#units[@]} unit(s) of the compiler"
+
+check_one() {
+    local code=0 found
+    found=$(clang-tidy --quiet --warnings-as-errors='*' --checks=-bugprone-suspicious-include \
+        --header-filter="^$PWD/(src|apps|bench|examples|tests|tools)/" -p build/dev "$1" 2> /dev/null) || code=$?
+    [ "$code" -eq 0 ] || printf '%s\n' "$found"
+    echo "tidy: $1" >&2
+    return "$code"
+}
+export -f check_one
+printf '%s\0' "${units[@]}" | xargs -0 -n 1 -P "$(nproc)" bash -c 'check_one "$@"' tidy

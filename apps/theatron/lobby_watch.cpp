@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lobby_watch.h"
 
+#include <exception>
 #include <utility>
 
-#include "base/error.h"
 #include "files/file_bytes.h"
 #include "files/png_file.h"
 #include "host/lobby.h"
@@ -44,7 +44,7 @@ LobbyWatch::Answer LobbyWatch::ask(const net::Link& link) {
         const auto png = host::thumbnail_of_host(link, patience);
         if (png && !files::decode_png(as_bytes(*png), answer.picture).empty())
             answer.picture = {};
-    } catch (const Error& error) {
+    } catch (const std::exception& error) {
         if (answer.lobby.is_null())
             answer.problem = error.what();
     }

@@ -242,7 +242,8 @@ void CaseKeeper::run() {
         work_.wait(lock, [this] { return stopping_ || !waiting_.empty(); });
         if (stopping_)
             return;
-        decode_next(lock);
+        if (!contain("case", [&] { decode_next(lock); }) && !lock.owns_lock())
+            lock.lock();
     }
 }
 

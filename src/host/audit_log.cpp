@@ -95,7 +95,7 @@ AuditLog::AuditLog(std::filesystem::path path, std::size_t max_bytes)
     }
     thread_ = std::thread([this] {
         name_this_thread("audit");
-        (void)contain("audit", [this] { run(); });
+        run();
     });
 }
 
@@ -132,38 +132,46 @@ void AuditLog::leave_out(session::AuditEvent::What what) {
 }
 
 void AuditLog::run() {
-    bool is_failing = false;
-    std::string lines;  // not written yet
-    while (true) {
-        std::unique_lock lock(mutex_);
-        if (is_failing)
-            changed_.wait_for(lock, std::chrono::seconds(1), [this] { return stopping_; });
-        else
-            changed_.wait(lock,
-                          [this] { return !waiting_.empty() || !left_out_.empty() || stopping_; });
-        // More of them may follow, or a line.
-        if (waiting_.empty() && !left_out_.empty() && lines.empty())
-            changed_.wait_for(lock, left_out_period,
-                              [this] { return !waiting_.empty() || stopping_; });
-        // Lines that could not be written are tried again before more are taken.
-        if (lines.empty())
-            for (const std::string& line : std::exchange(waiting_, {}))
-                lines += line + "\n";
-        if (!left_out_.empty() && (!is_failing || stopping_))
-            lines += left_out_line(std::exchange(left_out_, {})) + "\n";
-        const bool stops = stopping_, is_last = stops && waiting_.empty();
-        lock.unlock();
-        is_failing = !lines.empty() && !write(lines);
-        note(is_failing ? std::strerror(errno) : "");
-        if (!is_failing)
-            lines.clear();
-        if (stops && is_failing)
-            log::error("host", "entries of the audit log are lost",
-                       {{"file", path_.string()},
-                        {"entries", std::ranges::count(lines, '\n') + waiting()}});
-        if (is_last || (stops && is_failing))
-            return;
+    bool goes_on = true;
+    while (goes_on) {
+        // After a fault the lines that are left are tried again, as after a full disk.
+        if (!contain("audit", [&] { goes_on = write_waiting(); })) {
+            is_failing_ = true;
+            const std::lock_guard lock(mutex_);
+            goes_on = !stopping_;
+        }
     }
+}
+
+bool AuditLog::write_waiting() {
+    std::unique_lock lock(mutex_);
+    if (is_failing_)
+        changed_.wait_for(lock, std::chrono::seconds(1), [this] { return stopping_; });
+    else
+        changed_.wait(lock,
+                      [this] { return !waiting_.empty() || !left_out_.empty() || stopping_; });
+    // More of them may follow, or a line.
+    if (waiting_.empty() && !left_out_.empty() && unwritten_.empty())
+        changed_.wait_for(lock, left_out_period, [this] { return !waiting_.empty() || stopping_; });
+    // Lines that could not be written are tried again before more are taken.
+    if (unwritten_.empty())
+        for (; !waiting_.empty(); waiting_.pop_front())
+            unwritten_ += waiting_.front() + "\n";
+    if (!left_out_.empty() && (!is_failing_ || stopping_)) {
+        unwritten_ += left_out_line(left_out_) + "\n";
+        left_out_.clear();
+    }
+    const bool stops = stopping_, is_last = stops && waiting_.empty();
+    lock.unlock();
+    is_failing_ = !unwritten_.empty() && !write(unwritten_);
+    note(is_failing_ ? std::strerror(errno) : "");
+    if (!is_failing_)
+        unwritten_.clear();
+    if (stops && is_failing_)
+        log::error("host", "entries of the audit log are lost",
+                   {{"file", path_.string()},
+                    {"entries", std::ranges::count(unwritten_, '\n') + waiting()}});
+    return !is_last && !(stops && is_failing_);
 }
 
 std::string AuditLog::problem() const {

@@ -57,6 +57,7 @@ public:
 
 private:
     void run();
+    bool write_waiting();  // false at the end
     void note(const std::string& problem);
     std::size_t waiting() const;
     bool write(const std::string& lines);
@@ -65,7 +66,9 @@ private:
 
     const std::filesystem::path path_;
     const std::size_t max_bytes_;
-    int file_ = -1;  // the thread's
+    int file_ = -1;  // the thread's, as the next two
+    std::string unwritten_;
+    bool is_failing_ = false;
     mutable std::mutex mutex_;
     std::condition_variable changed_;
     std::deque<std::string> waiting_;  // guarded by mutex_, as are the next three

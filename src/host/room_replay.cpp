@@ -88,7 +88,7 @@ RoomReplay::RoomReplay(PlayedRecording played, std::function<bool()> has_begun,
       speak_(std::move(speak)),
       room_(source_.recording),
       voices_(source_.recording),
-      thread_([this] { (void)contain("replay", [this] { run(); }); }) {}
+      thread_([this] { run(); }) {}
 
 RoomReplay::~RoomReplay() {
     stopping_ = true;
@@ -99,19 +99,21 @@ void RoomReplay::run() {
     name_this_thread("replay");
     while (!stopping_ && !has_begun_())
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    TimePoint repeated = steady_now();
     while (!stopping_) {
-        const TimePoint now = steady_now();
-        const capture::Transport::State state = source_.transport->state(now);
-        play_voices(state, now);
-        if (state.paused && now - repeated >= repeated_after) {
-            repeated = now;
-            shown_.clear();
-            show_(change(now));
-        } else if (room_.go_to(state.position)) {
-            show_(change(now));
-        }
+        (void)contain("replay", [this] { play(steady_now()); });
         std::this_thread::sleep_for(period);
+    }
+}
+
+void RoomReplay::play(TimePoint now) {
+    const capture::Transport::State state = source_.transport->state(now);
+    play_voices(state, now);
+    if (state.paused && now - repeated_ >= repeated_after) {
+        repeated_ = now;
+        shown_.clear();
+        show_(change(now));
+    } else if (room_.go_to(state.position)) {
+        show_(change(now));
     }
 }
 

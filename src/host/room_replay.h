@@ -62,6 +62,7 @@ public:
 
 private:
     void run();
+    void play(TimePoint now);
     Change change(TimePoint now);
     // The speech up to the position at `now`. After a jump or a pause it goes on at the position.
     void play_voices(const capture::Transport::State& state, TimePoint now);
@@ -77,6 +78,7 @@ private:
     std::optional<std::pair<std::uint64_t, std::uint64_t>> voices_follow_;
     TimePoint voices_zero_;
     session::PoseBodies shown_;
+    TimePoint repeated_{};  // when a paused room was last shown anew
     std::atomic<bool> stopping_ = false;
     std::thread thread_;
 };

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sound/device_watch.h"
 
+#include <optional>
 #include <utility>
+
+#include "base/fault.h"
 
 namespace theatron::sound {
 
@@ -24,9 +27,11 @@ DeviceList DeviceWatch::devices_now() const {
 
 void DeviceWatch::look() {
     for (;;) {
-        DeviceList devices = ask_();
+        std::optional<DeviceList> devices;
+        (void)contain("devices", [&] { devices = ask_(); });
         std::unique_lock lock(mutex_);
-        devices_ = std::move(devices);
+        if (devices)
+            devices_ = std::move(*devices);
         if (ends_changed_.wait_for(lock, interval_, [this] { return ends_; }))
             return;
     }

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/fault.h"
 #include "base/thread_name.h"
 
 namespace theatron::sound {
@@ -23,7 +24,7 @@ KeptDevice::KeptDevice(std::string kind, const std::string& name, Open open,
         name_this_thread("devices");
         std::unique_lock lock(mutex_);
         while (!ends_changed_.wait_for(lock, interval_, [this] { return ends_; }))
-            look();
+            (void)contain("devices", [this] { look(); });
     });
 }
 

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <map>
 #include <set>
+#include <stdexcept>
 #include <vector>
 
 #include "base/error.h"
@@ -18,6 +20,9 @@ struct Machine {
     std::set<std::string> plugged;
     std::vector<std::string> sentences;
     int opened = 0, open = 0;
+    int faults =
+        0;  // attempts to open a device, after the first, that end in an unexpected exception
+    std::map<std::string, int> looks;  // attempts to open a device, and questions whether it works
 
     void plug(const std::string& name, bool is_plugged) {
         const std::lock_guard lock(mutex);
@@ -28,7 +33,12 @@ struct Machine {
     }
     bool has(const std::string& name) {
         const std::lock_guard lock(mutex);
+        ++looks[name];
         return plugged.contains(name);
+    }
+    int looks_at(const std::string& name) {
+        const std::lock_guard lock(mutex);
+        return looks[name];
     }
     std::string said() {
         const std::lock_guard lock(mutex);
@@ -43,6 +53,8 @@ struct Plugged : SoundDevice {
     Plugged(Machine& the_machine, std::string the_name)
         : machine(the_machine), name(std::move(the_name)) {
         const std::lock_guard lock(machine.mutex);
+        if (machine.looks[name]++ > 0 && machine.faults-- > 0)
+            throw std::runtime_error("a fault of the driver");
         if (!machine.plugged.contains(name))
             throw Error("There is no '" + name + "'.");
         ++machine.opened;
@@ -78,6 +90,12 @@ protected:
         return condition();
     }
 
+    // Until a device was looked at again a few times.
+    bool time_passes(const std::string& name) {
+        return wait_for(
+            [&, end = machine_.looks_at(name) + 4] { return machine_.looks_at(name) >= end; });
+    }
+
     Machine machine_;
 };
 
@@ -97,7 +115,7 @@ TEST_F(Kept, ComesBackWhenItIsPluggedInAgain) {
 TEST_F(Kept, OneThatIsNotThereYetIsSaidOnceAndOpenedLater) {
     const auto device = keep("headset");
     EXPECT_FALSE(device->works());
-    std::this_thread::sleep_for(20ms);
+    EXPECT_TRUE(time_passes("headset"));
     machine_.plug("headset", true);
     EXPECT_TRUE(wait_for([&] { return device->works(); }));
     EXPECT_EQ(machine_.said(), "There is no 'headset'.|The microphone 'headset' is there.|");
@@ -110,7 +128,7 @@ TEST_F(Kept, IsExchangedWhileItRuns) {
     EXPECT_TRUE(device->change("desk"));
     EXPECT_EQ(device->name(), "desk");
     machine_.plug("headset", false);
-    std::this_thread::sleep_for(20ms);
+    EXPECT_TRUE(time_passes("desk"));
     EXPECT_TRUE(device->works());
     EXPECT_FALSE(device->change("headset"));
     EXPECT_FALSE(device->works());
@@ -119,9 +137,18 @@ TEST_F(Kept, IsExchangedWhileItRuns) {
 
 TEST_F(Kept, AFileIsNotTriedAgain) {
     const auto device = keep("said.wav");
+    const auto witness = keep("headset");  // of the same interval
     machine_.plug("said.wav", true);
-    std::this_thread::sleep_for(20ms);
+    EXPECT_TRUE(time_passes("headset"));
     EXPECT_FALSE(device->works());
+    EXPECT_EQ(machine_.looks_at("said.wav"), 1);
+}
+
+TEST_F(Kept, AFaultOfTheDriverEndsOneAttempt) {
+    machine_.faults = 3;
+    const auto device = keep("headset");
+    machine_.plug("headset", true);
+    EXPECT_TRUE(wait_for([&] { return device->works(); }));
 }
 
 TEST(Devices, OfAMachineAreListedWithoutOpeningAny) {

@@ -18,6 +18,7 @@
 
 #include "base/bytes.h"
 #include "base/error.h"
+#include "base/fault.h"
 #include "base/log.h"
 #include "base/steady_clock.h"
 #include "base/thread_name.h"
@@ -37,7 +38,7 @@ public:
               name_this_thread("sound");
               TimePoint next = begin_;
               while (!ends_) {
-                  block();
+                  (void)contain("sound", block);
                   next += block_time;
                   std::this_thread::sleep_for(next - steady_now());
               }

@@ -101,8 +101,9 @@ class Strangers(unittest.TestCase):
             memory = h.memory_mb()
             strangers.open(max(500, 2 * MAX_PENDING))
             strangers.keep_opening(per_second=100)
-            took = [seconds_to_join(h.greeting["link"]) for _ in range(3)]
-            self.assertLess(min(took), 2, took)
+            took = sorted(seconds_to_join(h.greeting["link"]) for _ in range(5))
+            # Half of them: on a busy machine one may wait for the processor alone.
+            self.assertLess(took[2], 2, took)
             self.assertEqual(https_get(h.greeting["link"], "/")[0], 200)
             self.assertLess(h.memory_mb(), memory + 32)
 
@@ -115,8 +116,8 @@ class Strangers(unittest.TestCase):
                 strangers.open(1, address="127.0.0.9")
                 with contextlib.suppress(OSError):
                     strangers.sockets[-1].sendall(hello)
-            took = [seconds_to_join(h.greeting["link"]) for _ in range(2)]
-            self.assertLess(min(took), 2, took)
+            took = sorted(seconds_to_join(h.greeting["link"]) for _ in range(5))
+            self.assertLess(took[2], 2, took)
             self.assertLess(h.memory_mb(), memory + 32)
 
     def client_hello(self, link):

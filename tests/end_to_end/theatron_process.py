@@ -12,6 +12,8 @@ import time
 import zlib
 
 PROGRAM = os.environ.get("THEATRON", "build/release/apps/theatron/theatron")
+# Exit codes of programs that ended themselves; tests send other signals.
+CRASHES = [-one for one in (signal.SIGSEGV, signal.SIGABRT, signal.SIGBUS, signal.SIGFPE, signal.SIGILL)]
 DATA = pathlib.Path(os.environ.get("THEATRON_DATA", "../shared/data"))
 
 
@@ -95,8 +97,9 @@ class Process:
     def __enter__(self):
         return self
 
-    def __exit__(self, *_):
-        if self.process.poll() is None:
+    def __exit__(self, kind, *_):
+        code = self.process.poll()
+        if code is None:
             self.process.send_signal(signal.SIGCONT)
             self.process.kill()
         self.process.wait()
@@ -104,6 +107,8 @@ class Process:
         self.output_thread.join(5)
         for pipe in (self.process.stdin, self.process.stdout, self.process.stderr):
             pipe.close()
+        if kind is None and code in CRASHES:
+            raise AssertionError(f"the program ended by {signal.Signals(-code).name}: " + "".join(self.errors[-20:]))
 
 
 def host(state, *cameras, listen="127.0.0.1:0", options=(), prefix=()):
