@@ -22,7 +22,7 @@ for folder in "${folders[@]}"; do
     join <(build/release/bench/depth_decoders time "$frames" | sort) \
          <(node --no-liftoff build/web/bench/depth_decoders.js time "$frames" | sort) |
         while read -r name encode decode web_encode web_decode; do
-            printf '  %-14s %10.2f %10.2f %12.2f %12.2f\n' \
+            printf '  %-14s %10s %10s %12s %12s\n' \
                 "$name" "$encode" "$decode" "$web_encode" "$web_decode"
         done
 done

@@ -8,6 +8,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "base/steady_clock.h"
 #include "page_input.h"
@@ -20,25 +21,28 @@ using theatron::web::page;
 
 extern "C" {
 
-// `port` of the page; `token` as in the link; `person` in hex digits; `color` as PageColor takes
-// it; `scale` as Visit does. `can_h264`: this page or its workers have decoders of the browser. The
-// state has the reason of a failure.
+// `port` of the page; `token` as in the link; `person` in hex digits; `depth` as ask_for_depth()
+// and `color` as PageColor takes it; `scale` as Visit does. `can_h264`: this page or its workers
+// have decoders of the browser. The state has the reason of a failure.
 EMSCRIPTEN_KEEPALIVE void theatron_join(const char* host, int port, const char* token,
-                                        const char* name, const char* person, const char* color,
-                                        int can_h264, double scale) {
+                                        const char* name, const char* person, const char* depth,
+                                        const char* color, int can_h264, double scale) {
     page().problem.clear();
     page().leave();
     web::guarded([&] {
         web::open_context();
         const net::Link link{host, std::uint16_t(port), token, ""};
         const web::PageColor asked(color, can_h264 != 0);
-        page().visit =
-            std::make_unique<web::Visit>(web::join_options(link, name, person, asked),
-                                         link.host + ":" + std::to_string(link.port), asked, scale);
+        client::Participant::Options join = web::join_options(link, name, person, asked);
+        const std::string problem = web::ask_for_depth(join, depth);
+        page().visit = std::make_unique<web::Visit>(
+            std::move(join), link.host + ":" + std::to_string(link.port), asked, scale);
+        if (!problem.empty())
+            page().visit->viewer.note(problem, steady_now());
     });
 }
 
-// The same for the 2D view (flat_view.h), which needs no WebGL.
+// The same for the 2D view (flat_view.h), which needs no WebGL and shows no depth.
 EMSCRIPTEN_KEEPALIVE void theatron_join_flat(const char* host, int port, const char* token,
                                              const char* name, const char* person,
                                              const char* color, int can_h264) {

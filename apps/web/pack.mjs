@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Packs the page for the host: node pack.mjs OUTPUT_FOLDER WEB_SOURCES FILE...
+// Packs the page for the host: node pack.mjs OUTPUT_FOLDER WEB_SOURCES MISSING FILE...
 //
 // All but index.html get the hash of their content into their name, so that browsers may keep them for ever.
 // Text and program are compressed in advance. files.txt has a line for each file: its path, type and name.
-// WEB_SOURCES, the number of the page's sources, is copied.
+// WEB_SOURCES, the number of the page's sources, and MISSING, the libraries that it lacks, are copied.
 import { createHash } from "node:crypto";
 import { copyFileSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { basename, extname, join } from "node:path";
@@ -12,9 +12,10 @@ import { brotliCompressSync, constants, gzipSync } from "node:zlib";
 const types = {
     ".html": "text/html;charset=utf-8", ".css": "text/css;charset=utf-8", ".js": "text/javascript;charset=utf-8",
     ".mjs": "text/javascript;charset=utf-8", ".wasm": "application/wasm", ".svg": "image/svg+xml",
+    ".txt": "text/plain;charset=utf-8",
 };
 
-const [folder, web_sources, ...files] = process.argv.slice(2);
+const [folder, web_sources, missing, ...files] = process.argv.slice(2);
 rmSync(folder, { recursive: true, force: true });
 mkdirSync(folder, { recursive: true });
 const paths = new Map(files.map(file => [basename(file), file]));
@@ -49,3 +50,4 @@ for (const name of paths.keys())
     store(name);
 writeFileSync(join(folder, "files.txt"), lines.join("\n") + "\n");
 copyFileSync(web_sources, join(folder, "web_sources.txt"));
+copyFileSync(missing, join(folder, "missing.txt"));

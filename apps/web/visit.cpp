@@ -11,6 +11,7 @@
 #include "base/hex_text.h"
 #include "base/steady_clock.h"
 #include "render/gl_driver.h"
+#include "video/depth_codecs.h"
 
 // Gives a packet of another's voice to the page. The program is one module of JavaScript.
 EM_JS(void, theatron_give_voice, (unsigned speaker, const void* packet, int size),
@@ -114,6 +115,15 @@ client::Participant::Options join_options(const net::Link& link, const char* nam
             page().flat->view.note(text, steady_now());
     };
     return options;
+}
+
+std::string ask_for_depth(client::Participant::Options& options, const std::string& wish) {
+    if (wish.empty())
+        return "";
+    const codec::ParsedDepthSetting parsed = video::parse_depth_setting(wish);
+    if (parsed.problem.empty())
+        options.depth_codec = parsed.setting.text;
+    return parsed.problem;
 }
 
 void follow_color(Visit& visit, const client::ParticipantFigures& figures, TimePoint now) {

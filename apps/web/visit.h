@@ -90,6 +90,9 @@ void open_context();
 // `person` in hex digits.
 client::Participant::Options join_options(const net::Link& link, const char* name,
                                           const char* person, const PageColor& color);
+// Takes over the wish for a depth codec; "": none. Returns one sentence if this page cannot decode
+// it, and then leaves the options as they are.
+std::string ask_for_depth(client::Participant::Options& options, const std::string& wish);
 
 // Follows the person's choice, or else asks for another codec by measurements.
 void follow_color(Visit& visit, const client::ParticipantFigures& figures, TimePoint now);

@@ -62,11 +62,13 @@ bool read_strata(Options& options, Parameters& parameters) {
 }
 
 std::unique_ptr<DepthCodec> make_zstd(const Parameters& p) {
-    return make_library_codec(DepthCodecId::zstd, make_zstd_compressor(p.level), p.delta, 1);
+    return make_library_codec(
+        DepthCodecId::zstd, {make_zstd_compressor(p.level), make_zstd_decompressor()}, p.delta, 1);
 }
 
 std::unique_ptr<DepthCodec> make_lz4(const Parameters& p) {
-    return make_library_codec(DepthCodecId::lz4, make_lz4_compressor(), p.delta, p.quant_mm);
+    return make_library_codec(DepthCodecId::lz4, {make_lz4_compressor(), make_lz4_decompressor()},
+                              p.delta, p.quant_mm);
 }
 
 // In the order of help texts and benchmarks.

@@ -28,13 +28,14 @@ constexpr std::uint8_t parameter_of(Layout layout) {
 
 class LibraryCodec final : public DepthCodec {
 public:
-    LibraryCodec(DepthCodecId id, std::unique_ptr<ByteCompressor> compressor, Layout layout)
-        : id_(id), compressor_(std::move(compressor)), layout_(layout) {}
+    LibraryCodec(DepthCodecId id, ByteLibrary library, Layout layout)
+        : id_(id), library_(std::move(library)), layout_(layout) {}
 
     bool lossless() const override { return layout_.step == 1; }
     bool temporal() const override { return layout_.planes; }
     std::size_t max_encoded_size(Size size) const override {
-        return payload_header_size + compressor_->bound(2 * size.area());
+        assert(library_.compressor != nullptr);
+        return payload_header_size + library_.compressor->bound(2 * size.area());
     }
 
     std::size_t encode(DepthView depth, const Reference* reference, std::span<std::byte> out,
@@ -58,7 +59,8 @@ public:
             split_planes(coded, before, bytes_);
         else
             copy_rows(coded, pixels_in_bytes(depth.size));
-        const std::size_t used = compressor_->compress(bytes_, out.subspan(payload_header_size));
+        const std::size_t used =
+            library_.compressor->compress(bytes_, out.subspan(payload_header_size));
 
         if (layout_.planes && next != nullptr) {
             next->depth.resize(depth.size);
@@ -90,7 +92,8 @@ public:
             return Status::missing_reference;
 
         bytes_.resize(2 * out.size.area());
-        const Status status = compressor_->decompress(encoded.subspan(payload_header_size), bytes_);
+        const Status status =
+            library_.decompressor->decompress(encoded.subspan(payload_header_size), bytes_);
         if (status != Status::ok)
             return status;
         if (layout.planes)
@@ -127,7 +130,7 @@ private:
     }
 
     DepthCodecId id_;
-    std::unique_ptr<ByteCompressor> compressor_;
+    ByteLibrary library_;
     Layout layout_;
     Bytes bytes_;
     DepthImage levels_;
@@ -136,13 +139,11 @@ private:
 
 }  // namespace
 
-std::unique_ptr<DepthCodec> make_library_codec(DepthCodecId id,
-                                               std::unique_ptr<ByteCompressor> compressor,
-                                               bool delta, int quantisation_step) {
-    if (compressor == nullptr)
+std::unique_ptr<DepthCodec> make_library_codec(DepthCodecId id, ByteLibrary library, bool delta,
+                                               int quantisation_step) {
+    if (library.decompressor == nullptr)
         return nullptr;
-    return std::make_unique<LibraryCodec>(id, std::move(compressor),
-                                          Layout{delta, quantisation_step});
+    return std::make_unique<LibraryCodec>(id, std::move(library), Layout{delta, quantisation_step});
 }
 
 }  // namespace theatron::codec

@@ -59,6 +59,13 @@ Page::Page(const std::filesystem::path& folder) {
         problem_ =
             "The browser client was built from other sources than this program; build both with: "
             "make build";
+    std::ifstream missing(folder / "missing.txt");
+    std::string names;
+    if (problem_.empty() && std::getline(missing, names) && !names.empty())
+        problem_ =
+            "The browser client was built without these libraries, because their sources could not "
+            "be fetched: " +
+            names + "; with a network, build it again with: make build";
 }
 
 std::optional<net::HttpAnswer> Page::answer(const net::HttpRequest& request) const {

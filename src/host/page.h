@@ -23,7 +23,8 @@ public:
 
     bool empty() const { return files_.empty(); }
     // One sentence if the page was built from other sources than the program in the folder above,
-    // by web_sources.txt in both (cmake/WebSources.cmake); otherwise, or if one is missing, empty.
+    // by web_sources.txt in both (cmake/WebSources.cmake), or without libraries, by missing.txt;
+    // otherwise empty.
     const std::string& problem() const { return problem_; }
 
     // nullopt if there is nothing at this path. Only listed paths are found, whatever the request.

@@ -76,7 +76,7 @@ TEST_F(PageTest, HasOnlyListedFiles) {
         EXPECT_FALSE(page.answer({target, "", "br"})) << target;
 }
 
-TEST_F(PageTest, KnowsThatItWasBuiltFromOtherSourcesThanTheProgram) {
+TEST_F(PageTest, KnowsWhatItWasBuiltFrom) {
     const std::filesystem::path program = folder.path() / "program",
                                 built = folder.path() / "built";
     std::filesystem::create_directories(program);
@@ -97,6 +97,11 @@ TEST_F(PageTest, KnowsThatItWasBuiltFromOtherSourcesThanTheProgram) {
     EXPECT_EQ(problem(), "");
     write("program/web_sources.txt", "13\n");
     EXPECT_NE(problem().find("make build"), std::string::npos);
+    write("program/web_sources.txt", "12\n");
+    write("built/missing.txt", "\n");
+    EXPECT_EQ(problem(), "");
+    write("built/missing.txt", "opus, lz4\n");
+    EXPECT_NE(problem().find("opus, lz4"), std::string::npos);
 }
 
 TEST_F(PageTest, WithoutAFolderThereIsNoPage) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Opus for voice (RFC 6716) by libopus: mono, 48 kHz, with in-band forward error correction, and
-// nothing to send in silence. Not in the web build.
+// nothing to send in silence. The web build has it only where libopus's sources are there.
 #pragma once
 
 #include <memory>
@@ -20,8 +20,9 @@ std::size_t samples_in(ByteView opus);
 // Both allocate in their constructor only, which ends the program if memory is exhausted.
 class Encoder {
 public:
-    // `frame_ms`: 10 or 20; `bits_per_second`: 6000 to 128 000.
-    explicit Encoder(int frame_ms, int bits_per_second = 32'000);
+    // `frame_ms`: 10 or 20; `bits_per_second`: 6000 to 128 000. `finds_silence`: encode() tells
+    // voice and silence apart; otherwise each frame counts as voice.
+    explicit Encoder(int frame_ms, int bits_per_second = 32'000, bool finds_silence = true);
     ~Encoder();
 
     std::size_t frame_samples() const { return frame_samples_; }

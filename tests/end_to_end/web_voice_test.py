@@ -4,6 +4,7 @@ import contextlib
 import math
 import os
 import pathlib
+import re
 import tempfile
 import unittest
 
@@ -12,6 +13,7 @@ from theatron_process import PROGRAM, Process, host, wait_until
 from voice_test import RATE, chirps, read_wav, write_wav
 
 PAGE = pathlib.Path(PROGRAM).parent / "web/files.txt"
+HAS_OPUS = PAGE.exists() and re.search(r"^/opus\.\w+\.wasm", PAGE.read_text(), re.MULTILINE)
 SIZE = (640, 360)
 
 # Gathers what the speaker's jitter buffer plays, and the loudness at both ears.
@@ -46,6 +48,23 @@ COUNT = """(() => {
         asked = voice.number;
         return sent.filter(number => number >= asked - count).length;
     };
+})()"""
+
+# A browser without Opus in one direction, or one that knows the codec and refuses it.
+NO_ENCODER = "delete globalThis.AudioEncoder;"
+NO_DECODER = "delete globalThis.AudioDecoder;"
+REFUSES_TO_DECODE = "AudioDecoder.isConfigSupported = async config => ({ supported: false, config });"
+
+# Packets of somebody whose bytes are no Opus, whole and cut, and one that is too long.
+DAMAGED = """(() => {
+    let seed = 1;
+    const random = () => (seed = (seed * 48271) % 2147483647) % 256;
+    for (let number = 0; number < 100; ++number) {
+        const packet = Uint8Array.from({ length: 17 + (number * 7) % 300 }, random);
+        packet.set([1, 0, 20, 30, number, 0, 0, 0]);
+        theatron.voice.hear(4000, packet);
+    }
+    theatron.voice.hear(4000, Uint8Array.from([1, 0, 20, 30, ...Array(1400).fill(7)]));
 })()"""
 
 
@@ -104,9 +123,18 @@ class WebVoice(unittest.TestCase):
             Process("join", self.links[role], "--name", "Ben", "--every", "0.2", *options,
                     env={**os.environ, "XDG_STATE_HOME": str(self.folder / "home")}))
 
-    def enter(self, browser, role="expert"):
-        page = browser.open(self.links[role], SIZE)
-        page.enter(speaks=True)
+    def browser_with_microphone(self):
+        return self.stack.enter_context(Browser(
+            "--use-fake-device-for-media-stream", "--use-fake-ui-for-media-stream",
+            f"--use-file-for-fake-audio-capture={self.folder / 'said.wav'}"))
+
+    def enter(self, browser, role="expert", name="Ada", script="", way=None):
+        """`script` runs before the page's own."""
+        page = browser.open("about:blank", SIZE)
+        page.call("Page.addScriptToEvaluateOnNewDocument", source=script)
+        page.call("Page.navigate", url=self.links[role])
+        page.wait_for("location.protocol === 'https:'")
+        page.enter(name=name, way=way, speaks=True)
         page.wait_for("theatron.state.phase === 'joined'")
         return page
 
@@ -116,10 +144,25 @@ class WebVoice(unittest.TestCase):
         parts = [heard[i:i + 100] for i in range(0, len(heard) - 100, 50)]
         self.assertLess(min(pitch_error(part, said) for part in parts), 0.03)
 
+    def assert_page_hears(self, page, seconds):
+        """The only voice in the page is what was said."""
+        page.evaluate(LISTEN)
+        page.wait_for(f"theatron.heard.samples.length > {seconds * RATE}")
+        self.assert_heard([int(32767 * v) for v in page.evaluate(f"theatron.heard.samples.slice({RATE}, {seconds * RATE})")])
+
+    def assert_survives_damage(self, page):
+        """Packets that are no Opus are counted, and the others are still heard."""
+        before = page.evaluate("theatron.voice.unreadable")
+        page.evaluate(DAMAGED)
+        page.wait_for(f"theatron.voice.unreadable > {before + 1}")
+        heard = page.evaluate("[...theatron.voice.speakers.values()][0].figures.seconds")
+        page.wait_for(f"[...theatron.voice.speakers.values()][0].figures.seconds > {heard + 1}")
+
+    def own_opus(self, page):
+        return [url for url in page.requests if "/opus." in url and url.endswith(".wasm")]
+
     def test_page_and_native_participant_hear_each_other(self):
-        browser = self.stack.enter_context(Browser(
-            "--use-fake-device-for-media-stream", "--use-fake-ui-for-media-stream",
-            f"--use-file-for-fake-audio-capture={self.folder / 'said.wav'}"))
+        browser = self.browser_with_microphone()
         heard = self.folder / "heard.wav"
         ben = self.native("operator", "--microphone", self.folder / "said.wav", "--speaker", heard)
         page = self.enter(browser)
@@ -130,12 +173,10 @@ class WebVoice(unittest.TestCase):
             ben.say(" ".join(["stand"] + [f"{v:.3f}" for v in (x + left[0], y, z + left[2], x, y, z)]))
             page.wait_for("theatron.voice.speakers.size === 1 && theatron.state.people.every(p => p.self || p.head)")
             page.wait_for("document.getElementById('speaking').textContent === 'Speaking: Ben'")
-            page.evaluate(LISTEN)
-            page.wait_for(f"theatron.heard.samples.length > {5 * RATE}")
+            self.assert_page_hears(page, 5)
             left, right = page.evaluate("theatron.heard.ears")
             self.assertGreater(left, 1.3 * right)
-            played = [int(32767 * v) for v in page.evaluate(f"theatron.heard.samples.slice({RATE}, {5 * RATE})")]
-            self.assert_heard(played)
+            self.assertEqual(self.own_opus(page), [], "the browser has Opus")
         with self.subTest("the native participant hears the page"):
             spoken = ben.wait_for(lambda f: f["voice"]["voices"] and f["voice"]["voices"][0]["seconds"] > 8, 40)
             ada = [person["id"] for person in spoken["room"]["people"] if person["name"] == "Ada"]
@@ -181,11 +222,43 @@ class WebVoice(unittest.TestCase):
             self.assertIsNone(page.evaluate("theatron.voice.stream"))
         ben.say("quit")
         self.assertEqual(ben.end(), 0)
-        # Behind the browser's echo and noise filters the levels are others; the course of the syllables stays.
-        played = read_wav(heard)
-        first = next(i for i, v in enumerate(played) if v > 1000)
-        self.assert_heard(played[first:first + 8 * RATE])
+        self.assert_native_heard(heard, 8)
         self.assertEqual(page.problems, [])
+
+    def assert_native_heard(self, file, seconds):
+        # Behind the browser's echo and noise filters the levels are others; the course of the syllables stays.
+        played = read_wav(file)
+        first = next(i for i, v in enumerate(played) if v > 1000)
+        self.assert_heard(played[first:first + seconds * RATE])
+
+    @unittest.skipUnless(HAS_OPUS, "the page was built without libopus, whose sources could not be fetched")
+    def test_without_opus_in_the_browser_they_hear_each_other_all_the_same(self):
+        heard = self.folder / "heard.wav"
+        ben = self.native("operator", "--microphone", self.folder / "said.wav", "--speaker", heard)
+        page = self.enter(self.browser_with_microphone(), script=NO_ENCODER + NO_DECODER, way="flat")
+        page.wait_for("theatron.voice.speakers.size === 1 && theatron.voice.microphone === 'open'")
+        self.assertEqual(len(self.own_opus(page)), 2, "one for each direction")
+        self.assert_page_hears(page, 5)
+        ben.wait_for(lambda f: f["voice"]["voices"] and f["voice"]["voices"][0]["seconds"] > 5, 40)
+        self.assert_survives_damage(page)
+        ben.say("quit")
+        self.assertEqual(ben.end(), 0)
+        self.assert_native_heard(heard, 5)
+        self.assertEqual(page.problems, [])
+
+    @unittest.skipUnless(HAS_OPUS, "the page was built without libopus, whose sources could not be fetched")
+    def test_each_direction_falls_back_by_itself(self):
+        browser = self.browser_with_microphone()
+        pages = {codecs: self.enter(browser, name=name, script=script, way="flat") for name, script, codecs in (
+            ("Ada", NO_ENCODER, ("OwnEncoder", "BrowserDecoder")),
+            ("Eva", REFUSES_TO_DECODE, ("BrowserEncoder", "OwnDecoder")))}
+        for codecs, page in pages.items():
+            page.wait_for("[...theatron.voice.speakers.values()].some(speaker => speaker.figures.seconds > 1)")
+            self.assertEqual(page.evaluate("[theatron.voice.encoder, ...theatron.voice.speakers.values()]"
+                                           ".map(user => (user.decoder ?? user).constructor.name)"), list(codecs))
+            self.assertEqual(len(self.own_opus(page)), 1)
+            self.assert_survives_damage(page)
+            self.assertEqual(page.problems, [])
 
     def test_without_a_microphone_the_page_is_in_the_room_and_says_what_to_do(self):
         browser = self.stack.enter_context(Browser("--use-fake-device-for-media-stream"))

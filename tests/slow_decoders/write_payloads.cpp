@@ -32,6 +32,7 @@ const std::vector<std::string> usual_settings = {"raw",          "rvl",   "trvl"
                                                  "zstd:delta=1", "lz4",   "lz4:delta=1", "ans",
                                                  "ans:delta=1",  "strata"};
 const std::vector<std::string> more_settings = {"trvl:layers=3",
+                                                "zstd:delta=1,layers=3",
                                                 "strata:layers=3",
                                                 "lz4:quant_mm=3",
                                                 "lz4:delta=1,quant_mm=10",

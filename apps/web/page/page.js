@@ -43,7 +43,7 @@ async function load_client() {
     });
     const numbers = count => Array(count).fill("number");
     const functions = {
-        join: [null, ["string", "number", "string", "string", "string", "string", "number", "number"]],
+        join: [null, ["string", "number", "string", "string", "string", "string", "string", "number", "number"]],
         join_flat: [null, ["string", "number", "string", "string", "string", "string", "number"]],
         flat_picture: ["number", []],
         flat_width: ["number", []],
@@ -370,11 +370,12 @@ function enter(client) {
     $("view").hidden = is_flat;
     $("flat").hidden = !is_flat;
     $(is_flat ? "flat" : "view").focus();
-    const person = [host, port, link.get("join"), $("name").value.trim(), person_id(), link.get("color") ?? "auto", page.has_h264() ? 1 : 0];
+    const person = [host, port, link.get("join"), $("name").value.trim(), person_id()];
+    const color = [link.get("color") ?? "auto", page.has_h264() ? 1 : 0];
     if (is_flat)
-        client.join_flat(...person);
+        client.join_flat(...person, ...color);
     else
-        client.join(...person, drawn_scale(link.get("scale")));
+        client.join(...person, link.get("depth") ?? "", ...color, drawn_scale(link.get("scale")));
     allow_voice_recording(client, page.voice_may_record);
 }
 

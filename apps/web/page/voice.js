@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// Voice: the others from where they stand, and one's own microphone. Opus by the browser's codecs; the packets
-// are those of docs/formats/voice.md.
+// Voice: the others from where they stand, and one's own microphone. The packets are those of docs/formats/voice.md.
+import { find_decoders, find_encoders, has_opus, sample_rate } from "./opus.js";
 import { with_patience } from "./program.js";
 
-const sample_rate = 48000;
-const header_size = 16, version = 1;
+const header_size = 16, version = 1, most_opus_bytes = 1275;
+const frame_us = 20_000;            // of the microphone
 const speech_db = -50;              // a frame of this level counts as speech
 const hang_over_ms = 400;           // speech goes on for so long behind the last such frame
 const release_ms = 200;             // the key of push to talk is released before the last word ends
 const most_speakers = 32;           // the one that was silent for longest makes room for another
 const least_silence_ms = 1000;      // of one that makes room
-const most_waiting = 50;            // frames in a speaker's decoder; more come faster than anybody speaks
 const longest_silence_ms = 60_000;  // of a speaker that is kept
 
 // The header of a packet, and its Opus frame; null if it is none.
 export function parse_packet(bytes) {
-    if (bytes.length <= header_size)
+    if (bytes.length <= header_size || bytes.length > header_size + most_opus_bytes)
         return null;
     const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.length);
     const frame_ms = view.getUint8(2);
@@ -36,9 +35,9 @@ function level_of(samples) {
 class Speaker {
     figures = { level_db: -127, delay_ms: 0, seconds: 0, concealed_ms: 0 };
     newest_ms = 0;
-    waiting = [];  // headers of the frames in the decoder, in order
 
-    constructor(context, program) {
+    // `make_decoder` as find_decoders() has found it; `refused()` follows a damaged packet.
+    constructor(context, program, make_decoder, refused) {
         this.node = new AudioWorkletNode(context, "speaker", {
             numberOfInputs: 0, outputChannelCount: [1], processorOptions: { program } });
         this.node.port.onmessage = ({ data }) => this.figures = data;
@@ -46,37 +45,14 @@ class Speaker {
         this.panner = new PannerNode(context, {
             panningModel: "HRTF", distanceModel: "inverse", refDistance: 1.5, rolloffFactor: 0.5 });
         this.node.connect(this.panner).connect(context.destination);
-        this.begin_decoder();
-    }
-
-    begin_decoder() {
-        this.waiting = [];
-        this.decoder = new AudioDecoder({
-            output: data => {
-                const header = this.waiting.shift();
-                const samples = new Float32Array(data.numberOfFrames);
-                data.copyTo(samples, { planeIndex: 0, format: "f32-planar" });
-                data.close();
-                if (header && samples.length === header.frame_ms * sample_rate / 1000)
-                    this.node.port.postMessage({ ...header, samples }, [samples.buffer]);
-            },
-            error: () => this.begin_decoder(),
-        });
-        this.decoder.configure({ codec: "opus", sampleRate: sample_rate, numberOfChannels: 1 });
+        this.decoder = make_decoder({
+            taken: (header, samples) => this.node.port.postMessage({ ...header, samples }, [samples.buffer]),
+            refused });
     }
 
     put({ opus, ...header }) {
         this.newest_ms = performance.now();
-        // Behind a fault a browser closes a decoder first, and says so later.
-        if (this.decoder.state === "closed" || this.decoder.decodeQueueSize >= most_waiting)
-            return;
-        if (this.waiting.length >= 2 * most_waiting) {
-            this.decoder.close();
-            this.begin_decoder();
-        }
-        this.waiting.push(header);
-        this.decoder.decode(new EncodedAudioChunk({
-            type: "key", timestamp: header.number * header.frame_ms * 1000, data: opus }));
+        this.decoder.put(opus, header);
     }
 
     move(context, [x, y, z]) {
@@ -89,8 +65,7 @@ class Speaker {
         this.node.port.postMessage("end");
         this.node.disconnect();
         this.panner.disconnect();
-        if (this.decoder.state !== "closed")
-            this.decoder.close();
+        this.decoder.close();
     }
 }
 
@@ -113,7 +88,7 @@ export class Voice {
     }
 
     static is_supported() {
-        return !!(globalThis.AudioContext && globalThis.AudioWorkletNode && globalThis.AudioDecoder && globalThis.AudioEncoder);
+        return !!(globalThis.AudioContext && globalThis.AudioWorkletNode && has_opus());
     }
 
     // Asks for what nobody needs: the browser starts its process for sound beside the page, and begin() need not wait for it.
@@ -146,7 +121,11 @@ export class Voice {
         this.loaded ??= Promise.all([
             with_patience(() => this.context.audioWorklet.addModule(new URL("./voice_worklet.js", import.meta.url))),
             with_patience(() => WebAssembly.compileStreaming(fetch(new URL("./voice.wasm", import.meta.url)))),
-        ]).then(([, program]) => this.program = program);
+            find_decoders(),
+        ]).then(([, program, make_decoder]) => {
+            this.make_decoder = make_decoder;
+            this.program = program;
+        });
         await Promise.all([resumed, this.loaded]);
     }
 
@@ -169,7 +148,7 @@ export class Voice {
     speaker(id) {
         let speaker = this.speakers.get(id);
         if (!speaker && this.make_room())
-            this.speakers.set(id, speaker = new Speaker(this.context, this.program));
+            this.speakers.set(id, speaker = new Speaker(this.context, this.program, this.make_decoder, () => ++this.unreadable));
         return speaker;
     }
 
@@ -219,6 +198,7 @@ export class Voice {
         this.set_microphone("asking");
         try {
             await this.begin();
+            const make_encoder = await find_encoders();
             this.stream = await navigator.mediaDevices.getUserMedia({
                 audio: { channelCount: 1, echoCancellation: true, noiseSuppression: true, autoGainControl: true } });
             if (this.microphone !== "asking")  // closed while the browser asked
@@ -227,7 +207,7 @@ export class Voice {
             this.source = new MediaStreamAudioSourceNode(this.context, { mediaStream: this.stream });
             this.frames = new AudioWorkletNode(this.context, "microphone", { numberOfOutputs: 0, channelCount: 1,
                 channelCountMode: "explicit" });
-            this.begin_encoder();
+            this.begin_encoder(make_encoder);
             this.frames.port.onmessage = ({ data }) => this.encode(data);
             this.source.connect(this.frames);
             this.set_microphone("open");
@@ -241,8 +221,7 @@ export class Voice {
         this.frames?.disconnect();
         if (this.frames)
             this.frames.port.onmessage = null;
-        if (this.encoder?.state === "configured")
-            this.encoder.close();
+        this.encoder?.close();
         this.source = this.frames = this.encoder = null;
         this.stop_stream();
         this.set_microphone(why);
@@ -281,25 +260,14 @@ export class Voice {
         this.changed();
     }
 
-    begin_encoder() {
-        this.encoding = [];  // facts of the frames in the encoder, in order
+    begin_encoder(make_encoder) {
         this.number ??= 0;
         this.spoke_ms = -Infinity;
         this.is_sending = false;
-        this.encoder = new AudioEncoder({
-            output: chunk => {
-                const facts = this.encoding.shift();
-                if (!facts)
-                    return;
-                const opus = new Uint8Array(chunk.byteLength);
-                chunk.copyTo(opus);
-                const age_us = (performance.now() - facts.taken_ms) * 1000 + chunk.duration;
-                this.send(facts.number, age_us, facts.pauses, facts.level_db, opus);
-            },
-            error: () => this.close_microphone("missing"),
-        });
-        this.encoder.configure({ codec: "opus", sampleRate: sample_rate, numberOfChannels: 1, bitrate: 32000,
-            opus: { application: "voip", frameDuration: 20000, useinbandfec: true, packetlossperc: 5 } });
+        this.encoder = make_encoder({
+            made: ({ number, taken_ms, pauses, level_db }, opus) =>
+                this.send(number, (performance.now() - taken_ms) * 1000 + frame_us, pauses, level_db, opus),
+            failed: () => this.close_microphone("missing") });
     }
 
     // Silence is not sent; its frames are counted on, and the first one says that a pause begins.
@@ -315,9 +283,7 @@ export class Voice {
         if (!is_voice && !this.is_sending)
             return;
         this.is_sending = is_voice;
-        this.encoding.push({ number: number >>> 0, taken_ms: now, pauses: is_voice ? 0 : 1, level_db });
-        this.encoder.encode(new AudioData({ format: "f32-planar", sampleRate: sample_rate, numberOfChannels: 1,
-            numberOfFrames: samples.length, timestamp: number * 20000, data: samples }));
+        this.encoder.put(samples, { number: number >>> 0, taken_ms: now, pauses: is_voice ? 0 : 1, level_db });
     }
 
     leave() {

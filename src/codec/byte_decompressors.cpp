@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The implementations of library_codec.h, as far as this build has the libraries.
-#include <cassert>
-
+// The decompressors of library_codec.h, as far as this build has the libraries.
 #include "codec/library_codec.h"
 
 #if THEATRON_HAS_ZSTD
@@ -18,24 +16,12 @@ namespace theatron::codec {
 namespace {
 
 // Format: one zstd frame that states its content size, and nothing after it.
-class Zstd final : public ByteCompressor {
+class Zstd final : public ByteDecompressor {
 public:
-    explicit Zstd(int level) : level_(level) {}
-    ~Zstd() override {
-        ZSTD_freeCCtx(compressor_);
-        ZSTD_freeDCtx(decompressor_);
-    }
+    Zstd() = default;
+    ~Zstd() override { ZSTD_freeDCtx(context_); }
     Zstd(const Zstd&) = delete;
     Zstd& operator=(const Zstd&) = delete;
-
-    std::size_t bound(std::size_t count) const override { return ZSTD_compressBound(count); }
-
-    std::size_t compress(ByteView in, std::span<std::byte> out) override {
-        const std::size_t used =
-            ZSTD_compressCCtx(compressor_, out.data(), out.size(), in.data(), in.size(), level_);
-        assert(!ZSTD_isError(used));
-        return used;
-    }
 
     Status decompress(ByteView in, std::span<std::byte> out) override {
         const std::size_t frame_size = ZSTD_findFrameCompressedSize(in.data(), in.size());
@@ -46,7 +32,7 @@ public:
         if (ZSTD_getFrameContentSize(in.data(), in.size()) != out.size())
             return Status::malformed;
         const std::size_t used =
-            ZSTD_decompressDCtx(decompressor_, out.data(), out.size(), in.data(), in.size());
+            ZSTD_decompressDCtx(context_, out.data(), out.size(), in.data(), in.size());
         if (ZSTD_isError(used))
             return reason(used);
         return used == out.size() ? Status::ok : Status::malformed;
@@ -58,9 +44,7 @@ private:
                                                                     : Status::malformed;
     }
 
-    ZSTD_CCtx* compressor_ = ZSTD_createCCtx();
-    ZSTD_DCtx* decompressor_ = ZSTD_createDCtx();
-    int level_;
+    ZSTD_DCtx* context_ = ZSTD_createDCtx();
 };
 
 }  // namespace
@@ -68,14 +52,14 @@ private:
 bool has_zstd() {
     return true;
 }
-std::unique_ptr<ByteCompressor> make_zstd_compressor(int level) {
-    return std::make_unique<Zstd>(level);
+std::unique_ptr<ByteDecompressor> make_zstd_decompressor() {
+    return std::make_unique<Zstd>();
 }
 #else
 bool has_zstd() {
     return false;
 }
-std::unique_ptr<ByteCompressor> make_zstd_compressor(int) {
+std::unique_ptr<ByteDecompressor> make_zstd_decompressor() {
     return nullptr;
 }
 #endif
@@ -85,31 +69,16 @@ namespace {
 
 // Format: one LZ4 block. A block has no end mark; a truncated one is accepted only if
 // it still gives all pixels.
-class Lz4 final : public ByteCompressor {
+class Lz4 final : public ByteDecompressor {
 public:
-    std::size_t bound(std::size_t count) const override {
-        return std::size_t(LZ4_compressBound(int(count)));
-    }
-    std::size_t compress(ByteView in, std::span<std::byte> out) override {
-        const int used = LZ4_compress_fast_extState(
-            state_.data(), reinterpret_cast<const char*>(in.data()),
-            reinterpret_cast<char*>(out.data()), int(in.size()), int(out.size()), 1);
-        assert(used > 0);
-        return std::size_t(used);
-    }
     Status decompress(ByteView in, std::span<std::byte> out) override {
-        if (in.size() > bound(out.size()))
+        if (in.size() > std::size_t(LZ4_COMPRESSBOUND(int(out.size()))))
             return Status::trailing_bytes;
         const int used = LZ4_decompress_safe(reinterpret_cast<const char*>(in.data()),
                                              reinterpret_cast<char*>(out.data()), int(in.size()),
                                              int(out.size()));
         return used == int(out.size()) ? Status::ok : Status::malformed;
     }
-
-private:
-    // LZ4 requires the state to be aligned to 8 bytes.
-    std::vector<std::uint64_t> state_ =
-        std::vector<std::uint64_t>(std::size_t(LZ4_sizeofState()) / 8 + 1);
 };
 
 }  // namespace
@@ -117,14 +86,14 @@ private:
 bool has_lz4() {
     return true;
 }
-std::unique_ptr<ByteCompressor> make_lz4_compressor() {
+std::unique_ptr<ByteDecompressor> make_lz4_decompressor() {
     return std::make_unique<Lz4>();
 }
 #else
 bool has_lz4() {
     return false;
 }
-std::unique_ptr<ByteCompressor> make_lz4_compressor() {
+std::unique_ptr<ByteDecompressor> make_lz4_decompressor() {
     return nullptr;
 }
 #endif

@@ -39,7 +39,7 @@ void Encoder::Free::operator()(OpusEncoder* encoder) const {
     opus_encoder_destroy(encoder);
 }
 
-Encoder::Encoder(int frame_ms, int bits_per_second)
+Encoder::Encoder(int frame_ms, int bits_per_second, bool finds_silence)
     : frame_samples_(std::size_t(frame_ms) * sample_rate / 1000) {
     assert(frame_ms == 10 || frame_ms == 20);
     int error = 0;
@@ -50,7 +50,7 @@ Encoder::Encoder(int frame_ms, int bits_per_second)
     opus_encoder_ctl(encoder_.get(), OPUS_SET_SIGNAL(OPUS_SIGNAL_VOICE));
     opus_encoder_ctl(encoder_.get(), OPUS_SET_INBAND_FEC(1));
     opus_encoder_ctl(encoder_.get(), OPUS_SET_PACKET_LOSS_PERC(expected_loss_percent));
-    opus_encoder_ctl(encoder_.get(), OPUS_SET_DTX(1));
+    opus_encoder_ctl(encoder_.get(), OPUS_SET_DTX(finds_silence ? 1 : 0));
 }
 
 Encoder::~Encoder() = default;
