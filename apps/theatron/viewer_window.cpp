@@ -14,6 +14,7 @@
 #include "files/state_folder.h"
 #include "host/filter_choice.h"
 #include "participant_json.h"
+#include "render/gl_driver.h"
 #include "saved_view.h"
 #include "sound/device_watch.h"
 #include "source_remarks.h"
@@ -230,6 +231,7 @@ WindowEnd show(xr::DesktopWindow& window, ViewerWindow options) {
     if (options.voice)
         talking.emplace(*options.voice, participant);
     viewer::Viewer viewer(std::move(options.viewer), participant);
+    const bool is_software = render::is_software(render::driver_name());
 
     xr::OverlayContent texts;
     std::string title;
@@ -354,11 +356,12 @@ WindowEnd show(xr::DesktopWindow& window, ViewerWindow options) {
         next_picture = now + window.picture_time();
         if (scene)
             viewer.draw(window.pixels(), picture.begin(window.pixels(), viewer.way().scale), now);
+        const TimePoint submitted = steady_now();
         picture.show(window.pixels());
         overlay.draw(texts, window.pixels(), window.text_pixels());
         window.present();
         if (scene)
-            viewer.on_presented(now, steady_now());
+            viewer.on_presented(now, (is_software ? steady_now() : submitted) - now, steady_now());
     }
     print_end(viewer, participant, window);
     return end;

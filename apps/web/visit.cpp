@@ -63,6 +63,13 @@ client::Participant::Options with_faces(client::Participant::Options join,
     return join;
 }
 
+// For the next picture, a little before it may begin.
+void want_frames(Visit& visit, TimePoint now) {
+    constexpr Duration longest_way = 20ms;
+    if (!visit.viewer.rests_at(now + longest_way))
+        visit.participant.want_frames();
+}
+
 }  // namespace
 
 Visit::Visit(client::Participant::Options join, std::string host_address, PageColor asked,
@@ -142,7 +149,10 @@ void follow_color(FlatVisit& visit, const client::ParticipantFigures& figures, T
 bool finish_drawing(Visit& visit) {
     if (!visit.drawing.take_passed())
         return false;
-    visit.viewer.on_presented(visit.drawing_began, steady_now());
+    const TimePoint now = steady_now();
+    const TimePoint worked_until = visit.options.has_gpu ? visit.drawing_submitted : now;
+    visit.viewer.on_presented(visit.drawing_began, worked_until - visit.drawing_began, now);
+    want_frames(visit, now);
     return true;
 }
 
@@ -150,11 +160,14 @@ void draw(Visit& visit, Size size) {
     if (visit.drawing.is_waiting())
         return;
     const TimePoint now = steady_now();
+    want_frames(visit, now);
     const xr::WindowInput input = page().input.take();
     visit.viewer.on_input(
         input, input.grabbed ? visit.picture.distance_at(*input.grabbed) : std::nullopt, size, now);
     const bool changed = visit.viewer.step(size, now);
-    if (!changed && !input.redraw)
+    // The picture follows in the next event.
+    const bool made_cameras = visit.viewer.take_made_cameras();
+    if ((!changed && !input.redraw) || made_cameras)
         return;
     if (changed)
         visit.viewer.draw(size, visit.picture.begin(size, visit.viewer.way().scale), now);
@@ -164,6 +177,7 @@ void draw(Visit& visit, Size size) {
         visit.drawing_began = now;
     }
     glFlush();
+    visit.drawing_submitted = steady_now();
 }
 
 void draw_headset(Visit& visit, const xr::HeadsetFrame& frame, bool real_room) {
@@ -171,6 +185,7 @@ void draw_headset(Visit& visit, const xr::HeadsetFrame& frame, bool real_room) {
     // The window's size does not matter here.
     constexpr Size any{16, 9};
     page().input = {};
+    visit.participant.want_frames();
     visit.viewer.on_headset(frame, now);
     (void)visit.viewer.step(any, now);
     const unsigned framebuffer = page().headset_framebuffer =
@@ -189,6 +204,7 @@ void draw_headset(Visit& visit, const xr::HeadsetFrame& frame, bool real_room) {
     if (!visit.drawing.is_waiting()) {
         visit.drawing.begin();
         visit.drawing_began = now;
+        visit.drawing_submitted = steady_now();
     }
     glFlush();
 }

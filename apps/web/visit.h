@@ -33,7 +33,7 @@ struct Visit {
     viewer::Viewer viewer;
     xr::ScaledPicture picture;
     PictureFence drawing;  // of the newest picture
-    TimePoint drawing_began;
+    TimePoint drawing_began, drawing_submitted;
 };
 
 // A page that joined and only shows a camera's picture.

@@ -58,6 +58,11 @@ struct WorkerFiguresWanted {
     }
 };
 
+// From the first of them on, a worker hands on only the next frame of each camera for each of them.
+struct WorkerFramesWanted {
+    static void fields(auto&, auto&&) {}
+};
+
 // From a worker. `generation` is that of its cameras.
 struct WorkerFrame {
     std::uint64_t generation = 0;
@@ -130,7 +135,8 @@ struct WorkerFigures {
     }
 };
 
-using ToWorker = std::variant<WorkerCameras, WorkerSettings, WorkerMedia, WorkerFiguresWanted>;
+using ToWorker = std::variant<WorkerCameras, WorkerSettings, WorkerMedia, WorkerFiguresWanted,
+                              WorkerFramesWanted>;
 using FromWorker =
     std::variant<WorkerFrame, WorkerNeedsKey, WorkerDone, WorkerProblem, WorkerFigures>;
 

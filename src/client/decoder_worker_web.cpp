@@ -10,6 +10,7 @@
 #include "base/fault.h"
 #include "base/steady_clock.h"
 #include "client/decoder_messages.h"
+#include "client/wanted_frames.h"
 #include "video/browser_decoders_web.h"
 
 namespace theatron::client {
@@ -30,7 +31,12 @@ public:
         if (m.anew) {
             receiver_.set_cameras({});
             colors_.clear();
+            wanted_.begin_anew();
         }
+        for (const CameraId camera : std::exchange(cameras_, {}))
+            wanted_.forget(camera);
+        for (const wire::Camera& camera : m.cameras)
+            cameras_.push_back(camera.id);
         receiver_.set_cameras(m.cameras);
         tell_done();
     }
@@ -63,6 +69,11 @@ public:
         reply(WorkerFigures{generation_, receiver_.figures(now())});
     }
 
+    void on(const WorkerFramesWanted&) {
+        for (const receive::CameraFramePtr& frame : wanted_.want())
+            send(*frame);
+    }
+
 private:
     // Pictures that a browser's decoder may work on while further messages come.
     static constexpr std::size_t most_decoded_at_once = 2;
@@ -77,7 +88,10 @@ private:
 
     receive::Receiver::Events events() {
         receive::Receiver::Events events;
-        events.frame = [this](const receive::CameraFramePtr& frame) { send(*frame); };
+        events.frame = [this](const receive::CameraFramePtr& frame) {
+            if (wanted_.add(frame))
+                send(*frame);
+        };
         events.needs_key = [this](StreamId stream, SettingId setting) {
             reply(WorkerNeedsKey{generation_, stream, setting});
         };
@@ -114,6 +128,8 @@ private:
     std::function<void(ByteView)> reply_;
     std::uint64_t generation_ = 0;
     receive::Receiver receiver_;
+    std::vector<CameraId> cameras_;
+    WantedFrames wanted_;
     std::map<CameraId, std::shared_ptr<const ColorImage>> colors_;  // last sent
     std::vector<std::uint64_t> done_;  // messages that the page does not know to be taken
 };

@@ -245,6 +245,8 @@ void Decoders::reset_figures() {
     }
 }
 
+void Decoders::want_frames() {}
+
 void Decoders::forget_ages() {
     for (const auto& worker : workers_) {
         {

@@ -53,6 +53,10 @@ public:
     void reset_figures();
     // The session's time has become known: ages of before meant nothing.
     void forget_ages();
+    // In a browser's workers, whose frames cost the page a copy: from the first call on,
+    // Events::frame follows for the next frame of each camera alone, again after each call.
+    // Elsewhere for all.
+    void want_frames();
 
 private:
     // Bytes that may wait for all threads together; messages beyond them are dropped. A sender

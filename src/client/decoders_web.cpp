@@ -99,6 +99,11 @@ void Decoders::reset_figures() {
     workers_.front()->receiver.reset_figures();
 }
 
+void Decoders::want_frames() {
+    if (pooled())
+        pooled()->want_frames();
+}
+
 void Decoders::forget_ages() {
     if (pooled())
         return pooled()->forget_ages();

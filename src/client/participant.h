@@ -144,6 +144,8 @@ public:
 
     // The newest frame of each camera that has a new one since the last call.
     std::vector<receive::CameraFramePtr> take_frames();
+    // For a page: see Decoders::want_frames().
+    void want_frames();
 
     // Waits until a frame can be taken, at most `timeout`. False after the timeout.
     bool wait_for_frame(Duration timeout);

@@ -33,6 +33,10 @@ std::vector<receive::CameraFramePtr> Participant::take_frames() {
     return frames;
 }
 
+void Participant::want_frames() {
+    decoders_->want_frames();
+}
+
 bool Participant::wait_for_frame(Duration timeout) {
     std::unique_lock lock(shared_->mutex);
     return shared_->changed.wait_for(lock, timeout, [&] { return !shared_->newest.empty(); });

@@ -72,6 +72,7 @@ void PooledDecoders::set_cameras(const std::vector<wire::Camera>& cameras) {
     for (Worker& worker : workers_) {
         worker.figures.clear();
         worker.colors.clear();
+        worker.frames_wanted = false;
     }
     post_cameras(cameras, true);
 }
@@ -135,9 +136,16 @@ void PooledDecoders::forget_ages() {
     }
 }
 
+void PooledDecoders::want_frames() {
+    for (unsigned i = 0; i < workers_.size(); ++i)
+        if (!std::exchange(workers_[i].frames_wanted, true))
+            post(i, WorkerFramesWanted{});
+}
+
 void PooledDecoders::on(Worker& worker, const WorkerFrame& m) {
     if (m.generation != generation_)
         return;
+    worker.frames_wanted = false;
     auto& color = worker.colors[m.camera];
     if (m.color_size.area() == 0)
         color.reset();

@@ -25,6 +25,7 @@ public:
     std::vector<receive::StreamFigures> figures();
     void reset_figures();
     void forget_ages();
+    void want_frames();
 
     std::uint64_t generation() const { return generation_; }
 
@@ -45,6 +46,7 @@ private:
         std::vector<receive::StreamFigures> figures;
         TimePoint figures_at;
         bool reset_wanted = false, forget_wanted = false;
+        bool frames_wanted = false;  // none has come since want_frames()
         std::map<CameraId, std::shared_ptr<const ColorImage>> colors;  // last that came
     };
 

@@ -37,15 +37,23 @@ bool has(const std::vector<Piece>& pieces, std::string_view name) {
 
 }  // namespace
 
+BakedLight::BakedLight(const Extent& extent) : extent_(extent), voxels_(extent) {}
+
 BakedLight::BakedLight(const Extent& extent, const std::vector<Piece>& pieces)
-    : extent_(extent),
-      has_panel_(has(pieces, "ceiling panel")),
-      has_lamps_(has(pieces, "table lamps")),
-      voxels_(extent) {
-    for (const Piece& piece : pieces)
-        for (const Model::Part& part : piece.model.parts)
-            voxels_.add(part.mesh, piece.room_from_piece);
-    voxels_.finish();
+    : BakedLight(extent) {
+    while (!step(pieces)) {
+    }
+}
+
+bool BakedLight::step(const std::vector<Piece>& pieces) {
+    if (pieces_done_ == pieces.size())
+        return voxels_.finish_step();
+    has_panel_ = has(pieces, "ceiling panel");
+    has_lamps_ = has(pieces, "table lamps");
+    const Piece& piece = pieces[pieces_done_++];
+    for (const Model::Part& part : piece.model.parts)
+        voxels_.add(part.mesh, piece.room_from_piece);
+    return false;
 }
 
 double BakedLight::from_around(Vec3 place, Vec3 n) const {

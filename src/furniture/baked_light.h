@@ -15,7 +15,13 @@ namespace theatron::furniture {
 
 class BakedLight {
 public:
+    // To be made by step().
+    explicit BakedLight(const Extent& extent);
+    // Makes it at once.
     BakedLight(const Extent& extent, const std::vector<Piece>& pieces);
+
+    // True once it is made, of the same pieces each time. Each call takes a few milliseconds.
+    bool step(const std::vector<Piece>& pieces);
 
     // On a surface at `place` with this normal (unit length).
     double at(Vec3 place, Vec3 normal) const;
@@ -29,6 +35,7 @@ private:
     Extent extent_;
     bool has_panel_ = false, has_lamps_ = false;
     Voxels voxels_;
+    std::size_t pieces_done_ = 0;
 };
 
 // From light to a picture's colour, bright parts compressed: the same as in scene.frag.

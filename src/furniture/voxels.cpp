@@ -60,20 +60,30 @@ void Voxels::add(const render::MeshData& mesh, const Pose& room_from_mesh) {
     }
 }
 
-void Voxels::finish() {
-    for (std::size_t l = 1; l < levels_.size(); ++l) {
-        const Level& fine = levels_[l - 1];
-        Level& coarse = levels_[l];
-        std::size_t at = 0;
-        for (int z = 0; z < coarse.nz; ++z)
-            for (int y = 0; y < coarse.ny; ++y)
-                for (int x = 0; x < coarse.nx; ++x) {
-                    float sum = 0;
-                    for (int i = 0; i < 8; ++i)
-                        sum += fine.at(2 * x + (i & 1), 2 * y + ((i >> 1) & 1), 2 * z + (i >> 2));
-                    coarse.filled[at++] = sum / 8;
-                }
+bool Voxels::finish_step() {
+    constexpr std::size_t cells_at_once = 8192;
+    if (level_done_ + 1 >= levels_.size())
+        return true;
+    const Level& fine = levels_[level_done_];
+    Level& coarse = levels_[level_done_ + 1];
+    const std::size_t layer = std::size_t(coarse.nx) * std::size_t(coarse.ny);
+    std::size_t at = std::size_t(layers_done_) * layer;
+    for (const std::size_t end = at + cells_at_once; at < end && layers_done_ < coarse.nz;
+         ++layers_done_) {
+        const int z = layers_done_;
+        for (int y = 0; y < coarse.ny; ++y)
+            for (int x = 0; x < coarse.nx; ++x) {
+                float sum = 0;
+                for (int i = 0; i < 8; ++i)
+                    sum += fine.at(2 * x + (i & 1), 2 * y + ((i >> 1) & 1), 2 * z + (i >> 2));
+                coarse.filled[at++] = sum / 8;
+            }
     }
+    if (layers_done_ == coarse.nz) {
+        layers_done_ = 0;
+        ++level_done_;
+    }
+    return level_done_ + 1 >= levels_.size();
 }
 
 double Voxels::filled_at(Vec3 place, int level) const {

@@ -19,8 +19,9 @@ public:
 
     // Fills cells at these triangles' surfaces.
     void add(const render::MeshData& mesh, const Pose& room_from_mesh);
-    // To be called after the last add() and before open_share().
-    void finish();
+    // To be called after the last add() and before open_share(), until it returns true: each call
+    // takes a few milliseconds.
+    bool finish_step();
 
     // The share of a cone from `from` in direction `d` (unit length) that is open up to `reach_m`.
     // `slope`: radius of the cone at a distance of 1. Starts `lift_m` away from `from`.
@@ -41,6 +42,8 @@ private:
     };
     double filled_at(Vec3 place, int level) const;
 
+    std::size_t level_done_ = 0;  // by finish_step()
+    int layers_done_ = 0;         // of the next level
     Vec3 low_;
     double cell_m_ = 0.05;
     std::array<Level, level_count> levels_;

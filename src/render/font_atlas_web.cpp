@@ -37,7 +37,7 @@ constexpr int cell = 2 * glyph_pixels;  // of a canvas that holds any letter
 constexpr int pen_x = glyph_pixels / 2, base_line = cell - glyph_pixels / 2;
 
 // A step of so many letters takes some milliseconds.
-constexpr int letters_at_once = 8;
+constexpr int letters_at_once = 4;
 
 class Letters {
 public:

@@ -2,6 +2,7 @@
 #include "render/glyphs.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -15,6 +16,14 @@ constexpr int spread = 5;
 
 // Distances from a drawn glyph, which has grey pixels at its outline.
 Image<std::uint8_t> distances_of(View<const std::uint8_t> drawn) {
+    constexpr int side = 2 * spread + 1;
+    static const auto lengths = [] {
+        std::array<double, std::size_t(side) * side> all{};
+        for (int dy = -spread; dy <= spread; ++dy)
+            for (int dx = -spread; dx <= spread; ++dx)
+                all[std::size_t((dy + spread) * side + dx + spread)] = std::hypot(dx, dy);
+        return all;
+    }();
     const int width = drawn.size.width, height = drawn.size.height;
     Image<std::uint8_t> result({width + 2 * spread, height + 2 * spread});
     const auto covered = [&](int x, int y) {
@@ -31,7 +40,8 @@ Image<std::uint8_t> distances_of(View<const std::uint8_t> drawn) {
                     // The outline passes through grey pixels, or between black and white.
                     if (inside ? there < 1 : there > 0)
                         nearest = std::min(
-                            nearest, std::hypot(dx, dy) + (inside ? there - 0.5 : 0.5 - there));
+                            nearest, lengths[std::size_t((dy + spread) * side + dx + spread)] +
+                                         (inside ? there - 0.5 : 0.5 - there));
                 }
             const double distance = inside ? nearest : -nearest;
             result.view().row(y)[x] =

@@ -5,19 +5,19 @@ namespace theatron::render {
 namespace {
 
 std::vector<GLuint> grid_indices(Size size) {
-    std::vector<GLuint> indices;
     if (size.width < 2 || size.height < 2)
-        return indices;
-    indices.reserve(std::size_t(size.width - 1) * std::size_t(size.height - 1) * 6);
+        return {};
+    std::vector<GLuint> indices(std::size_t(size.width - 1) * std::size_t(size.height - 1) * 6);
+    GLuint* next = indices.data();
     const auto at = [&](int x, int y) { return GLuint(y * size.width + x); };
     // In upright strips, so that a row's vertices are still in the cache for the next row.
     constexpr int strip = 16;
     for (int first = 0; first + 1 < size.width; first += strip)
         for (int y = 0; y + 1 < size.height; ++y)
             for (int x = first; x < first + strip && x + 1 < size.width; ++x) {
-                const GLuint cell[] = {at(x + 1, y),     at(x + 1, y + 1), at(x, y),
-                                       at(x + 1, y + 1), at(x, y + 1),     at(x, y)};
-                indices.insert(indices.end(), std::begin(cell), std::end(cell));
+                for (const GLuint corner : {at(x + 1, y), at(x + 1, y + 1), at(x, y),
+                                            at(x + 1, y + 1), at(x, y + 1), at(x, y)})
+                    *next++ = corner;
             }
     return indices;
 }

@@ -93,7 +93,9 @@ struct VirtualRoom::Meshes {
     void step(const RoomExtent& extent, const std::vector<furniture::Piece>& pieces) {
         const bool low = quality == render::SceneQuality::low;
         if (!light) {
-            light.emplace(extent, pieces);
+            light.emplace(extent);
+        } else if (!light_is_made) {
+            light_is_made = light->step(pieces);
         } else if (sides_done < std::size(furniture::all_sides)) {
             const furniture::Side side = furniture::all_sides[sides_done];
             // Nothing throws a shadow on the ceiling.
@@ -121,6 +123,7 @@ struct VirtualRoom::Meshes {
 private:
     // While they are made:
     std::optional<furniture::BakedLight> light;
+    bool light_is_made = false;
     std::optional<furniture::SidePicture> picture;  // of the next side
     std::size_t sides_done = 0, pieces_done = 0;
     MeshData baked;

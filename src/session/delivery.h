@@ -33,7 +33,11 @@ public:
     // The step on the ladder of the receiver's usual wish.
     const LadderStep& step() { return step_of(ladder(wish_.first, wish_.second)); }
 
-    void set_goal(const wire::ChooseDelivery& goal) { goal_ = goal; }
+    // A receiver that says it again, be it the same, has more time or a better link now.
+    void set_goal(const wire::ChooseDelivery& goal) {
+        goal_ = goal;
+        policy_.forget_failures();
+    }
 
     // The settings of one camera that this receiver gets now, and its wishes for that camera.
     struct Given {

@@ -46,6 +46,12 @@ public:
     bool update(const LinkMeasure& link, std::span<const StepNeed> needs, const SendingGoal& goal,
                 TimePoint now);
 
+    // The receiver has changed: what failed before says nothing.
+    void forget_failures() {
+        history_.assign(history_.size(), {});
+        has_failed_ = false;
+    }
+
     // The ladder has changed and has this number of steps now.
     void limit(int steps) { step_ = std::min(step_, steps - 1); }
 

@@ -158,6 +158,27 @@ TEST(SendingPolicy, TrialsThatFailBecomeRare) {
     EXPECT_GE(trials.back() - trials[trials.size() - 2], std::chrono::seconds(30));
 }
 
+TEST(SendingPolicy, AReceiverWithNewTimeIsTriedSoon) {
+    Trial r;
+    const auto run = [&](int tenths, bool is_busy) {
+        for (int i = 0; i < tenths; ++i) {
+            LinkMeasure m;
+            m.round_trip = std::chrono::milliseconds(60);
+            m.delay = std::chrono::milliseconds(is_busy && r.policy.step() < 2 ? 300 : 80);
+            r.policy.update(m, r.needs, r.goal, r.now);
+            r.now += std::chrono::milliseconds(100);
+        }
+    };
+    run(3000, true);
+    Trial before = r;
+    run(40, false);
+    EXPECT_GT(r.policy.step(), 0);
+    r = before;
+    r.policy.forget_failures();
+    run(40, false);
+    EXPECT_EQ(r.policy.step(), 0);
+}
+
 TEST(SendingPolicy, StaysBelowACeilingWithoutSwinging) {
     Trial r;
     r.goal.max_bytes_per_second = 15 * mbit;

@@ -151,8 +151,10 @@ std::vector<xr::Fact> line_of(const Facts& facts, const std::string& address,
         if (!cameras.empty())
             line.push_back(
                 {"Received", rounded(facts.received.live_frames_per_second(), 0, "fps")});
-        line.push_back(
-            {"Drawn", rounded(facts.drawn_per_second, 0, "fps"), drawing_is_slow(facts)});
+        line.push_back({"Drawn",
+                        rounded(facts.drawn_per_second, 0, "fps") +
+                            (facts.drawing_rests ? ", decoding comes first" : ""),
+                        drawing_is_slow(facts)});
         line.push_back({"Data", rounded(facts.received.mbit_per_second(), 1, "Mbit/s")});
         if (!cameras.empty())
             add_pictures(facts, filter_name, line);

@@ -21,6 +21,7 @@ struct Facts {
     bool has_picture = false;
     std::optional<double> age_ms;  // current age of the presented picture
     double drawn_per_second = 0;
+    bool drawing_rests = false;                        // so that frames are decoded
     std::optional<double> most_drawn_per_second = {};  // by choice; empty: as many as come
     xr::DrawingWay way;
     enum class ChosenBy { person, program, host } renderer_chosen_by = ChosenBy::person;

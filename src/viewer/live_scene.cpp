@@ -175,6 +175,7 @@ void LiveScene::take_cameras(const std::vector<client::Participant::Camera>& cam
         if (!same_lens)
             newest_.erase(id);
         clouds_.set_camera(id, camera.calibration);
+        made_cameras_ = made_cameras_ || !same_lens;
         calibrations_[id] = camera.calibration;
         origins_[id] = origin_of(camera);
     }

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "client/participant.h"
 #include "geometry/ply.h"
@@ -110,6 +111,9 @@ public:
     // The camera is live and its newest frame is of the present, as judged last.
     bool shows_present(CameraId camera) const;
 
+    // True once after a take() that made cameras, which takes as long as a picture.
+    bool take_made_cameras() { return std::exchange(made_cameras_, false); }
+
     // A step of the work on the room, of some milliseconds; true if the picture changes by it. Only
     // needed with RoomChoice::in_steps. A step that asks the driver something waits a while for an
     // idle GPU.
@@ -157,6 +161,7 @@ private:
     SharedScreens screens_;
     FacePictures faces_;
     TimePoint screens_noted_at_;
+    bool made_cameras_ = false;
     bool captions_changed_ = false;  // or faces, since the last fade()
     double point_size_ = 1;
     room::VirtualRoom room_;

@@ -38,6 +38,7 @@ Viewer::Viewer(Options options, client::Participant& participant)
       eye_(options_.view),
       choice_(options_.renderer),
       pace_(xr::automatic_ways(1, options_.scale)),
+      rest_(!options_.has_gpu),
       sits_(options_.sits),
       shows_panels_(options_.shows_people),
       line_(options_.shows_facts) {
@@ -370,7 +371,10 @@ bool Viewer::step(Size picture, TimePoint now) {
     if (status.phase == client::Participant::Phase::refused && status.joins == 0)
         throw Error(status.problem);
     follow_host(now);
-    take_pictures(now);
+    follow_receiving(now);
+    const bool rests = rests_at(now);
+    if (!rests)
+        take_pictures(now);
     // A host that came back may have fewer cameras than before.
     if (eye_.follow(cameras(), status.joins == 1, picture, now))
         scene_changed_ = true;
@@ -394,7 +398,7 @@ bool Viewer::step(Size picture, TimePoint now) {
     if (first_picture_at_ == TimePoint{} && eye_.is_placed())
         first_picture_at_ = now;
     participant_.tell_renderer(way().renderer);
-    return scene_changed_ && eye_.is_placed();
+    return scene_changed_ && eye_.is_placed() && !rests;
 }
 
 Pose Viewer::at_eye_height(Pose room_from_eye) const {
@@ -462,8 +466,9 @@ void Viewer::draw_eyes(const render::CameraView& head, std::vector<render::EyePi
     }
 }
 
-void Viewer::on_presented(TimePoint begin, TimePoint end) {
+void Viewer::on_presented(TimePoint begin, Duration processor, TimePoint end) {
     pace_.add(end, end - begin);
+    rest_.add(begin, processor);
     drawn_.add(end);
     ++pictures_;
     const std::set<CameraId> updated = std::exchange(updated_, {});
@@ -508,6 +513,7 @@ Facts Viewer::facts(TimePoint now) {
                                                       : ages_ms_.percentile(0.5);
     }
     facts.drawn_per_second = drawn_.per_second(now);
+    facts.drawing_rests = !headset_ && rest_.step() > 0;
     facts.way = way();
     facts.renderer_chosen_by = choice_.locked()                  ? Facts::ChosenBy::host
                                : choice_.renderer() == automatic ? Facts::ChosenBy::program

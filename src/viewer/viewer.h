@@ -31,6 +31,7 @@
 #include "viewer/shown_moment.h"
 #include "viewer/sound_panel.h"
 #include "xr/drawing_pace.h"
+#include "xr/drawing_rest.h"
 #include "xr/window_input.h"
 
 namespace theatron::viewer {
@@ -62,8 +63,8 @@ public:
     void slide(double value);
 
     // Takes over the session's changes. `picture` is the size of the target in pixels. True if the
-    // scene must be drawn again. Throws Error if the host refused this participant, or if the
-    // camera of the chosen view does not exist.
+    // scene must be drawn again, and drawing does not rest (xr/drawing_rest.h). Throws Error if the
+    // host refused this participant, or if the camera of the chosen view does not exist.
     bool step(Size picture, TimePoint now);
 
     // With RoomChoice::in_steps: a step of the work on the room, some milliseconds. See LiveScene.
@@ -76,6 +77,9 @@ public:
     // there is none.
     void draw(Size picture, const render::DrawTarget& target, TimePoint now);
     const xr::DrawingWay& way() const { return pace_.way(); }
+    // True once after a step() that made cameras, which takes as long as a picture: a page draws in
+    // its next event.
+    bool take_made_cameras() { return scene_.take_made_cameras(); }
 
     // Until leave_headset() the person is in the room with a headset that shows `pictures_per_s`:
     // VR, or with the real room around them. Needs facts().has_picture.
@@ -106,8 +110,11 @@ public:
     // The moment of both.
     ShownMoment shown_moment(TimePoint now) const;
 
-    // The picture that was drawn since `begin` is on screen at `end`.
-    void on_presented(TimePoint begin, TimePoint end);
+    // The picture that was drawn since `begin` is on screen at `end`. `processor` is its time of
+    // the processor: all of it, or where a graphics card draws that of the commands alone.
+    void on_presented(TimePoint begin, Duration processor, TimePoint end);
+    // True if no picture is drawn before this time, and no new frame is taken.
+    bool rests_at(TimePoint now) const;
 
     // Facts for the user, at `now`.
     Facts facts(TimePoint now);
@@ -149,6 +156,7 @@ private:
     void change_point_size(double factor, TimePoint now);
     void freeze(TimePoint now);
     void take_pictures(TimePoint now);
+    void follow_receiving(TimePoint now);
     void add_camera_pictures(Facts& facts, RoomPanel& panel, TimePoint now);
     std::string pointed_text();
     void choose_next_renderer(TimePoint now);
@@ -220,6 +228,9 @@ private:
     std::string working_renderer_;
     xr::PaceLimits pace_limits_;
     xr::DrawingPace pace_;
+    xr::DrawingRest rest_;
+    TimePoint receiving_noted_;
+    std::uint64_t dropped_ = 0;  // then
     bool fading_ = false, moving_ = false;
     bool scene_changed_ = true;
     std::optional<ParticipantId> followed_;  // the person through whose eyes the user sees

@@ -226,6 +226,32 @@ void Viewer::draw_region(xr::WindowInput& input, Size picture, TimePoint now) {
         note(text, now);
 }
 
+// A headset needs each picture, and the first ones come as soon as they can.
+bool Viewer::rests_at(TimePoint now) const {
+    constexpr Duration beginning = std::chrono::seconds(1);
+    return !headset_ && first_picture_at_ != TimePoint{} && now - first_picture_at_ > beginning &&
+           rest_.rests_until_later(now);
+}
+
+void Viewer::follow_receiving(TimePoint now) {
+    constexpr Duration every = std::chrono::milliseconds(100);
+    if (now - receiving_noted_ < every)
+        return;
+    receiving_noted_ = now;
+    const client::ParticipantFigures figures = client::figures_of(participant_);
+    const std::uint64_t before = std::exchange(dropped_, figures.dropped());
+    double age_ms = 0;
+    for (const client::CameraFigures& camera : figures.cameras)
+        age_ms = std::max(age_ms, camera.depth.age_ms);
+    const std::size_t step = rest_.step();
+    rest_.observe({figures.status.delivery.level > 0 || dropped_ > before,
+                   figures.live_frames_per_second(), age_ms},
+                  now);
+    // The host tries at once whether more comes through.
+    if (rest_.step() > step)
+        participant_.choose_delivery(figures.status.goal);
+}
+
 void Viewer::take_pictures(TimePoint now) {
     // The ages in the room go on.
     constexpr Duration frozen_drawn_every = std::chrono::milliseconds(500);

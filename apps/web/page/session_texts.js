@@ -92,6 +92,7 @@ const german = {
         [/^(.+) \(auto\), coarser$/, "$1 (automatisch), gröber"],
         [/^(.+) \(auto\)$/, "$1 (automatisch)"],
         [/^(.+), coarser$/, "$1, gröber"],
+        [/^(\d+) fps, decoding comes first$/, "$1 fps, Dekodieren geht vor"],
         [/^Given to (.+)$/, "An $1 gegeben"],
         [/^You have let in (.+)$/, "Sie haben $1 eingelassen"],
         [/^You have not let in (.+)$/, "Sie haben $1 nicht eingelassen"],
