@@ -143,9 +143,10 @@ void Codec::encode_and_count(const Model& model, const std::uint16_t* pixels,
     for (Counts& table : scratch.token_counts.of)
         table.fill(0);
     encode_model(model, pixels, coded);
-    const auto& of = scratch.token_counts.of;
-    for (std::size_t i = 0; i < scratch.counts.size(); ++i)
-        scratch.counts[i] = of[0][i] + of[1][i] + of[2][i] + of[3][i];
+    scratch.counts.fill(0);
+    for (const Counts& table : scratch.token_counts.of)
+        for (std::size_t i = 0; i < table.size(); ++i)
+            scratch.counts[i] += table[i];
 }
 
 // Tries both predictors on the 32 rows in the middle of the image.

@@ -161,19 +161,25 @@ HWY_INLINE bool tokens_of(V16 code, V16& token, std::uint16_t* extra) {
     return true;
 }
 
-// Counts the tokens of one step. Four tables are used in turn, so that increments of
-// equal tokens do not depend on each other.
-HWY_INLINE void count_step(const std::uint16_t* tokens, TokenCounts& counts) {
-    for (int lane = 0; lane < lane_count; lane += 4) {
-        for (int i = 0; i < 4; ++i)
-            ++counts.of[i][tokens[lane + i]];
-    }
+// Counts the tokens of these steps. The tables are used in turn, so that increments of equal
+// tokens do not wait for each other.
+HWY_NOINLINE void count_steps(const CodedPixels& coded, int from, int to) {
+    constexpr std::size_t tables = std::tuple_size_v<decltype(TokenCounts::of)>;
+    static_assert(lane_count % tables == 0);
+    auto& counts = coded.counts->of;
+    const std::uint16_t* const end = coded.token + std::size_t(to) * lane_count;
+    for (const std::uint16_t* at = coded.token + std::size_t(from) * lane_count; at < end;
+         at += tables)
+        for (std::size_t i = 0; i < tables; ++i)
+            ++counts[i][at[i]];
 }
 
 template <bool temporal, bool blend, bool lossy>
 void encode_steps(const Model& model, const std::uint16_t* pixels, const CodedPixels& coded) {
     const D16 d;
-    constexpr int count_lag = 2;  // steps until stored tokens can be read without a stall
+    // Steps that are counted at once: counting beside the model keeps the processor from beginning
+    // the next step.
+    constexpr int counted = 64;
     Walk<blend> walk(model);
     LinearWeights weights;
     load_weights(model.weights, weights);
@@ -228,12 +234,11 @@ void encode_steps(const Model& model, const std::uint16_t* pixels, const CodedPi
             keep<blend>(p.candidate, kept, step, walk.traces, window, lane);
         }
         coded.has_extra[t] = has_extra;
-        if (t >= count_lag)
-            count_step(coded.token + std::size_t(t - count_lag) * lane_count, *coded.counts);
+        if ((t + 1) % counted == 0)
+            count_steps(coded, t + 1 - counted, t + 1);
         walk.end(t);
     }
-    for (int t = model.layout.steps - count_lag; t < model.layout.steps; ++t)
-        count_step(coded.token + std::size_t(t) * lane_count, *coded.counts);
+    count_steps(coded, model.layout.steps / counted * counted, model.layout.steps);
     walk.finish();
 }
 

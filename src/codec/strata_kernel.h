@@ -49,9 +49,9 @@ struct Model {
     const std::uint8_t* region = nullptr;  // by step and lane, 255 = exact; unused if lossless
 };
 
-// Occurrences of each token in each context, spread over four tables to be summed.
+// Occurrences of each token in each context, spread over tables to be summed.
 struct TokenCounts {
-    std::array<Counts, 4> of;
+    std::array<Counts, 8> of;
 };
 
 // Output of the encoder's model pass: one value per step and lane, without

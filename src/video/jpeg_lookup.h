@@ -13,7 +13,9 @@ namespace theatron::video {
 
 class JpegLookup {
 public:
-    static constexpr int look = 11;  // bits
+    // Bits. One more decides more, but the four tables of a picture then fill two first-level
+    // caches of 32 KB.
+    static constexpr int look = 10;
     static constexpr std::uint8_t undecided = 64;
 
     struct Entry {
