@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Publishes one camera of this machine and prints the link with which others join:
+// Hosts a session with one camera of this machine and prints the link with which others join:
 //   publish_camera folder:DIR,loop=1
 #include <csignal>
 #include <cstdio>

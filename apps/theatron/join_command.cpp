@@ -193,6 +193,7 @@ void list_devices(bool as_json) {
 void run(const JoinFlags& flags) {
     if (flags.list_devices)
         return list_devices(flags.json);
+    refuse_unused(flags);
     if (flags.window() && !flags.or_screen)
         return join_in_window(flags);
     if (flags.link.empty())
@@ -490,7 +491,12 @@ void add_join_command(CLI::App& app) {
         ->add_option("--render-scale", flags->render_scale,
                      "Share of the window's pixels that is drawn on each side: auto, or 0.1 to 1")
         ->capture_default_str();
-    command->callback([flags] { run(*flags); });
+    command->callback([flags, command] {
+        for (const CLI::Option* option : command->get_options())
+            if (option->count() > 0)
+                flags->given.insert(option->get_name());
+        run(*flags);
+    });
 }
 
 }  // namespace theatron::app

@@ -34,7 +34,49 @@ std::string checked_color(const std::string& text) {
     return automatic ? text : parsed.setting.text;
 }
 
+struct Use {
+    const char* option;
+    bool is_used;
+    const char* what;  // the end of a sentence
+};
+
 }  // namespace
+
+void refuse_unused(const JoinFlags& flags) {
+    const bool or_screen = flags.or_screen && (flags.window() || !flags.offscreen.empty());
+    const bool file = !flags.offscreen.empty() || !flags.depth_file.empty();
+    const bool view = (flags.window() || file) && !or_screen;
+    const bool usual_window = flags.window() && !or_screen;
+    // The panel of that window opens a microphone and a loudspeaker later, too.
+    const bool speaks = usual_window || !flags.microphone.empty();
+    const bool hears = usual_window || !flags.speaker.empty();
+    constexpr const char* picture =
+        "is about a picture of the clouds: it needs a window or --offscreen, and no --or-screen.";
+    constexpr const char* window = "is about the usual window, which does not open here.";
+    constexpr const char* voice = "is about what you say: it needs --microphone.";
+    const Use uses[] = {
+        {"--depth", !or_screen, "is about a picture of the clouds: it goes without --or-screen."},
+        {"--stereo", file && !or_screen,
+         "is about a picture in a file: it needs --offscreen or --depth, and no --or-screen."},
+        {"--view", view, picture},
+        {"--renderer", view, picture},
+        {"--room", view, picture},
+        {"--quality", view, picture},
+        {"--person", view, picture},
+        {"--myself", view, picture},
+        {"--size", flags.window() || file, "is about a picture: it needs a window or --offscreen."},
+        {"--save-to", usual_window, window},
+        {"--render-scale", usual_window, window},
+        {"--warmup", !flags.window(), "is about figures: it needs --json, --every or a file."},
+        {"--push-to-talk", speaks, voice},
+        {"--voice-frame", speaks, voice},
+        {"--echo-cancellation", speaks, voice},
+        {"--spatial-voices", hears, "is about what you hear: it needs --speaker."},
+    };
+    for (const Use& use : uses)
+        if (flags.given.contains(use.option) && !use.is_used)
+            throw Error(std::string(use.option) + " " + use.what);
+}
 
 viewer::RoomChoice parse_room(const JoinFlags& flags) {
     viewer::RoomChoice choice;

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -51,12 +52,16 @@ struct JoinFlags {
     std::string microphone, speaker;
     std::string webcam;  // empty: the face is not shown
     int voice_frame_ms = 20;
+    std::set<std::string> given;  // "--size", ...: all that the person wrote
 
     // Files and figures are made without a window.
     bool window() const {
         return offscreen.empty() && depth_file.empty() && every <= 0 && !json && !no_window;
     }
 };
+
+// Throws Error with one sentence if an option was given that has no effect beside the others.
+void refuse_unused(const JoinFlags& flags);
 
 viewer::RoomChoice parse_room(const JoinFlags& flags);
 // "auto" is 0. Throws Error with one sentence.

@@ -72,6 +72,8 @@ std::string OffscreenPicture::drawn_with() const {
 void OffscreenPicture::write() {
     if (!scene_.can_draw())
         throw Error("No picture came from the host, so none was written.");
+    for (const std::string& text : scene_.unseen_people())
+        std::fprintf(stderr, "%s\n", text.c_str());
     viewer::OffscreenView::Wish wish{wanted_.view, wanted_.size, drawn_with(), {}, {}};
     if (wanted_.stereo)
         wish.eye_distance_m = eye_distance_m;

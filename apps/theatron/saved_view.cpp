@@ -47,19 +47,6 @@ std::string moment_text(const viewer::ShownMoment& moment, UtcTime now) {
     return "captured " + utc_text(now - age) + ago + (moment.is_live ? ", live" : ", not live");
 }
 
-Bytes with_ply_comment(const Bytes& ply, std::string_view line) {
-    // Comments may stand anywhere behind the second line, the format.
-    auto at = ply.begin();
-    for (int lines = 0; lines < 2; ++lines)
-        at = std::find(at, ply.end(), std::byte('\n')) + 1;
-    const std::string comment = "comment " + std::string(line) + "\n";
-    const ByteView added = as_bytes(comment);
-    Bytes result(ply.begin(), at);
-    result.insert(result.end(), added.begin(), added.end());
-    result.insert(result.end(), at, ply.end());
-    return result;
-}
-
 std::string save_view(const std::filesystem::path& folder, const std::string& when,
                       const std::string& extension, ByteView bytes) {
     std::string time = files::utc_text(files::utc_now());

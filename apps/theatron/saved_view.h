@@ -18,9 +18,6 @@ std::string name_part(const viewer::ShownMoment& moment);
 // 31 s before it was saved, not live". `now` is when it is saved.
 std::string moment_text(const viewer::ShownMoment& moment, UtcTime now);
 
-// A PLY file with this line as a comment in its header.
-Bytes with_ply_comment(const Bytes& ply, std::string_view line);
-
 // Writes the bytes into a new file in this folder, whose name has the time in UTC, this part of
 // name_part() and this extension (".png"). No file is replaced. Returns a sentence for the person:
 // the file's path, or what is wrong.

@@ -49,15 +49,6 @@ TEST(SaveView, ThePastIsNotSavedAsThePresent) {
                 HasSubstr("-31s-ago.png"));
 }
 
-TEST(PlyComment, StandsInTheHeader) {
-    const std::string ply = "ply\nformat binary_little_endian 1.0\nelement vertex 0\nend_header\n";
-    const ByteView bytes = as_bytes(ply);
-    const Bytes with = with_ply_comment(Bytes(bytes.begin(), bytes.end()), "not live");
-    EXPECT_EQ(std::string(reinterpret_cast<const char*>(with.data()), with.size()),
-              "ply\nformat binary_little_endian 1.0\ncomment not live\nelement vertex 0\n"
-              "end_header\n");
-}
-
 TEST(SaveView, AFolderThatCannotBeWrittenIsNamed) {
     EXPECT_THAT(save_view("/no/such/folder", "", ".ply", ByteView{}), HasSubstr("/no/such/folder"));
 }

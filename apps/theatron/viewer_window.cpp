@@ -75,8 +75,8 @@ std::string save_seen(xr::Action action, viewer::Viewer& viewer, Size pixels,
     const std::vector<ColoredPoint> points = viewer.points();
     if (points.empty())
         return "No camera of the room has sent points";
-    return save_view(folder, when, ".ply",
-                     with_ply_comment(encode_ply(points), moment_text(moment, utc_now())));
+    const std::string comments[] = {points_in_room, moment_text(moment, utc_now())};
+    return save_view(folder, when, ".ply", encode_ply(points, comments));
 }
 
 // Each returns a line about it.

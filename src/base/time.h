@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Time in a session: microseconds of the host's steady clock.
 //
-// Points in time are passed as arguments; only apps and threads of capture, send and
-// record read a clock (steady_clock.h), so all else can be tested with made-up time.
+// Points in time are passed as arguments: modules without threads, devices and sockets of their
+// own never read a clock (steady_clock.h), so that they can be tested with made-up time.
 #pragma once
 
 #include <chrono>

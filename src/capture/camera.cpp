@@ -66,6 +66,18 @@ std::unique_ptr<Camera> open(const Kind& kind, Options& options, const Progress&
     }
 }
 
+// A file or a folder without its kind before it: the sentence tells how it is written.
+std::string advice_on_path(const std::string& path) {
+    std::error_code unreadable;
+    const auto status = std::filesystem::status(path, unreadable);
+    if (std::filesystem::is_directory(status))
+        return "'" + path + "' is a folder; write folder:" + path + ".";
+    if (std::filesystem::is_regular_file(status))
+        return "'" + path + "' is a file; write recording:" + path + " for a recording of " +
+               "Theatron, mkv:" + path + " for one of an Azure Kinect.";
+    return "";
+}
+
 }  // namespace
 
 std::unique_ptr<Camera> open_camera(std::string_view specification, const Progress& progress) {
@@ -73,6 +85,8 @@ std::unique_ptr<Camera> open_camera(std::string_view specification, const Progre
     for (const Kind& kind : kinds)
         if (options.kind() == kind.name)
             return open(kind, options, progress);
+    if (const std::string advice = advice_on_path(std::string(specification)); !advice.empty())
+        throw Error(advice);
     std::string names;
     for (const Kind& kind : kinds)
         names += (names.empty() ? "" : ", ") + std::string(kind.name);

@@ -227,6 +227,23 @@ TEST(OpenCamera, NamesTheKindsThereAre) {
     EXPECT_THAT(camera_kinds(), ::testing::Contains(HasSubstr("folder:DIR")));
 }
 
+TEST(OpenCamera, APathWithoutItsKindIsToldHowToWriteIt) {
+    const theatron::testing::TemporaryFolder folder;
+    const std::string path = folder.path().string(), file = path + "/a.mkv";
+    files::write_file(file, as_bytes("x"));
+    const auto refusal_of = [](const std::string& specification) -> std::string {
+        try {
+            open_camera(specification);
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "";
+    };
+    EXPECT_EQ(refusal_of(path), "'" + path + "' is a folder; write folder:" + path + ".");
+    EXPECT_THAT(refusal_of(file), HasSubstr("is a file; write recording:" + file));
+    EXPECT_THAT(refusal_of(path + "/none"), HasSubstr("There is no camera"));
+}
+
 TEST(FolderCameraOnRealData, EverySequenceOpens) {
     THEATRON_REQUIRE_DATA("README.md");
     int sequences = 0;

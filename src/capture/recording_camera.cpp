@@ -232,6 +232,13 @@ wire::MediaHeader RecordedFrames::upcoming() const {
     return header ? *header : wire::MediaHeader{};
 }
 
+UtcTime RecordedFrames::upcoming_utc() const {
+    const record::Segment& segment = recording_->segments()[parts_[part_].segment];
+    return segment.has_info
+               ? segment.info.clock.utc + (upcoming().captured - segment.info.clock.session)
+               : UtcTime{};
+}
+
 bool RecordedFrames::decode() {
     const record::RecordedFrame& frame = content_.depth.frames[next_];
     while (part_ + 1 < parts_.size() && next_ >= parts_[part_ + 1].first_depth)

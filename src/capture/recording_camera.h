@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "base/options.h"
+#include "base/utc.h"
 #include "capture/camera.h"
 #include "capture/playback.h"
 #include "codec/depth_stream.h"
@@ -69,6 +70,8 @@ public:
 
     // The next frame's header as recorded. Precondition: offset() returned a value.
     wire::MediaHeader upcoming() const;
+    // The time of day at which it was captured; the epoch: not known. Likewise.
+    UtcTime upcoming_utc() const;
 
 private:
     // Makes the decoders of a part, whose codecs may differ from those before.

@@ -31,7 +31,7 @@ bool DecoderFailures::are_too_many(std::uint64_t lost, TimePoint now) {
 ColorPreference::ColorPreference(bool can_h264)
     : can_h264_(can_h264),
       codec_(video::ColorSetting().text),
-      reason_(can_h264 ? "JPEG: all pictures come in time"
+      reason_(can_h264 ? "JPEG: nothing is measured yet"
                        : "JPEG: this browser does not decode H.264") {}
 
 bool ColorPreference::observe(const ColorMeasure& measure, TimePoint now) {
@@ -46,6 +46,11 @@ bool ColorPreference::observe(const ColorMeasure& measure, TimePoint now) {
         judge(measure, now);
         return !asks_h264_;
     }
+    if (!has_tried_ && measure.pictures_per_second > 0)
+        reason_ = !measure.is_thinned
+                      ? "JPEG: all pictures come in time"
+                      : "JPEG: only " + pictures_per_second(measure.pictures_per_second) +
+                            " come; H.264 is tried if that lasts";
     if (!measure.is_thinned || !last_whole_)
         last_whole_ = now;
     if (now - *last_whole_ < patience || now < not_before_)
@@ -55,7 +60,7 @@ bool ColorPreference::observe(const ColorMeasure& measure, TimePoint now) {
 }
 
 void ColorPreference::begin(const ColorMeasure& measure) {
-    asks_h264_ = true;
+    asks_h264_ = has_tried_ = true;
     codec_ = video::parse_color_setting("h264").setting.text;
     reason_ = "H.264 is tried: only " + pictures_per_second(measure.pictures_per_second) +
               " came as JPEG";

@@ -75,7 +75,7 @@ private:
 
     const bool can_h264_;
     std::string codec_, reason_;
-    bool asks_h264_ = false;
+    bool asks_h264_ = false, has_tried_ = false;
     std::optional<TimePoint> last_call_;
     std::optional<TimePoint> last_whole_;  // all that was asked for came
     TimePoint not_before_;                 // H.264 is tried again

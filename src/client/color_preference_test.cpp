@@ -39,6 +39,18 @@ TEST_F(ColorPreferenceTest, WithAllPicturesItStaysWithJpeg) {
     EXPECT_EQ(preference.codec(), "jpeg:quality=85");
 }
 
+TEST_F(ColorPreferenceTest, SaysOnlyWhatItHasMeasured) {
+    EXPECT_EQ(preference.reason(), "JPEG: nothing is measured yet");
+    observe({}, 1s);  // no picture has come
+    EXPECT_EQ(preference.reason(), "JPEG: nothing is measured yet");
+    observe(thinned, 1s);
+    EXPECT_EQ(preference.reason(),
+              "JPEG: only 15 pictures a second come; H.264 is tried if that lasts");
+    observe(whole, 1s);
+    EXPECT_EQ(preference.reason(), "JPEG: all pictures come in time");
+    EXPECT_EQ(preference.codec(), "jpeg:quality=85");
+}
+
 TEST_F(ColorPreferenceTest, APageThatStoodStillMeasuresAnew) {
     observe(whole, 2s);
     // Another tab was in front; then the host needs some seconds to send everything again.

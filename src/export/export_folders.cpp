@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Exports into folders: PLY points, and the pictures of folder:DIR.
+#include <algorithm>
 #include <cstdio>
 #include <deque>
 #include <map>
 #include <optional>
 
 #include "base/error.h"
+#include "base/utc.h"
 #include "capture/folder_calibration.h"
 #include "export/export_formats.h"
 #include "files/file_bytes.h"
@@ -171,6 +173,11 @@ private:
     std::size_t frames_ = 0, done_ = 0;
 };
 
+// As in the files that a window saves. Empty: not known.
+std::string captured_text(UtcTime time) {
+    return time == UtcTime{} ? "" : "captured " + utc_text(time);
+}
+
 // Its points are not in the room: they move with the person.
 bool sees_a_person(const capture::RecordedFrames& camera) {
     return camera.info().calibration.person != 0;
@@ -197,17 +204,21 @@ std::size_t export_merged_ply(ExportSource& source, const fs::path& folder) {
         for (const auto& [camera, other] : moments)
             moment = std::min(moment, other);
         points.clear();
+        UtcTime captured{};  // the first of them
         for (const auto& [camera, other] : moments) {
             if (other != moment)
                 continue;
             const std::size_t first = points.size();
+            const UtcTime utc = source.cameras[camera]->upcoming_utc();
+            captured = captured == UtcTime{} ? utc : std::min(captured, utc);
             source.cameras[camera]->read(frame);
             makers[camera].append(frame, points);
             transform_points(makers[camera].calibration().room_from_camera,
                              std::span(points).subspan(first));
             progress.frame_done();
         }
-        files::write_file(folder / numbered(written, ".ply"), encode_ply(points));
+        const std::string comments[] = {points_in_room, captured_text(captured)};
+        files::write_file(folder / numbered(written, ".ply"), encode_ply(points, comments));
     }
 }
 
@@ -225,10 +236,11 @@ std::size_t export_ply(ExportSource& source, const fs::path& folder, bool merged
         const fs::path own = make_folder(folder_of(source, folder, i));
         PointMaker maker(camera.info().calibration, source.undecoded_color);
         for (std::size_t n = 0; camera.offset(); ++n, ++files) {
+            const std::string comments[] = {points_in_camera, captured_text(camera.upcoming_utc())};
             camera.read(frame);
             points.clear();
             maker.append(frame, points);
-            files::write_file(own / numbered(n, ".ply"), encode_ply(points));
+            files::write_file(own / numbered(n, ".ply"), encode_ply(points, comments));
             progress.frame_done();
         }
     }

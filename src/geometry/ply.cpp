@@ -51,11 +51,14 @@ void transform_points(const Pose& a_from_b, std::span<ColoredPoint> points) {
     }
 }
 
-Bytes encode_ply(std::span<const ColoredPoint> points) {
-    const std::string header =
-        "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(points.size()) +
-        "\nproperty float x\nproperty float y\nproperty float z\n"
-        "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n";
+Bytes encode_ply(std::span<const ColoredPoint> points, std::span<const std::string> comments) {
+    std::string header = "ply\nformat binary_little_endian 1.0\n";
+    for (const std::string& comment : comments)
+        if (!comment.empty())
+            header += "comment " + comment + "\n";
+    header += "element vertex " + std::to_string(points.size()) +
+              "\nproperty float x\nproperty float y\nproperty float z\n"
+              "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n";
     const ByteView text = as_bytes(header);
     Bytes bytes(text.begin(), text.end());
     constexpr std::size_t point_size = 15;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "base/bytes.h"
@@ -30,7 +31,14 @@ void append_points(DepthView depth, const Image<Ray>& rays, ColorView color,
 // Transforms the points in place.
 void transform_points(const Pose& a_from_b, std::span<ColoredPoint> points);
 
-// A complete binary little-endian PLY file: x, y, z as float, red, green, blue as uchar.
-Bytes encode_ply(std::span<const ColoredPoint> points);
+// Comments of a PLY file: the frame of its points.
+inline constexpr const char* points_in_camera =
+    "x right, y down, z forward in metres, from the depth camera";
+inline constexpr const char* points_in_room =
+    "x, y, z in metres in the room: y up, 0 on the floor, right-handed";
+
+// A complete binary little-endian PLY file: x, y, z as float, red, green, blue as uchar. Each
+// comment is one line without a line break; empty ones are left out.
+Bytes encode_ply(std::span<const ColoredPoint> points, std::span<const std::string> comments = {});
 
 }  // namespace theatron

@@ -18,6 +18,18 @@ TEST(Ply, BytesAreAsTheFormatSays) {
     EXPECT_EQ(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), expected);
 }
 
+TEST(Ply, CommentsStandInTheHeader) {
+    const std::string comments[] = {points_in_room, "", "not live"};
+    const Bytes bytes = encode_ply({}, comments);
+    EXPECT_EQ(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size())
+                  .rfind("ply\nformat binary_little_endian 1.0\n"
+                         "comment x, y, z in metres in the room: y up, 0 on the floor, "
+                         "right-handed\n"
+                         "comment not live\nelement vertex 0\n",
+                         0),
+              0u);
+}
+
 TEST(Ply, PointsLieOnTheirRaysAndHaveTheColourThatSeesThem) {
     Calibration calibration;
     calibration.depth = pinhole({4, 2}, 90);

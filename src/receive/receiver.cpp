@@ -242,19 +242,22 @@ void Receiver::set_color_codec(Stream& stream, video::ColorCodecId codec) const 
 
 // Automatic colour may change its codec with a key frame.
 Status Receiver::follow_color_codec(Stream& stream, const wire::MediaHeader& header) const {
-    if (header.codec == std::uint8_t(stream.color_codec))
-        return Status::ok;
     const auto codec = video::ColorCodecId(header.codec);
-    if (!stream.color_is_automatic ||
-        (codec != video::ColorCodecId::jpeg && codec != video::ColorCodecId::h264))
-        return Status::malformed;
-    if (!header.key)
-        return Status::missing_reference;
-    if (!video::missing_color_decoder({codec, ""}).empty())
-        return Status::unsupported;
-    set_color_codec(stream, codec);
-    stream.codec =
-        std::string(video::auto_color) + (codec == video::ColorCodecId::h264 ? ": h264" : ": jpeg");
+    const bool is_another = codec != stream.color_codec;
+    if (is_another) {
+        if (!stream.color_is_automatic ||
+            (codec != video::ColorCodecId::jpeg && codec != video::ColorCodecId::h264))
+            return Status::malformed;
+        if (!header.key)
+            return Status::missing_reference;
+        if (!video::missing_color_decoder({codec, ""}).empty())
+            return Status::unsupported;
+        set_color_codec(stream, codec);
+    }
+    // The codec of the first picture is known with that picture.
+    if (stream.color_is_automatic && (is_another || stream.codec == video::auto_color))
+        stream.codec = std::string(video::auto_color) +
+                       (codec == video::ColorCodecId::h264 ? ": h264" : ": jpeg");
     return Status::ok;
 }
 

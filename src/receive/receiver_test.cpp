@@ -222,7 +222,9 @@ TEST_F(ReceiverTest, AutomaticColorChangesItsCodecWithAKeyFrameAndOtherColorNeve
     for (Source* source : {&jpeg, &h264, &raw})
         source->set_color_id(SettingId{0x8002});
     set_color("auto");
+    EXPECT_EQ(receiver.figures(at(0))[1].codec, "auto");
     EXPECT_EQ(receiver.on_media(jpeg.color(0), at(0)), Status::ok);
+    EXPECT_EQ(receiver.figures(at(0))[1].codec, "auto: jpeg");
     (void)h264.color(1, true);
     EXPECT_EQ(receiver.on_media(h264.color(2, false), at(2)), Status::missing_reference);
     EXPECT_EQ(receiver.on_media(h264.color(3, true), at(3)), Status::ok);

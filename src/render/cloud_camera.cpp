@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/cloud_camera.h"
 
+#include <utility>
+
 #include "geometry/ray_table.h"
 #include "render/cloud_passes.h"
 #include "render/color_visibility.h"
 #include "render/matrix.h"
+#include "render/shades.h"
 #include "render/texture_units.h"
 
 namespace theatron::render {
@@ -50,6 +53,11 @@ struct CameraUniforms {
 };
 static_assert(sizeof(CameraUniforms) == 288);
 
+// Its colour picture is made of its depth: shades.h.
+bool has_no_color(const Calibration& calibration) {
+    return calibration.color.size == Size{};
+}
+
 void put(float (&out)[16], const Mat4& matrix) {
     for (std::size_t i = 0; i < 16; ++i)
         out[i] = float(matrix.m[i]);
@@ -81,15 +89,19 @@ CameraUniforms uniforms(const CloudCamera& camera, const CameraView& view) {
     const Pose eye_from_camera = inverse(view.room_from_eye) * calibration.room_from_camera;
     CameraUniforms u{};
     put(u.clip_from_camera, projection(view) * matrix(eye_from_camera));
-    put(u.color_from_camera, matrix(calibration.color_from_depth));
+    const bool is_shaded = has_no_color(calibration);
+    put(u.color_from_camera, matrix(is_shaded ? Pose{} : calibration.color_from_depth));
     // Without a colour picture its size is 0, so that every point lies outside.
-    if (camera.color_size() != Size{} && calibration.color.size != Size{}) {
-        const CameraModel color = scaled(calibration.color, camera.color_size());
+    if (camera.color_size() != Size{}) {
+        const CameraModel color =
+            scaled(is_shaded ? calibration.depth : calibration.color, camera.color_size());
         put(u.color_pinhole, color.fx, color.fy, color.cx, color.cy);
         put(u.color_radial, color.k[0], color.k[1], color.k[2], color.k[3]);
         put(u.color_more, color.k[4], color.k[5], color.p1, color.p2);
         put(u.color_image, color.size.width, color.size.height, color.max_radius,
-            may_be_hidden(calibration) ? 1 : 0);
+            is_shaded                    ? -1
+            : may_be_hidden(calibration) ? 1
+                                         : 0);
     }
     const double tan_per_pixel = 2 / (calibration.depth.fx + calibration.depth.fy);
     const double offset_m =
@@ -148,6 +160,10 @@ Status CloudCamera::upload(DepthView depth, ColorView color, const Buffer& stagi
     ++content_;
     glActiveTexture(GL_TEXTURE0 + texture_unit::depth_image);
     upload_image(staging, depth_, depth, GL_RED_INTEGER, GL_UNSIGNED_SHORT);
+    if (has_no_color(calibration_)) {
+        shade(depth, calibration_, shades_);
+        color = std::as_const(shades_).view();
+    }
     if (color.pixels) {
         if (color.size != color_size_)
             color_ = make_texture(GL_RGB8, color.size, GL_LINEAR);

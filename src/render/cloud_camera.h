@@ -100,6 +100,7 @@ private:
     Texture depth_, rays_;
     std::optional<Texture> color_;
     Size color_size_;
+    ColorImage shades_;  // of a camera without colour
     Buffer block_;
     unsigned images_ = 0, colors_ = 0, content_ = 1;
 };

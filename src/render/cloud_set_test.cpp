@@ -380,6 +380,23 @@ TEST_P(CloudSetTest, CamerasOfDifferentSizesAreDrawnTogether) {
     EXPECT_EQ(render(own_view(far), far.depth.size).depth_mm.view().row(20)[80], 1500);
 }
 
+TEST_P(CloudSetTest, ACameraWithoutColorShowsItsShape) {
+    Calibration calibration = simple_calibration();
+    calibration.color = {};
+    scene->set_camera(first_camera, calibration);
+    DepthImage depth(calibration.depth.size);
+    for (int y = 0; y < depth.size.height; ++y)
+        for (int x = 0; x < depth.size.width; ++x)
+            depth.view().row(y)[x] = std::uint16_t(x < 48 ? 1500 : 1500 + 18 * (x - 48));
+    ASSERT_EQ(scene->upload(first_camera, depth.view(), {}), Status::ok);
+    const Picture picture = render(own_view(calibration));
+    const Rgb facing = picture.color.view().row(36)[20],
+              turned_away = picture.color.view().row(36)[70];
+    EXPECT_NEAR(facing.r, 168, 8);
+    EXPECT_LT(turned_away.r, 130);
+    EXPECT_TRUE(facing.r == facing.g && facing.g == facing.b);
+}
+
 TEST_P(CloudSetTest, WhatHasItsColorWinsOverWhatHasNone) {
     const Calibration calibration = simple_calibration();
     show(calibration);

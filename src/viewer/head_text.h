@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "geometry/calibration.h"
 #include "geometry/vec.h"
+#include "image/view.h"
 #include "render/cloud_cut.h"
 
 namespace theatron::viewer {
@@ -34,5 +36,9 @@ SeenPerson parse_seen_person(const std::string& text, Seen who);
 // All of the two options. Throws Error also if there are two people for one camera.
 std::vector<SeenPerson> parse_seen_people(const std::vector<std::string>& others,
                                           const std::vector<std::string>& oneself);
+
+// Empty where the camera's picture has a point within the person's reach; else a sentence, since
+// nothing of that camera is drawn then.
+std::string nothing_seen(const SeenPerson& person, const Calibration& calibration, DepthView depth);
 
 }  // namespace theatron::viewer

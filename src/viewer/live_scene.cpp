@@ -199,15 +199,32 @@ void LiveScene::cut_people(const std::vector<client::Participant::Camera>& camer
     std::vector<std::string> names;
     for (const auto& camera : cameras)
         names.push_back(camera.description.name);
-    for (const SeenPerson& person : people_) {
+    person_at_.clear();
+    for (std::size_t i = 0; i < people_.size(); ++i) {
         try {
-            const std::size_t number = find_camera(person.camera, names);
-            clouds_.set_cut(cameras[number].description.id, person.cut());
+            const CameraId id = cameras[find_camera(people_[i].camera, names)].description.id;
+            clouds_.set_cut(id, people_[i].cut());
+            person_at_[id] = i;
         } catch (const Error&) {
             if (generation_ == 0)
                 throw;
         }
     }
+}
+
+std::vector<std::string> LiveScene::unseen_people() const {
+    std::vector<std::string> sentences;
+    for (const auto& [id, person] : person_at_) {
+        const auto frame = newest_.find(id);
+        const auto known = calibrations_.find(id);
+        if (frame == newest_.end() || known == calibrations_.end())
+            continue;
+        std::string text =
+            nothing_seen(people_[person], known->second, frame->second->depth.view());
+        if (!text.empty())
+            sentences.push_back(std::move(text));
+    }
+    return sentences;
 }
 
 void LiveScene::update_room(const std::vector<client::Participant::Camera>& cameras) {

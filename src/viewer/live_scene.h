@@ -55,6 +55,10 @@ public:
     Meeting& meeting() { return meeting_; }
     const Meeting& meeting() const { return meeting_; }
 
+    // A sentence for each person of the options of whom the newest picture of their camera shows
+    // nothing (head_text.h).
+    std::vector<std::string> unseen_people() const;
+
     // See render::CloudSet. Uploads the newest frames again, so that the clouds stay.
     void set_depth_step(int step);
 
@@ -156,7 +160,8 @@ private:
     RoomChoice choice_;
     bool real_room_ = false;
     std::vector<SeenPerson> people_;
-    render::CloudSet clouds_;  // of the room's cameras
+    std::map<CameraId, std::size_t> person_at_;  // index in people_
+    render::CloudSet clouds_;                    // of the room's cameras
     PersonClouds person_clouds_;
     SharedScreens screens_;
     FacePictures faces_;

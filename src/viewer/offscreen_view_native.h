@@ -33,6 +33,8 @@ public:
         return can_draw() && (scene_.newest().contains(view.camera) ||
                               !scene_.calibrations().contains(view.camera));
     }
+    // See LiveScene.
+    std::vector<std::string> unseen_people() const { return scene_.unseen_people(); }
     std::size_t cameras() const { return scene_.calibrations().size(); }
 
     struct Wish {

@@ -397,6 +397,7 @@ bool Viewer::step(Size picture, TimePoint now) {
     send_own_pose(picture, now);
     if (first_picture_at_ == TimePoint{} && eye_.is_placed())
         first_picture_at_ = now;
+    note_unseen_people(now);
     participant_.tell_renderer(way().renderer);
     return scene_changed_ && eye_.is_placed() && !rests;
 }

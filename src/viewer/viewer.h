@@ -185,6 +185,8 @@ private:
     void on_camera_key(const xr::KeyPress& key, Size picture, TimePoint now);
     void adjust_cameras(const xr::KeyPress& key, Size picture, TimePoint now);
     void follow_cameras(TimePoint now);
+    // Once, when the cameras have sent pictures: a person of the options who is not where they say.
+    void note_unseen_people(TimePoint now);
     void draw_region(xr::WindowInput& input, Size picture, TimePoint now);
     void play(const PlayStep& play, TimePoint now);
     bool look_back(const xr::KeyPress& key, TimePoint now);
@@ -261,6 +263,7 @@ private:
     RateWindow drawn_;
     SampleWindow ages_ms_{30}, all_ages_ms_{20'000};
     std::uint64_t pictures_ = 0;
+    bool has_checked_people_ = false;
     TimePoint presented_at_, first_picture_at_;
     std::optional<double> age_at_presentation_ms_;
     bool presented_past_ = false;  // the last picture was

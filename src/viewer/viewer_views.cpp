@@ -203,6 +203,17 @@ void Viewer::follow_cameras(TimePoint now) {
     playing_.on_tick(participant_, now);
 }
 
+void Viewer::note_unseen_people(TimePoint now) {
+    // Cameras send their first pictures one after another.
+    constexpr Duration patience = std::chrono::seconds(2);
+    if (has_checked_people_ || first_picture_at_ == TimePoint{} ||
+        now - first_picture_at_ < patience)
+        return;
+    has_checked_people_ = true;
+    for (const std::string& text : scene_.unseen_people())
+        note(text, now);
+}
+
 void Viewer::adjust_cameras(const xr::KeyPress& key, Size picture, TimePoint now) {
     if (key.action == xr::Action::nudge) {
         if (!adjusting_.is_shown() || !eye_.is_placed())

@@ -25,6 +25,17 @@ TEST(Text, WhoIsNoOperatorIsNotToldWhatOperatorsCanDo) {
     EXPECT_EQ(english_without_advice(gone), english(gone));
 }
 
+// The host sees when pictures are taken, not why they are not: the viewer may decode slowly.
+TEST(Text, ASlowComputerIsNotBlamedOnTheLink) {
+    for (const TextCode code :
+         {TextCode::link_has_room, TextCode::link_is_tried, TextCode::trial_failed}) {
+        const std::string text = english({code});
+        EXPECT_TRUE(text.find("link") == std::string::npos ||
+                    text.find("computer") != std::string::npos)
+            << text;
+    }
+}
+
 TEST(Text, WithoutACodeThereIsNone) {
     EXPECT_EQ(english({}), "");
     EXPECT_EQ(english_without_advice({}), "");

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The programs in examples/: one publishes a camera, the other joins and saves a picture of it."""
+"""The programs in examples/: one hosts a camera, one sends another into a session, one joins and saves a picture."""
 import os
 import pathlib
 import re
@@ -8,8 +8,9 @@ import subprocess
 import tempfile
 import unittest
 
-from theatron_process import PROGRAM, make_recording, read_png
+from theatron_process import PROGRAM, Process, host, make_recording, read_png
 
+SOURCES = pathlib.Path(__file__).resolve().parent.parent.parent / "examples"
 EXAMPLES = pathlib.Path(PROGRAM).parent.parent.parent / "examples"
 
 
@@ -35,15 +36,32 @@ class Examples(unittest.TestCase):
                 self.assertEqual(publisher.wait(20), 0)
                 publisher.stdout.close()
 
+    def test_a_camera_is_sent_into_a_session(self):
+        with tempfile.TemporaryDirectory() as folder:
+            camera = pathlib.Path(folder) / "sent"
+            make_recording(camera, frames=5)
+            with host(pathlib.Path(folder) / "state") as session, \
+                    Process("join", session.greeting["link"], "--no-window", "--every", "0.2") as viewer:
+                sender = subprocess.Popen([EXAMPLES / "send_camera", session.greeting["publish_link"], f"folder:{camera},loop=1"])
+                try:
+                    viewer.wait_for(lambda f: any(c["name"] == "sent" and c["frames"] > 3 for c in f["cameras"]), 30)
+                finally:
+                    sender.send_signal(signal.SIGTERM)
+                    self.assertEqual(sender.wait(20), 0)
+                viewer.wait_for(lambda f: not f["cameras"], 20)
+
     def test_a_wrong_link_ends_in_a_sentence(self):
         with tempfile.TemporaryDirectory() as folder:
-            result = subprocess.run([EXAMPLES / "save_picture", "nonsense", pathlib.Path(folder) / "a.png"],
-                                    capture_output=True, text=True, timeout=60)
-            self.assertEqual(result.returncode, 1)
-            self.assertTrue(re.search(r"link", result.stderr), result.stderr)
+            for words in (("save_picture", "nonsense", pathlib.Path(folder) / "a.png"),
+                          ("send_camera", "nonsense", "synthetic:surgeon")):
+                result = subprocess.run([EXAMPLES / words[0], *words[1:]], capture_output=True, text=True, timeout=60)
+                self.assertEqual(result.returncode, 1)
+                self.assertTrue(re.search(r"link", result.stderr), result.stderr)
 
     def test_each_is_at_most_60_lines(self):
-        for source in pathlib.Path("examples").glob("*.cpp"):
+        sources = list(SOURCES.glob("*.cpp"))
+        self.assertGreaterEqual(len(sources), 3)
+        for source in sources:
             self.assertLessEqual(len(source.read_text().splitlines()), 60, source)
 
 

@@ -153,6 +153,10 @@ class Person(unittest.TestCase):
                                   "7=1:2:3")
             self.assertEqual(code, 1)
             self.assertIn("no camera '7'", errors)
+            code, _, errors = run("join", h.greeting["link"], "--offscreen", self.folder / "far.png", "--person",
+                                  "0=9:1.65:9", "--seconds", "0.5")
+            self.assertEqual(code, 0, errors)
+            self.assertIn("Camera 0 sees nothing within 1.1 m of the person", errors)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """theatron record, inspect and export, and recordings as cameras."""
+import datetime
 import json
 import pathlib
+import re
 import shutil
 import signal
 import struct
@@ -65,7 +67,13 @@ class Recording(unittest.TestCase):
         code, _, errors = run("record", "--camera", f"folder:{self.source}", self.folder / "a.mkv")
         self.assertEqual(code, 1)
         self.assertIn("exists already", errors)
-        self.assertEqual(len(list((self.folder / "ply").glob("*.ply"))), figures["pictures"])
+        clouds = sorted((self.folder / "ply").glob("*.ply"))
+        self.assertEqual(len(clouds), figures["pictures"])
+        header = clouds[0].read_bytes().split(b"end_header\n")[0].decode()
+        self.assertIn("comment x right, y down, z forward in metres, from the depth camera\n", header)
+        captured = datetime.datetime.fromisoformat(
+            re.search("comment captured ([^Z]+)Z\n", header)[1] + "+00:00")
+        self.assertLess(abs(captured.timestamp() - time.time()), 300)
 
         self.record("b.mkv", "--camera", f"mkv:{self.folder / 'kinect.mkv'}", "--depth-codec", "raw")
         code, _, errors = run("export", self.folder / "b.mkv", "--png", self.folder / "again")

@@ -3,6 +3,7 @@
 import base64
 import hashlib
 import os
+import random
 import re
 import socket
 import struct
@@ -196,13 +197,14 @@ def promise_much(peer):
 
 
 def send_damaged_packets(peer, pictures):
-    """The handshake is right, then nothing is."""
+    """The handshake is right, then nothing is; the same damage each time."""
     shake_hands(peer, pictures)
+    chance = random.Random(5)
     for n in range(3000):
         for packet in packets(pictures[n % len(pictures)], n, 3000 * n)[:3]:
             harmed = bytearray(packet)
             for _ in range(4):
-                harmed[ord(os.urandom(1)) % len(harmed)] = ord(os.urandom(1))
-            send_packet(peer, bytes(harmed), ord(os.urandom(1)) % 4)
+                harmed[chance.randrange(len(harmed))] = chance.randrange(256)
+            send_packet(peer, bytes(harmed), chance.randrange(4))
     peer.sendall(b"$\0\xff\xff")
     time.sleep(60)

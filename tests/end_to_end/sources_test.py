@@ -79,7 +79,7 @@ class Sources(unittest.TestCase):
                     Process("publish", h.greeting["publish_link"], "--share", server.url, "--seconds", "20"))))
             damage = stack.enter_context(RtspStandIn(rtsp_standin.send_damaged_packets, pictures=self.pictures))
             code, _, errors = run("publish", h.greeting["publish_link"], "--share", damage.url, "--seconds", "3")
-            self.assertIn(code, (0, 1), errors)
+            self.assertEqual(code, 0, errors)  # its pictures are wrong, but it is a video
             for name, words, publisher in tries:
                 with self.subTest(name):
                     self.assertEqual(publisher.end(), 1)

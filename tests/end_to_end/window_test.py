@@ -112,7 +112,9 @@ class Window(unittest.TestCase):
                 wait_until(lambda: len(list(self.folder.glob("theatron-*.png"))) == 2)
                 points, = wait_until(lambda: list(self.folder.glob("theatron-*.ply")))
                 wait_until(lambda: points.stat().st_size > 10_000)
-                self.assertIn(b"element vertex", points.read_bytes()[:100])
+                header = points.read_bytes().split(b"end_header\n")[0]
+                self.assertIn(b"element vertex", header)
+                self.assertIn(b"comment x, y, z in metres in the room", header)
             with self.subTest("renderers and codecs are changed"):
                 do("key", "Tab")
                 wait_until(lambda: " disc " in self.screen.title())

@@ -8,7 +8,7 @@ layout(std140) uniform Camera {
     vec4 color_radial;       // k1, k2, k3, k4
     vec4 color_more;         // k5, k6, p1, p2
     vec4 color_image;        // width, height, largest radius (0: no limit), 1 if it needs
-                             // the map of color_place.glsl
+                             // the map of color_place.glsl, -1 if it is made of depth
     vec4 depth;              // metres per unit, tangent per pixel, metres that are measured too
                              // much (corrected.glsl)
     vec4 viewer;             // the eye in the depth camera's frame

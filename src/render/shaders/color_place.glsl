@@ -31,7 +31,7 @@ vec3 color_place(vec3 point) {
     vec2 size = camera.color_image.xy;
     vec2 pixel = seen_at.xy;
     float inside = inside_picture(pixel, size);
-    if (inside == 0.0)
+    if (inside == 0.0 || camera.color_image.w < 0.0)
         return vec3(pixel, 0.0);
     // The map is coarse: a slanted surface must not hide itself.
     float behind = seen_at.z - (0.03 + 0.03 * seen_at.z);
