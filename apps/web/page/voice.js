@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Voice: the others from where they stand, and one's own microphone. Opus by the browser's codecs; the packets
 // are those of docs/formats/voice.md.
+import { use_loudspeaker, wanted_device } from "./device_choice.js";
 import { with_patience } from "./program.js";
 
 const sample_rate = 48000;
@@ -147,7 +148,7 @@ export class Voice {
             with_patience(() => this.context.audioWorklet.addModule(new URL("./voice_worklet.js", import.meta.url))),
             with_patience(() => WebAssembly.compileStreaming(fetch(new URL("./voice.wasm", import.meta.url)))),
         ]).then(([, program]) => this.program = program);
-        await Promise.all([resumed, this.loaded]);
+        await Promise.all([resumed, this.loaded, use_loudspeaker(this.context)]);
     }
 
     // Throws nothing: the program that calls it would lose its place.
@@ -220,7 +221,8 @@ export class Voice {
         try {
             await this.begin();
             this.stream = await navigator.mediaDevices.getUserMedia({
-                audio: { channelCount: 1, echoCancellation: true, noiseSuppression: true, autoGainControl: true } });
+                audio: { channelCount: 1, echoCancellation: true, noiseSuppression: true, autoGainControl: true,
+                         ...wanted_device("microphone") } });
             if (this.microphone !== "asking")  // closed while the browser asked
                 return this.stop_stream();
             this.stream.getAudioTracks()[0].addEventListener("ended", () => this.close_microphone("missing"));
