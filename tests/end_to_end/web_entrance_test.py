@@ -83,8 +83,9 @@ class WebEntrance(unittest.TestCase):
             with self.subTest("in the room nobody asks any more"):
                 self.enter(page)
                 page.wait_for("theatron.state.phase === 'joined'")
+                self.assertFalse(page.evaluate("theatron.lobby.is_watching"))
                 asked = len([url for url in page.requests if url.endswith("/lobby")])
-                page.evaluate("new Promise(done => setTimeout(done, 2500))")
+                page.evaluate("new Promise(done => setTimeout(done, 4500))")
                 self.assertLessEqual(len([url for url in page.requests if url.endswith("/lobby")]), asked + 1)
                 self.leave(page)
                 page.wait_for("theatron.lobby.is_watching")

@@ -46,8 +46,8 @@ class WebTouch(unittest.TestCase):
     def ear(self, page):
         return page.evaluate("theatron.state.ear")
 
-    def drawn(self, page, more=3):
-        """Once the picture follows what was done before."""
+    def drawn(self, page, more=6):
+        """Once the picture follows what was done before: each press and each release is a picture of its own."""
         done = page.evaluate("theatron.state.pictures")
         page.wait_for(f"theatron.state.pictures > {done + more}")
 
@@ -57,6 +57,7 @@ class WebTouch(unittest.TestCase):
         for i in range(1, steps + 1):
             page.touch("touchMove", *(tuple(a + (b - a) * i / steps for a, b in zip(*way)) for way in ways))
         page.touch("touchEnd")
+        self.drawn(page)
 
     def tap(self, page, selector):
         page.touch("touchStart", page.middle(selector))
