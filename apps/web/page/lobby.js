@@ -10,6 +10,7 @@ const most_named = 12;  // people or cameras; a host may have very many
 export class Lobby {
     timer = null;
     is_watching = false;
+    turn = 0;  // an answer of an older one is late
 
     constructor(token) {
         this.token = token;
@@ -19,7 +20,7 @@ export class Lobby {
         if (this.is_watching)
             return;
         this.is_watching = true;
-        this.ask();
+        this.ask(++this.turn);
     }
 
     end() {
@@ -32,7 +33,7 @@ export class Lobby {
                              signal: AbortSignal.timeout?.(patience_ms) });
     }
 
-    async ask() {
+    async ask(turn) {
         let again = true;
         try {
             if (!document.hidden)
@@ -40,8 +41,10 @@ export class Lobby {
         } catch {
             // A host that is away now may be back the next time; entering says what is wrong.
         }
+        if (turn !== this.turn)
+            return;
         if (this.is_watching && again)
-            this.timer = setTimeout(() => this.ask(), every_ms);
+            this.timer = setTimeout(() => this.ask(turn), every_ms);
         else
             this.is_watching = false;
     }
