@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The functions that page/page.js calls: join, one picture, input, and what the panels show. Those
-// for a headset, for the person's voice and face, and for decoding workers are in calls/.
+// for a headset, for the person's voice and face, for the panel of the picture, and for decoding
+// workers are in calls/.
 //
 // The page has one thread; everything but decoding runs in its events. Its decoding workers run the
 // same program, of which they call the functions of calls/decoder_calls.cpp alone.

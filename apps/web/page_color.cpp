@@ -54,6 +54,11 @@ const std::string& PageColor::reason() const {
 }
 
 void PageColor::choose(const std::string& codec) {
+    if (codec == video::auto_color) {
+        chosen_.clear();
+        reason_.clear();
+        return;
+    }
     if (is_h264(codec) && !can_h264_) {
         chosen_.clear();
         reason_ = "JPEG: this browser does not decode H.264";

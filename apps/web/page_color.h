@@ -26,7 +26,8 @@ public:
     // A few times a second. True if codec() changed. A chosen codec is left only if the browser's
     // decoder fails.
     bool observe(const client::ParticipantFigures& figures, TimePoint now);
-    // The person has chosen this codec; without an effect if this page cannot decode it.
+    // The person has chosen this codec; "auto": the choice by measurements again, to which a codec
+    // that this page cannot decode leads, too.
     void choose(const std::string& codec);
 
     // For the panels: "color" and one fact more.

@@ -92,6 +92,11 @@ json page_state(const viewer::Viewer& viewer, const viewer::Facts& facts,
                 const client::Participant& participant, const std::string& address) {
     json state = state_of(facts, participant, address);
     state["pictures"] = viewer.pictures();
+    // The choice of the person, or of the host; the rest of the state has what came of it.
+    state["chosen"] = {{"renderer", viewer.renderer_choice().renderer()},
+                       {"renderer_locked", viewer.renderer_choice().locked()},
+                       {"depth", viewer.depth_codec()},
+                       {"scale", viewer.scale()}};
     state["ear"] = ear_json(viewer.told_eye());
     return state;
 }

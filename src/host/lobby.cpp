@@ -89,14 +89,18 @@ net::HttpAnswer answer_lobby(const net::HttpRequest& request,
     }
     const std::string asked = net::query_value(request.target, "session");
     std::string picture;
+    bool may_see = false;
     for (const auto& [number, session] : sessions) {
         const bool is_own = number == own->first;
         const bool is_meant =
             asked.empty() ? is_own : asked == std::to_string(std::uint32_t(number));
         // The operating room goes on without the people of an ended session.
         if (is_meant && (is_own ? guest.sees_inside() : sees_all) && !session.figures().has_ended)
-            picture = session.picture();
+            may_see = true, picture = session.picture();
     }
+    // A page that asks again and again would fill its browser's console with errors.
+    if (may_see && picture.empty())
+        return {.status = 204};
     if (picture.empty())
         return {.status = 404, .body = "There is no picture.\n"};
     return {.type = "image/png", .body = std::move(picture)};

@@ -100,6 +100,8 @@ TEST_F(LobbyOfTwo, GivesThePictureOfASessionThatTheLinkShows) {
     EXPECT_EQ(ask("/thumbnail?session=2", "observer-3").status, 404);
     EXPECT_EQ(ask("/thumbnail?session=3", "operator-3").status, 404);
     EXPECT_EQ(ask("/thumbnail", "expert-4").status, 404) << "who must ask sees nothing before";
+    sessions.at(0).second.picture = [] { return std::string(); };
+    EXPECT_EQ(ask("/thumbnail", "operator-3").status, 204) << "none yet";
 }
 
 TEST_F(LobbyOfTwo, TheFiguresOfAllAreForTheHostsOperator) {

@@ -6,8 +6,6 @@
 
 #include "base/error.h"
 #include "session/permissions.h"
-#include "video/color_codec.h"
-#include "video/depth_codecs.h"
 #include "viewer/mark_actions.h"
 #include "viewer/mark_panel.h"
 #include "viewer/screen_panel.h"
@@ -21,13 +19,6 @@ constexpr Duration pose_repeated_after = std::chrono::milliseconds(500);
 constexpr Duration notice_shown = std::chrono::seconds(5);
 // A picture that is presented for longer than this gets older with time.
 constexpr double repeated_picture_ms = 500;
-
-// The name after `current` in `names`; `current` may have options behind a colon.
-std::string next_name(const std::vector<std::string>& names, const std::string& current) {
-    const auto found = std::find(names.begin(), names.end(), current.substr(0, current.find(':')));
-    const auto next = found == names.end() || found + 1 == names.end() ? names.begin() : found + 1;
-    return *next;
-}
 
 }  // namespace
 
@@ -103,18 +94,10 @@ void Viewer::on_key(const xr::KeyPress& key, Size picture, TimePoint now) {
             choose_next_renderer(now);
             break;
         case xr::Action::next_depth_codec:
-            choose_depth_codec();
-            note("Depth codec: " + options_.depth_codec +
-                     (video::make_depth_codec(
-                          video::parse_depth_setting(options_.depth_codec).setting)
-                              ->lossless()
-                          ? ", lossless"
-                          : ", LOSSY: depth is no longer what the camera measured"),
-                 now);
+            choose_next_depth_codec(now);
             break;
         case xr::Action::next_color_codec:
-            choose_color_codec(next_name(video::color_codec_names(), options_.color_codec));
-            note("Colour codec: " + options_.color_codec, now);
+            choose_next_color_codec(now);
             break;
         case xr::Action::people:
             shows_panels_ = !shows_panels_;
@@ -318,25 +301,6 @@ void Viewer::decide_on_visitor(wire::ManageAction action, TimePoint now) {
     note((action == wire::ManageAction::admit ? "You have let in " : "You have not let in ") +
              first.name + ".",
          now);
-}
-
-void Viewer::choose_depth_codec() {
-    options_.depth_codec = next_name(video::depth_codec_names(), options_.depth_codec);
-    participant_.choose_codecs(options_.depth_codec, "");
-}
-
-void Viewer::choose_color_codec(const std::string& codec) {
-    options_.color_codec = codec;
-    participant_.choose_codecs("", codec);
-}
-
-void Viewer::choose_next_renderer(TimePoint now) {
-    if (!choice_.choose(next_name(renderer_choices(), choice_.renderer())))
-        return note("The host has set this way of drawing: " + choice_.renderer(), now);
-    options_.renderer = choice_.renderer();
-    choose_pace();
-    const bool as_drawn = choice_.renderer() == way().renderer;
-    note("Drawing: " + choice_.renderer() + (as_drawn ? "" : ", now " + way().renderer), now);
 }
 
 void Viewer::follow_host(TimePoint now) {

@@ -125,6 +125,15 @@ public:
     // The devices to choose from, and the choice in the panel, likewise.
     void set_sound_choices(SoundChoices choices) { sound_choices_ = std::move(choices); }
     std::optional<UseSound> take_sound_wish() { return std::exchange(sound_wish_, std::nullopt); }
+    // The person's choices by name, among renderer_choices() and video::depth_codec_names(). While
+    // the host has set the renderer, choose_renderer() changes nothing; a text says so.
+    const session::RendererChoice& renderer_choice() const { return choice_; }
+    void choose_renderer(const std::string& renderer, TimePoint now);
+    const std::string& depth_codec() const { return options_.depth_codec; }
+    void choose_depth_codec(const std::string& codec, TimePoint now);
+    // As Options::scale.
+    double scale() const { return options_.scale; }
+    void choose_scale(double scale);
     // The codec of colour that was requested last, and another one, which no text says.
     const std::string& color_codec() const { return options_.color_codec; }
     void choose_color_codec(const std::string& codec);
@@ -160,7 +169,8 @@ private:
     void add_camera_pictures(Facts& facts, RoomPanel& panel, TimePoint now);
     std::string pointed_text();
     void choose_next_renderer(TimePoint now);
-    void choose_depth_codec();
+    void choose_next_depth_codec(TimePoint now);
+    void choose_next_color_codec(TimePoint now);
     void decide_on_visitor(wire::ManageAction action, TimePoint now);
     void follow_host(TimePoint now);
     void choose_pace();

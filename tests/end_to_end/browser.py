@@ -152,6 +152,16 @@ class Page:
                   buttons=0 if kind == "mouseReleased" else held, clickCount=int(kind in ("mousePressed", "mouseReleased")),
                   **more)
 
+    def touch(self, kind, *points):
+        """`kind`: touchStart, touchMove or touchEnd; `points`: (x, y) of each finger, None for one that is not there."""
+        self.call("Input.dispatchTouchEvent", type=kind,
+                  touchPoints=[{"x": at[0], "y": at[1], "id": i} for i, at in enumerate(points) if at])
+
+    def middle(self, selector):
+        """The middle of an element, in pixels of the window."""
+        return self.evaluate("(b => [b.x + b.width / 2, b.y + b.height / 2])"
+                             f"(document.querySelector('{selector}').getBoundingClientRect())")
+
     def press(self, key, code, number=0, text=""):
         """`number` and `text` are needed where the browser itself acts on the key."""
         for kind in ("keyDown", "keyUp"):

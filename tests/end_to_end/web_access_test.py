@@ -109,6 +109,10 @@ class WebAccess(unittest.TestCase):
     def test_lobby_room_and_help_are_named_legible_and_reached_by_keys(self):
         page = self.page
         self.check()
+        page.wait_for("document.getElementById('session_lines').children.length > 0")
+        page.evaluate("document.getElementById('devices').open = true")
+        page.wait_for("document.getElementById('microphone_choice').options.length > 0")
+        self.check()
         expected = page.evaluate(f"{REACHABLE}.map({NAME})")
         self.assertEqual(self.tab_order("#name"), expected[expected.index("name"):])
 
@@ -117,6 +121,8 @@ class WebAccess(unittest.TestCase):
         page.wait_for("theatron.state.phase === 'joined'")
         self.assertEqual(page.evaluate("document.activeElement.id"), "view")
         page.wait_for("!!document.querySelector('#room_panels section')")
+        page.evaluate("document.getElementById('show_picture').click()")
+        page.wait_for("document.getElementById('renderer_now').textContent !== ''")
         self.check()
         self.assertEqual(self.tab_order("#view"), page.evaluate(f"{REACHABLE}.map({NAME})"))
 
@@ -128,6 +134,14 @@ class WebAccess(unittest.TestCase):
         page.press("Escape", "Escape", 27)
         page.wait_for("!document.getElementById('help').open")
         self.assertEqual(page.evaluate("document.activeElement.id"), "view")
+
+        # With a finger there are buttons, which keys and screen readers reach, too.
+        page.call("Emulation.setTouchEmulationEnabled", enabled=True, maxTouchPoints=2)
+        page.touch("touchStart", (SIZE[0] * 0.6, SIZE[1] * 0.3))
+        page.touch("touchEnd")
+        page.wait_for("document.getElementById('touch').checkVisibility()")
+        self.check()
+        self.assertEqual(self.tab_order("#view"), page.evaluate(f"{REACHABLE}.map({NAME})"))
 
 
 if __name__ == "__main__":

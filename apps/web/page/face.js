@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The person's own webcam as a small picture on the head of the avatar: off until the person wants it.
+import { wanted_device } from "./device_choice.js";
 import { put_bytes } from "./program.js";
 
 const width = 320, height = 240, pictures_per_s = 10, quality = 0.75;
@@ -28,7 +29,7 @@ export class Face {
         let stream = null;
         try {
             stream = await navigator.mediaDevices.getUserMedia({
-                video: { width: { ideal: 640 }, height: { ideal: 480 }, frameRate: { ideal: 15 } } });
+                video: { width: { ideal: 640 }, height: { ideal: 480 }, frameRate: { ideal: 15 }, ...wanted_device("webcam") } });
             this.video.srcObject = stream;
             await this.video.play();
         } catch (error) {

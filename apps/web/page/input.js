@@ -8,8 +8,12 @@ const walking = {
 };
 const pixels_per_click = 100;  // of a wheel or of a pinch
 
-// `help` shows the help.
+// `help` shows the help. The result is for the buttons of touch.js.
 export function listen(canvas, client, help) {
+    let walk = [0, 0, 0];  // by a button
+    let tool = "";         // "points" or "teleports": what a press on the picture does instead of turning it
+    let using = null;      // the pointer that does it
+    let used = () => {};
     const share = event => [event.offsetX / canvas.clientWidth, event.offsetY / canvas.clientHeight];
     const pointers = new Map();  // id -> place in pixels
     const middle = () => {
@@ -24,6 +28,11 @@ export function listen(canvas, client, help) {
     canvas.addEventListener("pointerdown", event => {
         canvas.focus({ preventScroll: true });
         canvas.setPointerCapture(event.pointerId);
+        if (tool && using === null) {
+            using = event.pointerId;
+            client.point(...share(event));
+            return hold();
+        }
         pointers.set(event.pointerId, [event.offsetX, event.offsetY]);
         // A second finger ends what the first one began.
         if (pointers.size > 1)
@@ -32,6 +41,8 @@ export function listen(canvas, client, help) {
         client.grab(...share(event), is_left ? 1 : 0);
     });
     canvas.addEventListener("pointermove", event => {
+        if (using !== null && using !== event.pointerId)
+            return;
         client.point(...share(event));
         const before = pointers.get(event.pointerId);
         if (!before)
@@ -48,6 +59,11 @@ export function listen(canvas, client, help) {
     const release = event => {
         if (pointers.delete(event.pointerId))
             client.release();
+        if (using !== event.pointerId)
+            return;
+        using = null;
+        hold();
+        used(tool);
     };
     canvas.addEventListener("pointerup", release);
     canvas.addEventListener("pointercancel", release);
@@ -60,11 +76,12 @@ export function listen(canvas, client, help) {
 
     const held = new Set();
     const hold = event => {
-        const sum = [0, 0, 0];
+        const sum = [...walk];
         for (const code of held)
             walking[code]?.forEach((part, i) => sum[i] += part);
-        client.hold(...sum.map(part => Math.sign(part)), event?.shiftKey ? 1 : 0, 
-                    held.has("KeyT") ? 1 : 0, held.has("KeyF") ? 1 : 0);
+        const uses = name => using !== null && tool === name;
+        client.hold(...sum.map(part => Math.sign(part)), event?.shiftKey ? 1 : 0,
+                    held.has("KeyT") || uses("teleports") ? 1 : 0, held.has("KeyF") || uses("points") ? 1 : 0);
     };
     canvas.addEventListener("keydown", event => {
         if (event.ctrlKey || event.altKey || event.metaKey)
@@ -86,4 +103,17 @@ export function listen(canvas, client, help) {
         held.clear();
         hold();
     });
+    return {
+        // Right, up, ahead, until the next call.
+        walk(way) {
+            walk = way;
+            hold();
+        },
+        // `on_used` follows each use.
+        choose_tool(name, on_used) {
+            [tool, used] = [name, on_used];
+            using = null;
+            hold();
+        },
+    };
 }

@@ -2,15 +2,22 @@
 // The page: the join form, the loop of pictures, and the panels beside them.
 import make_client from "./client.mjs";
 import { join_workers, start_workers } from "./decoding.js";
+import { DeviceCheck } from "./devices.js";
 import { Face } from "./face.js";
+import { name_full_screen, offer_full_screen } from "./full_screen.js";
 import { FlatView, Patience, find_graphics, note_lost_graphics, take_lost_graphics } from "./graphics.js";
 import { Headset, headset_kinds } from "./headset.js";
 import { listen } from "./input.js";
+import { Lobby } from "./lobby.js";
 import { face_problem, fill_texts, show, show_face, show_voices } from "./panels.js";
+import { Person } from "./person.js";
+import { PicturePanel } from "./picture.js";
 import { put_bytes, with_patience, with_program } from "./program.js";
 import { session_text } from "./session_texts.js";
 import { store, stored } from "./storage.js";
 import { language, text } from "./texts.js";
+import { offer_touch } from "./touch.js";
+import { by_touch, follow_touch } from "./touch_mode.js";
 import { offer_h264 } from "./video_decoder.js";
 import { Voice } from "./voice.js";
 
@@ -23,15 +30,6 @@ const longest_wait_ms = 500;
 const link = new URLSearchParams(location.hash.slice(1));
 const host = location.hostname.replace(/^\[|\]$/g, "");
 const port = Number(location.port || 443);
-
-function person_id() {
-    let id = stored("person");
-    if (!/^[0-9a-f]{32}$/.test(id ?? "")) {
-        id = [...crypto.getRandomValues(new Uint8Array(16))].map(b => b.toString(16).padStart(2, "0")).join("");
-        store("person", id);
-    }
-    return id;
-}
 
 // The client's functions (apps/web/main.cpp), by the names that follow theatron_.
 async function load_client() {
@@ -76,6 +74,8 @@ async function load_client() {
         send_face: [null, numbers(1)],
         note_face: [null, numbers(1)],
         face_wish: ["number", []],
+        picture_choices: ["string", []],
+        choose: [null, ["string", "string"]],
     };
     const client = Object.fromEntries(Object.entries(functions).map(([name, [result, inputs]]) =>
         [name, module.cwrap(`theatron_${name}`, result, inputs)]));
@@ -113,7 +113,9 @@ function run({ client, voice, face, module, flat }) {
     let patience = new Patience();
     let next_texts = 0;
     const help = () => $("help").open || $("help").showModal();
-    listen(canvas, client, help);
+    offer_touch($("touch"), listen(canvas, client, help), client);
+    const picture_panel = new PicturePanel(client, () => next_texts = 0);
+    follow_touch(() => picture_panel.name());
     $("room_panels").addEventListener("click", event => {
         const { command } = event.target.dataset;
         if (command !== undefined)
@@ -136,7 +138,7 @@ function run({ client, voice, face, module, flat }) {
     hold_to_talk($("talk"), voice);
     hold_to_talk(canvas, voice);
     // After a click on a button the keys go on to act in the room; a button reached by Tab keeps the focus.
-    $("side").addEventListener("click", event => event.detail > 0 && canvas.focus({ preventScroll: true }));
+    $("side").addEventListener("click", event => event.detail > 0 && event.target.closest("button") && canvas.focus({ preventScroll: true }));
     canvas.addEventListener("keydown", event => {
         if (event.key === "Escape" && page.state.phase !== "joined")
             client.leave();
@@ -152,16 +154,14 @@ function run({ client, voice, face, module, flat }) {
         else if (page.state.voice_may_record !== null)
             change_voice_recording();
     });
-    $("full_screen").addEventListener("click", () =>
-        document.fullscreenElement ? document.exitFullscreen() : document.documentElement.requestFullscreen());
     $("show_help").addEventListener("click", help);
-    // Only narrow pages have this button, and begin with the room alone.
+    // Only narrow pages and touch have this button; narrow ones begin with the room alone.
     const fold = is_folded => {
         $("side").classList.toggle("folded", is_folded);
         $("menu").setAttribute("aria-expanded", String(!is_folded));
     };
     $("menu").addEventListener("click", () => fold(!$("side").classList.contains("folded")));
-    fold($("menu").checkVisibility());
+    fold(matchMedia("(max-width: 30rem)").matches);
     $("leave").addEventListener("click", () => client.leave());
     canvas.addEventListener("webglcontextlost", () => {
         if (page.state.phase !== "left")
@@ -187,6 +187,7 @@ function run({ client, voice, face, module, flat }) {
         follow_face();
         page.state.face_problem ||= face_problem(face, page.way);
         show(page.state);
+        picture_panel.show(page.state);
         show_way(page.state);
         place_voices(voice, page.state);
         show_voices(voice, page.state);
@@ -303,7 +304,7 @@ function run({ client, voice, face, module, flat }) {
 
 function change_push_to_talk(voice) {
     voice.set_push_to_talk(!voice.pushes);
-    store("pushes", voice.pushes ? "yes" : "no");
+    page.person.remember(page.person.is_remembered, { pushes: voice.pushes ? "yes" : "no" });
 }
 
 // Push to talk with Enter on this element; a button's also by the pointer and the space bar.
@@ -370,7 +371,7 @@ function enter(client) {
     $("view").hidden = is_flat;
     $("flat").hidden = !is_flat;
     $(is_flat ? "flat" : "view").focus();
-    const person = [host, port, link.get("join"), $("name").value.trim(), person_id()];
+    const person = [host, port, link.get("join"), $("name").value.trim(), page.person.id];
     const color = [link.get("color") ?? "auto", page.has_h264() ? 1 : 0];
     if (is_flat)
         client.join_flat(...person, ...color);
@@ -392,42 +393,54 @@ function leave(voice, face, problem) {
     face.hide();
     $("view").hidden = $("flat").hidden = $("panels").hidden = true;
     $("lobby").hidden = false;
+    page.lobby.watch();
     if (problem)
         $("problem").textContent = session_text(problem);
     $("name").focus();
 }
 
 async function main() {
+    const token = link.get("join"), loading = token && load_client();
+    page.person = token && await Person.of(token);
     document.documentElement.lang = language;
-    fill_texts();
+    follow_touch(() => {
+        document.body.classList.toggle("touch", by_touch());
+        $("touch").hidden = !by_touch();
+        fill_texts();
+        name_full_screen($("full_screen"));
+    });
+    offer_full_screen($("full_screen"), sentence => $("screen_hint").textContent = sentence);
     $("problem").textContent = "";
     // Anybody can write into a link; only roles are shown.
     const role = link.get("role");
     $("invitation").textContent = ["operator", "expert", "observer", "publisher"].includes(role)
         ? text("invited_as", { host: location.host, role: session_text(role) })
         : text("invited", { host: location.host });
-    $("name").value = stored("name") ?? "";
     if (/^[0-9a-f]{64}$/.test(link.get("cert") ?? "")) {
         $("fingerprint").textContent = link.get("cert").toUpperCase().match(/../g).join(":");
         $("certificate").hidden = false;
     }
     addEventListener("hashchange", () => location.reload());
-    if (!link.get("join")) {
+    if (!token) {
         $("invitation").textContent = text("no_token");
         $("enter").disabled = true;
         return;
     }
 
-    const loading = load_client();
     Voice.warm_up();
+    page.lobby = new Lobby(token);
+    page.lobby.watch();
+    const devices = page.devices = new DeviceCheck();
     page.graphics = find_graphics();
     if (page.graphics !== "card") {
         $("graphics_hint").textContent = text(page.graphics === "none" ? "no_webgl" : "no_card");
         $("graphics_hint").hidden = false;
     }
     $("way").value = ["room", "flat"].includes(stored("way")) ? stored("way") : "auto";
-    $("speaks").checked = stored("speaks") === "yes";
-    $("pushes").checked = stored("pushes") === "yes";
+    $("name").value = page.person.choice("name") ?? "";
+    $("remember").checked = page.person.is_remembered;
+    for (const mark of ["speaks", "pushes"])
+        $(mark).checked = page.person.choice(mark) === "yes";
     let begin;
     $("join").addEventListener("submit", async event => {
         event.preventDefault();
@@ -436,9 +449,10 @@ async function main() {
         $("problem").textContent = text("loading");
         try {
             const program = await loading, { client, voice, face } = program;
-            store("name", name);
-            store("speaks", $("speaks").checked ? "yes" : "no");
-            store("pushes", $("pushes").checked ? "yes" : "no");
+            devices.close();
+            page.lobby.end();
+            page.person.remember($("remember").checked, {
+                name, speaks: $("speaks").checked ? "yes" : "no", pushes: $("pushes").checked ? "yes" : "no" });
             page.voice = voice;
             page.voice_may_record = $("may_record").checked;
             voice.set_push_to_talk($("pushes").checked);

@@ -2,6 +2,7 @@
 // The panels around the picture, from the client's state. Texts of others are only ever text.
 import { session_text } from "./session_texts.js";
 import { text, texts } from "./texts.js";
+import { by_touch } from "./touch_mode.js";
 
 const $ = id => document.getElementById(id);
 
@@ -18,14 +19,15 @@ export function fill_texts() {
         place.textContent = text(place.dataset.text);
     for (const place of document.querySelectorAll("[data-name]"))
         place.setAttribute("aria-label", text(place.dataset.name));
-    for (const [keys, meaning] of texts.keys)
+    $("help_list").replaceChildren();
+    for (const [keys, meaning] of by_touch() ? texts.touches : texts.keys)
         $("help_list").append(element("dt", keys), element("dd", meaning));
 }
 
 // Rebuilds `place` only if `content` is another one, so that focus and scrolling stay.
 const shown = new Map();
 function update(place, content, fill) {
-    const key = JSON.stringify(content);
+    const key = JSON.stringify([content, by_touch()]);
     if (shown.get(place.id) === key)
         return;
     shown.set(place.id, key);
@@ -85,6 +87,8 @@ function fill_panels(place, panels) {
 
 function fill_facts(place, facts) {
     for (const { label, value, warning } of facts) {
+        if (label === "Help" && by_touch())
+            continue;  // it names a key
         const fact = element("span");
         fact.append(element("span", `${session_text(label)}: `, "label"), element("span", session_text(value), warning ? "warning" : ""));
         place.append(fact);

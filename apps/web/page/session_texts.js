@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The client's own texts in other languages than English; names of people, cameras and cases stay as they are.
 import { language } from "./texts.js";
+import { for_touch } from "./touch_mode.js";
 
 const german = {
     exact: {
@@ -43,6 +44,14 @@ const german = {
         "No connection yet, trying again…": "Noch keine Verbindung, neuer Versuch…",
         "Waiting to be let in…": "Bitte warten, bis Sie eingelassen werden…",
         "The operating room decides. Esc: leave.": "Der Operationssaal entscheidet. Esc: verlassen.",
+        "The operating room decides.": "Der Operationssaal entscheidet.",
+        "This computer draws too slowly; choose \"Automatic\" in \"Picture\"":
+            "Dieser Rechner zeichnet zu langsam; wählen Sie „Automatisch“ bei „Bild“",
+        "\"People\" shows the screens, with buttons that end their shares":
+            "„Personen“ zeigt die Bildschirme, mit Knöpfen zum Beenden",
+        "\"Case\" shows the case, with a button that closes it": "„Fall“ zeigt den Fall, mit einem Knopf zum Schließen",
+        "Hold an object with a finger first": "Halten Sie zuerst ein Objekt mit einem Finger",
+        "Calls you": "Ruft Sie",
         "The host does not let you in": "Der Gastgeber lässt Sie nicht ein",
         "The session is over": "Die Sitzung ist beendet",
         "This computer draws too slowly; the connection is not the cause":
@@ -75,6 +84,7 @@ const german = {
         [/^NOT LIVE: (.+) ago \(not drawn: live camera (.+?)\)$/, "NICHT LIVE: vor $1 (nicht gezeichnet: Kamera $2, die live ist)"],
         [/^NOT LIVE: (.+) ago \(not drawn: live camera (.+?)\)\. End: live again$/, "NICHT LIVE: vor $1 (nicht gezeichnet: Kamera $2, die live ist). Ende: wieder live"],
         [/^NOT LIVE: camera (.+) is not drawn until it is live(?:\. End: live again)?$/, "NICHT LIVE: Kamera $1 wird erst gezeichnet, wenn sie live ist"],
+        [/^Frozen by you: this picture is (.+) old$/, "Von Ihnen angehalten: dieses Bild ist $1 alt"],
         [/^Frozen by you: this picture is (.+) old\. Space: live again$/, "Von Ihnen angehalten: dieses Bild ist $1 alt. Leertaste: wieder live"],
         [/^born (.+), number (.+)$/, "geboren am $1, Nummer $2"],
         [/^born (.+)$/, "geboren am $1"],
@@ -111,7 +121,8 @@ const german = {
 
 // A text of the client in the page's language; English where there is no translation. Lists with commas are
 // translated part by part.
-export function session_text(english) {
+export function session_text(sentence) {
+    const english = sentence && for_touch(sentence);
     if (language !== "de" || !english)
         return english;
     const part = one => {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Voice: the others from where they stand, and one's own microphone. The packets are those of docs/formats/voice.md.
+import { use_loudspeaker, wanted_device } from "./device_choice.js";
 import { find_decoders, find_encoders, has_opus, sample_rate } from "./opus.js";
 import { with_patience } from "./program.js";
 
@@ -126,7 +127,7 @@ export class Voice {
             this.make_decoder = make_decoder;
             this.program = program;
         });
-        await Promise.all([resumed, this.loaded]);
+        await Promise.all([resumed, this.loaded, use_loudspeaker(this.context)]);
     }
 
     // Throws nothing: the program that calls it would lose its place.
@@ -200,7 +201,8 @@ export class Voice {
             await this.begin();
             const make_encoder = await find_encoders();
             this.stream = await navigator.mediaDevices.getUserMedia({
-                audio: { channelCount: 1, echoCancellation: true, noiseSuppression: true, autoGainControl: true } });
+                audio: { channelCount: 1, echoCancellation: true, noiseSuppression: true, autoGainControl: true,
+                         ...wanted_device("microphone") } });
             if (this.microphone !== "asking")  // closed while the browser asked
                 return this.stop_stream();
             this.stream.getAudioTracks()[0].addEventListener("ended", () => this.close_microphone("missing"));

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+// The session as the form shows it before one enters: its people, cameras and picture, by the token in a header.
+import { session_text } from "./session_texts.js";
+import { text, texts } from "./texts.js";
+
+const $ = id => document.getElementById(id);
+const every_ms = 2000, patience_ms = 3000;
+const most_named = 12;  // people or cameras; a host may have very many
+
+export class Lobby {
+    timer = null;
+    is_watching = false;
+    turn = 0;  // an answer of an older one is late
+
+    constructor(token) {
+        this.token = token;
+    }
+
+    watch() {
+        if (this.is_watching)
+            return;
+        this.is_watching = true;
+        this.ask(++this.turn);
+    }
+
+    end() {
+        this.is_watching = false;
+        clearTimeout(this.timer);
+    }
+
+    fetch(path) {
+        return fetch(path, { headers: { Authorization: `Bearer ${this.token}` }, cache: "no-store", credentials: "omit",
+                             signal: AbortSignal.timeout?.(patience_ms) });
+    }
+
+    async ask(turn) {
+        let again = true;
+        try {
+            if (!document.hidden)
+                again = await this.show();
+        } catch {
+            // A host that is away now may be back the next time; entering says what is wrong.
+        }
+        if (turn !== this.turn)
+            return;
+        if (this.is_watching && again)
+            this.timer = setTimeout(() => this.ask(turn), every_ms);
+        else
+            this.is_watching = false;
+    }
+
+    // False: this link shows nothing, and will not.
+    async show() {
+        const answer = await this.fetch("/lobby");
+        if (answer.status === 401) {
+            this.tell([text("lobby_unknown")]);
+            return false;
+        }
+        if (!answer.ok)
+            return true;
+        const lobby = await answer.json();
+        const session = lobby?.sessions?.[0];
+        if (!session || !this.is_watching)
+            return true;
+        $("session_name").textContent = String(session.name ?? "");
+        this.tell(lines_of(session, lobby.role));
+        await this.show_picture(session);
+        return !session.ended;
+    }
+
+    tell(lines) {
+        $("session").hidden = false;
+        const shown = [...$("session_lines").children].map(line => line.textContent);
+        if (JSON.stringify(shown) === JSON.stringify(lines))
+            return;  // a screen reader would read them again
+        $("session_lines").replaceChildren(...lines.map(line => {
+            const item = document.createElement("li");
+            item.textContent = line;
+            return item;
+        }));
+    }
+
+    async show_picture({ thumbnail, cameras }) {
+        const canvas = $("session_picture");
+        canvas.hidden ||= !thumbnail || !cameras?.length;
+        // The address is the host's; only its own picture is asked for.
+        if (!cameras?.length || !/^\/thumbnail(\?session=\d+)?$/.test(thumbnail ?? ""))
+            return;
+        const answer = await this.fetch(thumbnail);
+        if (answer.status !== 200)
+            return void (canvas.hidden = true);
+        const picture = await createImageBitmap(await answer.blob());
+        Object.assign(canvas, { width: picture.width, height: picture.height });
+        canvas.getContext("2d").drawImage(picture, 0, 0);
+        picture.close();
+        canvas.hidden = false;
+    }
+}
+
+// The host's answer in sentences.
+function lines_of({ ended, held_back, asks, people, cameras, people_count }, role) {
+    if (ended)
+        return [text("lobby_ended")];
+    const lines = [];
+    if (role === "observer")
+        lines.push(text("lobby_observer"));
+    if (people)
+        lines.push(people.length ? text("lobby_people", { names: named(people, ({ name, role }) => `${name} (${session_text(role)})`) })
+                                 : text("lobby_nobody"));
+    else if (Number.isInteger(people_count))
+        lines.push(text("lobby_count", { count: people_count }));
+    if (cameras)
+        lines.push(cameras.length ? text("lobby_cameras", { names: named(cameras, ({ name, state }) => `${name} (${texts.states[state] ?? state})`) })
+                                  : text("lobby_no_cameras"));
+    lines.push(text(held_back ? "lobby_held_back" : asks ? "lobby_asks" : "lobby_open"));
+    return lines;
+}
+
+function named(all, line_of) {
+    const lines = all.slice(0, most_named).map(line_of);
+    if (all.length > most_named)
+        lines.push(text("and_more", { count: all.length - most_named }));
+    return lines.join(", ");
+}

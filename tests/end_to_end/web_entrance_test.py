@@ -1,0 +1,203 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The form of the page before a session: the session itself, a check of the devices, and what is remembered of a person."""
+import contextlib
+import os
+import pathlib
+import tempfile
+import unittest
+
+from browser import CHROMIUM, Browser
+from theatron_process import PROGRAM, Process, host
+
+PAGE = pathlib.Path(PROGRAM).parent / "web/files.txt"
+PICTURES = os.environ.get("THEATRON_PICTURES")  # a folder where pictures of the page stay
+CAMERA = "synthetic:seconds=2,fps=5,quality=quick,loop=1"
+SIZE = (800, 900)
+FAKE = ("--use-fake-device-for-media-stream", "--use-fake-ui-for-media-stream")
+
+# Counts the tracks of devices that were opened and not stopped.
+COUNT_TRACKS = """globalThis.open_tracks = new Set();
+const before = MediaDevices.prototype.getUserMedia;
+MediaDevices.prototype.getUserMedia = async function (wish) {
+    (globalThis.wishes ??= []).push(JSON.stringify(wish));
+    const stream = await before.call(this, wish);
+    for (const track of stream.getTracks()) {
+        open_tracks.add(track);
+        const stop = track.stop;
+        track.stop = function () { open_tracks.delete(track); stop.call(track); };
+    }
+    return stream;
+};"""
+NUMBERS = "Object.keys(localStorage).filter(key => key.startsWith('person'))"
+
+
+@unittest.skipUnless(CHROMIUM, "chromium is not installed: apt-get install chromium")
+@unittest.skipUnless(PAGE.exists(), "there is no browser client: make build")
+class WebEntrance(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.stack = contextlib.ExitStack()
+        cls.folder = pathlib.Path(cls.stack.enter_context(tempfile.TemporaryDirectory()))
+        cls.host = cls.stack.enter_context(host(cls.folder / "host", CAMERA, options=("--admit", "ask")))
+        cls.links = cls.host.greeting["links"]
+        cls.browser = cls.stack.enter_context(Browser(*FAKE))
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.stack.close()
+
+    def open(self, role="operator", script=None):
+        page = self.browser.open("about:blank", SIZE)
+        if script:
+            page.call("Page.addScriptToEvaluateOnNewDocument", source=script)
+        page.call("Page.navigate", url=self.links[role])
+        page.wait_for("document.readyState === 'complete' && !document.getElementById('enter')?.disabled")
+        return page
+
+    def enter(self, page, name="Ada", remembers=False):
+        page.evaluate(f"document.getElementById('remember').checked = {str(remembers).lower()}")
+        page.enter(name, way="room")
+        page.wait_for("theatron.state.phase !== 'left' && theatron.state.phase !== 'connecting'")
+
+    def leave(self, page):
+        page.evaluate("document.getElementById('leave').click()")
+        page.wait_for("theatron.state.phase === 'left'")
+
+    def test_the_form_shows_people_cameras_and_picture_by_a_token_in_no_address(self):
+        with Process("join", self.links["operator"], "--name", "Ben", "--every", "0.5") as ben:
+            ben.wait_for(lambda f: f["fps"] > 0, 20)
+            page = self.open()
+            page.wait_for("document.getElementById('session_lines').innerText.includes('Ben (operator)')")
+            self.assertIn("Cameras: or0 (live)", page.evaluate("document.getElementById('session_lines').innerText"))
+            page.wait_for("!document.getElementById('session_picture').hidden && document.getElementById('session_picture').width > 60")
+            if PICTURES:
+                page.screenshot(pathlib.Path(PICTURES) / "entrance.png")
+            with self.subTest("whom one has to ask shows neither names nor cameras"):
+                other = self.open("expert")
+                other.wait_for("document.getElementById('session_lines').innerText.includes('knocked')")
+                self.assertNotIn("Ben", other.evaluate("document.getElementById('session').innerText"))
+                self.assertTrue(other.evaluate("document.getElementById('session_picture').hidden"))
+            token = self.links["operator"].split("join=")[1].split("&")[0]
+            self.assertTrue([url for url in page.requests if url.endswith("/lobby")])
+            self.assertEqual([url for url in page.requests if token in url.split("#")[0]], [])
+            with self.subTest("in the room nobody asks any more"):
+                self.enter(page)
+                page.wait_for("theatron.state.phase === 'joined'")
+                self.assertFalse(page.evaluate("theatron.lobby.is_watching"))
+                asked = len([url for url in page.requests if url.endswith("/lobby")])
+                page.evaluate("new Promise(done => setTimeout(done, 4500))")
+                self.assertLessEqual(len([url for url in page.requests if url.endswith("/lobby")]), asked + 1)
+                self.leave(page)
+                page.wait_for("theatron.lobby.is_watching")
+            self.assertEqual(page.problems, [])
+
+    def test_devices_are_tried_only_when_asked_are_remembered_and_closed(self):
+        page = self.open(script=COUNT_TRACKS)
+        self.assertIsNone(page.evaluate("globalThis.wishes ?? null"))
+        page.evaluate("document.querySelector('#devices summary').click()")
+        page.wait_for("document.getElementById('microphone_choice').options.length > 0")
+        self.assertIsNone(page.evaluate("globalThis.wishes ?? null"))
+        page.evaluate("document.getElementById('test_microphone').click()")
+        page.wait_for("document.getElementById('level').value > 0")
+        page.evaluate("document.getElementById('test_webcam').click()")
+        page.wait_for("document.getElementById('preview').videoWidth > 0")
+        page.wait_for("document.getElementById('webcam_choice').options.length > 1")
+        page.evaluate("document.getElementById('test_tone').click()")
+        page.wait_for("document.getElementById('device_hint').textContent.includes('hear a tone')")
+        self.assertEqual(page.evaluate("open_tracks.size"), 2)
+        if PICTURES:
+            page.evaluate("document.getElementById('devices').scrollIntoView()")
+            page.screenshot(pathlib.Path(PICTURES) / "devices.png")
+        page.evaluate("(s => { s.selectedIndex = s.options.length - 1; s.dispatchEvent(new Event('change')); })"
+                      "(document.getElementById('microphone_choice'))")
+        chosen = page.evaluate("document.getElementById('microphone_choice').value")
+        self.assertTrue(chosen)
+        page.wait_for(f"wishes.at(-1).includes('{chosen}')")
+        page.wait_for("open_tracks.size === 2")
+        with self.subTest("entering without them closes all"):
+            self.enter(page)
+            page.wait_for("theatron.state.phase === 'joined'")
+            self.assertEqual(page.evaluate("open_tracks.size"), 0)
+        with self.subTest("the choice holds in the room"):
+            page.evaluate("document.getElementById('microphone').click()")
+            page.wait_for("theatron.voice.microphone === 'open'")
+            self.assertIn(chosen, page.evaluate("wishes.at(-1)"))
+            self.leave(page)
+            page.wait_for("open_tracks.size === 0")
+        with self.subTest("and the next time"):
+            page = self.open()
+            page.evaluate("document.querySelector('#devices summary').click()")
+            page.wait_for(f"document.getElementById('microphone_choice').value === '{chosen}'")
+
+    def test_another_user_of_the_browser_is_another_person_unless_it_remembers(self):
+        page = self.open()
+        page.evaluate("localStorage.setItem('person', 'f'.repeat(32)); localStorage.setItem('name', 'Eve')")
+        page = self.open()
+        self.assertEqual(page.evaluate("document.getElementById('name').value"), "", "of an older page")
+        self.assertEqual(page.evaluate(NUMBERS), [])
+        self.enter(page)
+        first = page.evaluate("theatron.person.id")
+        self.leave(page)
+        page.reload()
+        page.wait_for("globalThis.theatron?.person?.number")
+        self.assertEqual(page.evaluate("theatron.person.id"), first, "the same tab")
+        page = self.open()
+        self.assertNotEqual(page.evaluate("theatron.person.id"), first)
+        self.assertEqual(page.evaluate("document.getElementById('name').value"), "")
+        with self.subTest("remembered"):
+            self.enter(page, "Bea", remembers=True)
+            second = page.evaluate("theatron.person.id")
+            self.leave(page)
+            again = self.open()
+            self.assertEqual(again.evaluate("theatron.person.id"), second)
+            self.assertEqual(again.evaluate("document.getElementById('name').value"), "Bea")
+            self.assertNotEqual(self.open("observer").evaluate("theatron.person.id"), second, "another link")
+        with self.subTest("no longer"):
+            self.enter(again, "Bea")
+            self.leave(again)
+            self.assertEqual(again.evaluate(NUMBERS), [])
+            self.assertNotEqual(self.open().evaluate("theatron.person.id"), second)
+
+    def test_the_fingerprint_is_no_proof_and_the_page_says_so(self):
+        page = self.open()
+        text = page.evaluate("document.getElementById('certificate').textContent")
+        self.assertIn("cannot check", text)
+        self.assertIn("as you received it", text)
+
+    def test_the_panel_picture_chooses_by_name_and_shows_what_the_host_sets(self):
+        page = self.open()
+        self.enter(page)
+        page.wait_for("theatron.state.has_picture")
+        page.evaluate("document.getElementById('show_picture').click()")
+        choose = "((id, value) => { const s = document.getElementById(id); s.value = value; s.dispatchEvent(new Event('change')); })"
+        number = page.evaluate("theatron.state.people.find(person => person.self).id")
+        for id, value, came in (("renderer_choice", "disc", "theatron.state.renderer === 'disc'"),
+                                ("depth_choice", "rvl", "theatron.state.cameras[0].depth === 'rvl'"),
+                                ("color_choice", "raw", "theatron.state.cameras[0].color === 'raw'"),
+                                ("scale_choice", "0.5", "theatron.state.scale === 0.5")):
+            page.evaluate(f"{choose}('{id}', '{value}')")
+            page.wait_for(came)
+            page.wait_for(f"document.getElementById('{id}').value === '{value}'")
+        page.evaluate(f"{choose}('color_choice', 'auto')")
+        page.wait_for("theatron.state.cameras[0].color.startsWith('jpeg') && document.getElementById('color_choice').value === 'auto'")
+        if PICTURES:
+            page.screenshot(pathlib.Path(PICTURES) / "picture_panel.png")
+        self.host.say(f"renderer {number} mesh lock")
+        page.wait_for("document.getElementById('renderer_choice').disabled && document.getElementById('renderer_choice').value === 'mesh'")
+        self.assertIn("host has set mesh", page.evaluate("document.getElementById('renderer_now').textContent"))
+        self.host.say(f"renderer {number} free")
+        page.wait_for("!document.getElementById('renderer_choice').disabled")
+        self.assertEqual(page.problems, [])
+        with self.subTest("full screen, and what is said where the browser refuses it"):
+            click = "document.getElementById('full_screen').click()"
+            page.evaluate(click)  # no gesture of a person
+            page.wait_for("document.getElementById('screen_hint').textContent.includes('full screen')")
+            for name in ("Leave full screen", "Full screen"):
+                page.call("Runtime.evaluate", expression=click, userGesture=True)
+                page.wait_for(f"document.getElementById('full_screen').textContent === '{name}'")
+            self.assertEqual(page.evaluate("document.getElementById('screen_hint').textContent"), "")
+        self.leave(page)
+
+
+if __name__ == "__main__":
+    unittest.main()
