@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "phrases/phrase.h"
 #include "session/permissions.h"
 #include "video/color_codec.h"
 #include "video/depth_codecs.h"
@@ -103,17 +104,17 @@ void Viewer::on_key(const xr::KeyPress& key, Size picture, TimePoint now) {
             break;
         case xr::Action::next_depth_codec:
             choose_depth_codec();
-            note("Depth codec: " + options_.depth_codec +
-                     (video::make_depth_codec(
-                          video::parse_depth_setting(options_.depth_codec).setting)
-                              ->lossless()
-                          ? ", lossless"
-                          : ", LOSSY: depth is no longer what the camera measured"),
+            note(say(video::make_depth_codec(
+                         video::parse_depth_setting(options_.depth_codec).setting)
+                             ->lossless()
+                         ? Phrase::depth_codec_lossless
+                         : Phrase::depth_codec_lossy,
+                     options_.depth_codec),
                  now);
             break;
         case xr::Action::next_color_codec:
             choose_color_codec(next_name(video::color_codec_names(), options_.color_codec));
-            note("Colour codec: " + options_.color_codec, now);
+            note(say(Phrase::color_codec_is, options_.color_codec), now);
             break;
         case xr::Action::people:
             shows_panels_ = !shows_panels_;
@@ -129,7 +130,7 @@ void Viewer::on_key(const xr::KeyPress& key, Size picture, TimePoint now) {
             break;
         case xr::Action::undo_mark:
             if (!undo_mark(participant_))
-                note("You have made no mark", now);
+                note(say(Phrase::no_own_mark), now);
             break;
         case xr::Action::slice_here:
             break;  // needs the mouse: show_slice_at()
@@ -140,7 +141,7 @@ void Viewer::on_key(const xr::KeyPress& key, Size picture, TimePoint now) {
             stop_following();
             scene_changed_ = true;
             { eye_.go_to(at_eye_height(eye_.view(picture).room_from_eye)); }
-            note(sits_ ? "Sitting" : "Standing", now);
+            note(say(sits_ ? Phrase::sitting : Phrase::standing), now);
             break;
         case xr::Action::own_view:
         case xr::Action::view_camera:
@@ -176,7 +177,7 @@ void Viewer::on_key(const xr::KeyPress& key, Size picture, TimePoint now) {
             if (const auto people = callers(); !people.empty())
                 answer_call(people.front().id, true, now);
             else
-                note("Nobody calls you.", now);
+                note(say(Phrase::nobody_calls), now);
             break;
         case xr::Action::admit:
             decide_on_visitor(wire::ManageAction::admit, now);
@@ -246,7 +247,7 @@ void Viewer::press(int command, TimePoint now) {
     }
     if (const auto* change = std::get_if<ChangeCase>(&chosen)) {
         if (!change->change(participant_))
-            note("This is not in the room any more", now);
+            note(say(Phrase::not_in_room_any_more), now);
         return;
     }
     if (const auto* step = std::get_if<AdjustStep>(&chosen)) {
@@ -265,7 +266,7 @@ void Viewer::press(int command, TimePoint now) {
         return play(*step, now);
     if (const auto* screen = std::get_if<ChangeScreen>(&chosen)) {
         if (!change_screen(*screen, participant_))
-            note("This is not in the room any more", now);
+            note(say(Phrase::not_in_room_any_more), now);
         return;
     }
     if (const auto* moment = std::get_if<LookBackTo>(&chosen))
@@ -274,7 +275,7 @@ void Viewer::press(int command, TimePoint now) {
         return marking_.choose(tool->tool, scene_.meeting());
     if (const auto* change = std::get_if<ChangeMarks>(&chosen)) {
         if (!change->change(participant_))
-            note("There is no such mark", now);
+            note(say(Phrase::no_such_mark), now);
         return;
     }
     if (const auto* offer = std::get_if<OpenOffered>(&chosen))
@@ -298,9 +299,9 @@ void Viewer::press(int command, TimePoint now) {
     const ParticipantId id = std::get<LookThrough>(chosen).person;
     const room::RoomPerson* person = scene_.meeting().person(id);
     if (!person)
-        return note("This person has left", now);
+        return note(say(Phrase::person_has_left), now);
     followed_ = id;
-    note("You see through the eyes of " + person->name + "; move to leave", now);
+    note(say(Phrase::through_eyes_of, person->name), now);
 }
 
 void Viewer::stop_following() {
@@ -311,11 +312,11 @@ void Viewer::stop_following() {
 void Viewer::decide_on_visitor(wire::ManageAction action, TimePoint now) {
     const auto visitors = participant_.visitors();
     if (visitors.empty())
-        return note("Nobody waits to be let in.", now);
+        return note(say(Phrase::nobody_waits), now);
     const wire::Visitor& first = visitors.front();
     participant_.manage(action, first.participant);
-    note((action == wire::ManageAction::admit ? "You have let in " : "You have not let in ") +
-             first.name + ".",
+    note(say(action == wire::ManageAction::admit ? Phrase::you_let_in : Phrase::you_turned_away,
+             first.name),
          now);
 }
 
@@ -331,11 +332,13 @@ void Viewer::choose_color_codec(const std::string& codec) {
 
 void Viewer::choose_next_renderer(TimePoint now) {
     if (!choice_.choose(next_name(renderer_choices(), choice_.renderer())))
-        return note("The host has set this way of drawing: " + choice_.renderer(), now);
+        return note(say(Phrase::host_has_set_this, choice_.renderer()), now);
     options_.renderer = choice_.renderer();
     choose_pace();
     const bool as_drawn = choice_.renderer() == way().renderer;
-    note("Drawing: " + choice_.renderer() + (as_drawn ? "" : ", now " + way().renderer), now);
+    note(say(as_drawn ? Phrase::drawing_is_now : Phrase::drawing_is_really, choice_.renderer(),
+             way().renderer),
+         now);
 }
 
 void Viewer::follow_host(TimePoint now) {
@@ -346,9 +349,8 @@ void Viewer::follow_host(TimePoint now) {
     if (const std::string problem = viewer::follow_host(choice_, *command); !problem.empty())
         return note(problem, now);
     if (choice_.renderer() != before.renderer() || choice_.locked() != before.locked())
-        note(choice_.locked() || !before.locked()
-                 ? "The host has set the way of drawing: " + choice_.renderer()
-                 : "The way of drawing is yours again.",
+        note(choice_.locked() || !before.locked() ? say(Phrase::host_has_set, choice_.renderer())
+                                                  : say(Phrase::drawing_is_yours),
              now);
     choose_pace();
 }
@@ -432,12 +434,12 @@ void Viewer::send_own_pose(Size picture, TimePoint now) {
 }
 
 std::string Viewer::camera_text(CameraId camera) const {
-    std::string text = "camera " + std::to_string(int(camera));
+    const std::string number = std::to_string(int(camera));
     std::uint64_t generation = 0;
     for (const auto& known : participant_.cameras(generation))
         if (known.description.id == camera)
-            text += ": " + known.description.name;
-    return text;
+            return say(Phrase::camera_number_named, number, known.description.name);
+    return say(Phrase::camera_number, number);
 }
 
 void Viewer::draw(Size picture, const render::DrawTarget& target, TimePoint now) {

@@ -8,9 +8,8 @@ import { Headset, headset_kinds } from "./headset.js";
 import { listen } from "./input.js";
 import { face_problem, fill_texts, show, show_face, show_voices } from "./panels.js";
 import { put_bytes, with_patience, with_program } from "./program.js";
-import { session_text } from "./session_texts.js";
 import { store, stored } from "./storage.js";
-import { language, text } from "./texts.js";
+import { language, text, texts } from "./texts.js";
 import { offer_h264 } from "./video_decoder.js";
 import { Voice } from "./voice.js";
 
@@ -68,6 +67,7 @@ async function load_client() {
         leave_headset: [null, []],
         headset_scale: ["number", []],
         recentre: [null, []],
+        use_language: [null, ["string"]],
         headset_wish: ["number", numbers(1)],
         reset_figures: [null, []],
         speak: [null, [...numbers(4), "array", "number"]],
@@ -79,6 +79,7 @@ async function load_client() {
     };
     const client = Object.fromEntries(Object.entries(functions).map(([name, [result, inputs]]) =>
         [name, module.cwrap(`theatron_${name}`, result, inputs)]));
+    client.use_language(language);
     const voice = new Voice((number, age_us, pauses, level_db, opus) =>
         client.speak(number, age_us, pauses, level_db, opus, opus.length), () => show_voices(voice, page.state));
     module.on_voice = (speaker, packet) => voice.hear(speaker, packet);
@@ -392,7 +393,7 @@ function leave(voice, face, problem) {
     $("view").hidden = $("flat").hidden = $("panels").hidden = true;
     $("lobby").hidden = false;
     if (problem)
-        $("problem").textContent = session_text(problem);
+        $("problem").textContent = problem;
     $("name").focus();
 }
 
@@ -402,8 +403,8 @@ async function main() {
     $("problem").textContent = "";
     // Anybody can write into a link; only roles are shown.
     const role = link.get("role");
-    $("invitation").textContent = ["operator", "expert", "observer", "publisher"].includes(role)
-        ? text("invited_as", { host: location.host, role: session_text(role) })
+    $("invitation").textContent = Object.hasOwn(texts.roles, role)
+        ? text("invited_as", { host: location.host, role: texts.roles[role] })
         : text("invited", { host: location.host });
     $("name").value = stored("name") ?? "";
     if (/^[0-9a-f]{64}$/.test(link.get("cert") ?? "")) {
