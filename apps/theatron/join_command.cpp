@@ -34,6 +34,7 @@
 #include "mark_lines.h"
 #include "participant_json.h"
 #include "people_lines.h"
+#include "phrases/language.h"
 #include "playback_lines.h"
 #include "published_cameras.h"
 #include "room_lines.h"
@@ -194,6 +195,7 @@ void run(const JoinFlags& flags) {
     if (flags.list_devices)
         return list_devices(flags.json);
     refuse_unused(flags);
+    set_language(parse_language(flags.language).value_or(Language::english));
     if (flags.window() && !flags.or_screen)
         return join_in_window(flags);
     if (flags.link.empty())
@@ -348,6 +350,11 @@ void add_join_command(CLI::App& app) {
                         "left out: a form asks for it");
     command->add_option("--name", flags->name, "Your name, shown to the others")
         ->default_str("that of your last window, else guest");
+    command
+        ->add_option("--language", flags->language,
+                     "Language of the texts in the window, and of news: en, or de for German")
+        ->check(CLI::IsMember({"en", "de"}))
+        ->capture_default_str();
     command->add_option("--depth-codec", flags->depth_codec, "How the host sends depth to you")
         ->capture_default_str();
     command->add_option("--color-codec", flags->color_codec, "How the host sends colour to you")

@@ -33,6 +33,7 @@ struct JoinFlags {
     std::optional<std::string> quality;  // if given, else auto, in a window that of the last one
     std::vector<std::string> people, myself;
     std::vector<std::string> cameras, shared;  // that are sent
+    std::string language = "en";               // of texts for the person
     bool stereo = false;
     double seconds = 0;
     double warmup = 0;

@@ -10,6 +10,7 @@
 #include "cli/stop_signal.h"
 #include "files/png_file.h"
 #include "link_argument.h"
+#include "phrases/phrase.h"
 #include "render/render_target.h"
 
 namespace theatron::app {
@@ -71,8 +72,8 @@ public:
     void show_problem(const std::string& problem) {
         or_screen::Drawing drawing;
         or_screen::Content content;
-        content.message = "Waiting for a link to a session";
-        content.detail = problem + " This screen tries again by itself.";
+        content.message = say(Phrase::screen_waits_for_link);
+        content.detail = say(Phrase::screen_tries_again, problem);
         const TimePoint end = steady_now() + file_again_after;
         while (!is_over() && steady_now() < end) {
             const TimePoint now = wait_until(steady_now() + step_interval);

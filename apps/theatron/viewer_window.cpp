@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer_window.h"
+#include "phrases/phrase.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -67,14 +68,14 @@ private:
 std::string save_seen(xr::Action action, viewer::Viewer& viewer, Size pixels,
                       const std::filesystem::path& folder, TimePoint now) {
     if (viewer.first_picture_at() == TimePoint{})
-        return "There is no picture yet";
+        return say(Phrase::no_picture_yet);
     const viewer::ShownMoment moment = viewer.shown_moment(now);
     const std::string when = name_part(moment);
     if (action == xr::Action::save_picture)
         return save_view(folder, when, ".png", files::encode_png(viewer.picture(pixels).view()));
     const std::vector<ColoredPoint> points = viewer.points();
     if (points.empty())
-        return "No camera of the room has sent points";
+        return say(Phrase::no_points_yet);
     const std::string comments[] = {points_in_room, moment_text(moment, utc_now())};
     return save_view(folder, when, ".ply", encode_ply(points, comments));
 }
@@ -95,14 +96,13 @@ std::string change_voice_recording(client::Participant& participant, ViewerWindo
     if (options.keep)
         options.keep(options.settings);
     if (agrees && !participant.asks_voice_consent())
-        return "Your voice is not recorded: this host is too old to ask you";
-    return agrees ? "Your voice may be recorded" : "Your voice is not recorded";
+        return say(Phrase::host_asks_no_consent);
+    return say(agrees ? Phrase::voice_may_record : Phrase::voice_may_not_record);
 }
 
-const char* change_face(publish::OwnFace& face, bool shown) {
+std::string change_face(publish::OwnFace& face, bool shown) {
     face.show(shown);
-    return shown ? "Your webcam is being opened; the others will see you"
-                 : "Your webcam is off; nobody sees you";
+    return say(shown ? Phrase::webcam_is_opening : Phrase::webcam_is_off);
 }
 
 viewer::OwnFace own_face(const publish::OwnFace& face) {
@@ -270,7 +270,7 @@ WindowEnd show(xr::DesktopWindow& window, ViewerWindow options) {
                 viewer.note(save_seen(key.action, viewer, window.pixels(), options.save_to, now),
                             now);
             else if (leave)
-                viewer.note("Press Esc again to leave the session", now);
+                viewer.note(say(Phrase::esc_again), now);
         }
         if (left) {
             end = WindowEnd::left;

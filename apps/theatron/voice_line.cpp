@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "voice_line.h"
+#include "phrases/phrase.h"
 
 #include <sstream>
 #include <utility>
@@ -14,9 +15,6 @@ namespace {
 
 // A frame of this level counts as speech.
 constexpr int speech_db = -50;
-
-constexpr const char* without_microphone =
-    "You have no microphone here: join with --microphone default";
 
 double to_ms_of(std::uint64_t samples) {
     return double(samples) * 1000 / voice::sample_rate;
@@ -206,7 +204,7 @@ bool VoiceLine::obey(const std::string& line) {
     if (what != "microphone" || (value != "on" && value != "off" && value != "push"))
         return false;
     if (!has_microphone())
-        log::say(without_microphone);
+        log::say(theatron::say(Phrase::no_microphone_here));
     const std::lock_guard lock(talker_mutex_);
     is_open_ = value != "off";
     if (is_open_)
@@ -234,8 +232,7 @@ std::string VoiceLine::toggle_push_to_talk() {
     const std::lock_guard lock(talker_mutex_);
     is_pushed_ = !is_pushed_;
     apply();
-    return is_pushed_ ? "Push to talk: hold Enter to speak"
-                      : "Open microphone: the others hear you";
+    return say(is_pushed_ ? Phrase::push_to_talk : Phrase::open_microphone);
 }
 
 bool VoiceLine::pushes_to_talk() const {
@@ -245,13 +242,13 @@ bool VoiceLine::pushes_to_talk() const {
 
 std::string VoiceLine::toggle_microphone() {
     if (!has_microphone())
-        return without_microphone;
+        return say(Phrase::no_microphone_here);
     const std::lock_guard lock(talker_mutex_);
     is_open_ = !is_open_;
     apply();
-    return !is_open_    ? "Microphone closed: nobody hears you"
-           : is_pushed_ ? "Push to talk: hold Enter to speak"
-                        : "Microphone open";
+    return say(!is_open_    ? Phrase::microphone_is_closed
+               : is_pushed_ ? Phrase::push_to_talk
+                            : Phrase::microphone_is_open);
 }
 
 void VoiceLine::note(const wire::Standing& standing) {

@@ -14,6 +14,7 @@
 #include "base/steady_clock.h"
 #include "page_input.h"
 #include "page_state.h"
+#include "phrases/language.h"
 #include "render/font_atlas_web.h"
 #include "visit.h"
 
@@ -21,6 +22,16 @@ using namespace theatron;
 using theatron::web::page;
 
 extern "C" {
+
+// The language of all that follows, as the browser names it: "de-AT".
+EMSCRIPTEN_KEEPALIVE void theatron_use_language(const char* language) {
+    set_language(parse_language(language).value_or(Language::english));
+}
+
+// From now on the person has no keyboard: no sentence names keys.
+EMSCRIPTEN_KEEPALIVE void theatron_use_touch() {
+    set_by_touch(true);
+}
 
 // `port` of the page; `token` as in the link; `person` in hex digits; `depth` as ask_for_depth()
 // and `color` as PageColor takes it; `scale` as Visit does. `can_h264`: this page or its workers

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "phrases/phrase.h"
 #include "video/color_codec.h"
 
 namespace theatron::web {
@@ -42,7 +43,7 @@ PageColor::PageColor(const std::string& wish, bool can_h264)
     if (parsed.problem.empty())
         choose(parsed.setting.text);
     else
-        reason_ = "JPEG: " + parsed.problem;
+        reason_ = say(Phrase::jpeg_because, parsed.problem);
 }
 
 const std::string& PageColor::codec() const {
@@ -61,11 +62,11 @@ void PageColor::choose(const std::string& codec) {
     }
     if (is_h264(codec) && !can_h264_) {
         chosen_.clear();
-        reason_ = "JPEG: this browser does not decode H.264";
+        reason_ = say(Phrase::jpeg_without_h264);
         return;
     }
     chosen_ = codec;
-    reason_ = codec + ", as you chose";
+    reason_ = say(Phrase::codec_as_chosen, codec);
     failures_ = {};
 }
 
@@ -80,14 +81,14 @@ bool PageColor::observe(const client::ParticipantFigures& figures, TimePoint now
     if (!is_h264(chosen_) || !failures_.are_too_many(measure.lost, now))
         return false;
     choose(video::ColorSetting().text);
-    reason_ = "JPEG: the browser's decoder failed with H.264";
+    reason_ = say(Phrase::jpeg_because, say(Phrase::h264_failed));
     return true;
 }
 
 void PageColor::add_to(nlohmann::json& state) const {
     state["color"] = {{"asked", codec()}, {"is_chosen", !chosen_.empty()}, {"reason", reason()}};
     state["overlay"]["facts"].push_back(
-        {{"label", "Choice of colour"}, {"value", reason()}, {"warning", false}});
+        {{"label", say(Phrase::choice_of_color)}, {"value", reason()}, {"warning", false}});
 }
 
 }  // namespace theatron::web

@@ -2,6 +2,7 @@
 #include "page_state.h"
 
 #include "client/decoder_pool_web.h"
+#include "phrases/phrase.h"
 #include "session/permissions.h"
 #include "session/room_bytes.h"
 #include "wire/condition_text.h"
@@ -10,6 +11,10 @@ namespace theatron::web {
 namespace {
 
 using nlohmann::json;
+
+std::string filter_name(const std::string& filter) {
+    return filter.empty() ? say(Phrase::none) : filter == "default" ? say(Phrase::usual) : filter;
+}
 
 json to_json(const xr::OverlayContent& overlay) {
     json facts = json::array(), panels = json::array();
@@ -103,11 +108,11 @@ json page_state(const viewer::Viewer& viewer, const viewer::Facts& facts,
 
 json state_of(const viewer::Facts& facts, const client::Participant& participant,
               const std::string& address) {
-    auto overlay =
-        viewer::overlay_of(facts, address, [](const std::string& filter) { return filter; });
+    auto overlay = viewer::overlay_of(facts, address, filter_name);
     const unsigned decoders = client::decoder_pool().count;
     overlay.facts.push_back(
-        {"Decoding", decoders > 0 ? std::to_string(decoders) + " workers" : "in the page"});
+        {say(Phrase::decoding),
+         decoders > 0 ? say(Phrase::workers, std::to_string(decoders)) : say(Phrase::in_the_page)});
     json cameras = json::array();
     for (const client::CameraFigures& camera : facts.received.cameras)
         cameras.push_back(camera_json(camera));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "visit.h"
+#include "phrases/phrase.h"
 
 #include <GLES3/gl3.h>
 #include <emscripten/emscripten.h>
@@ -97,7 +98,7 @@ void open_context() {
     attributes.powerPreference = EM_WEBGL_POWER_PREFERENCE_HIGH_PERFORMANCE;
     const auto context = emscripten_webgl_create_context("#view", &attributes);
     if (context <= 0 || emscripten_webgl_make_context_current(context) != EMSCRIPTEN_RESULT_SUCCESS)
-        throw Error("This browser has no WebGL 2; use a newer one, or theatron join.");
+        throw Error(say(Phrase::no_webgl));
     theatron_reuse_gl_names();
     page().context = context;
 }

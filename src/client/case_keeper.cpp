@@ -8,6 +8,7 @@
 #include "base/thread_name.h"
 #include "medical/picture.h"
 #include "net/content_digest.h"
+#include "phrases/phrase.h"
 #include "session/case_objects.h"
 
 namespace theatron::client {
@@ -18,14 +19,12 @@ using Failure = session::ContentFetch::Failure;
 std::string text_of(Failure failure, bool is_recorded) {
     switch (failure) {
         case Failure::not_there:
-            return is_recorded ? "The recording does not hold the case that was open, and the host "
-                                 "does not offer it: a host offers cases with --cases DIR."
-                               : "The host does not offer this case any more.";
+            return say(is_recorded ? Phrase::recorded_case_gone : Phrase::case_gone);
         case Failure::wrong_size:
         case Failure::wrong_bytes:
             break;
     }
-    return "The host sent other content than it announced, which was discarded.";
+    return say(Phrase::case_is_other);
 }
 
 struct FoundCase {
@@ -214,8 +213,7 @@ CaseKeeper::Content CaseKeeper::decode(const Waiting& waiting) {
         case Kind::description: {
             auto about = medical::decode_shared_case(waiting.bytes);
             if (about && about->content_bytes() > max_case_bytes)
-                return "The case is larger than the " + std::to_string(max_case_bytes >> 20) +
-                       " MiB that a participant takes.";
+                return say(Phrase::case_too_large, std::to_string(max_case_bytes >> 20));
             content = decoded(std::move(about));
             break;
         }
@@ -230,9 +228,9 @@ CaseKeeper::Content CaseKeeper::decode(const Waiting& waiting) {
             break;
     }
     if (problem == Status::unsupported_version)
-        return std::string("The case is of a newer version of Theatron than this program.");
+        return say(Phrase::case_too_new);
     if (problem != Status::ok)
-        return std::string("The host sent a part of the case that cannot be read.");
+        return say(Phrase::case_unreadable);
     return content;
 }
 
@@ -252,7 +250,7 @@ void CaseKeeper::decode_next(std::unique_lock<std::mutex>& lock) {
     const Waiting next = std::move(waiting_.front());
     waiting_.pop_front();
     lock.unlock();
-    Content content = std::string("There is not enough memory for the case.");
+    Content content = say(Phrase::case_needs_memory);
     (void)contain("case", [&] { content = decode(next); });
     lock.lock();
     kept_[next.hash] = {std::move(content), next.bytes.size()};

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "phrases/phrase.h"
 #include "video/color_codec.h"
 
 namespace theatron::client {
@@ -14,7 +15,8 @@ std::string whole(double value) {
 }
 
 std::string pictures_per_second(double value) {
-    return whole(value) + (std::lround(value) == 1 ? " picture" : " pictures") + " a second";
+    return say(std::lround(value) == 1 ? Phrase::picture_a_second : Phrase::pictures_a_second,
+               whole(value));
 }
 
 }  // namespace
@@ -31,8 +33,7 @@ bool DecoderFailures::are_too_many(std::uint64_t lost, TimePoint now) {
 ColorPreference::ColorPreference(bool can_h264)
     : can_h264_(can_h264),
       codec_(video::ColorSetting().text),
-      reason_(can_h264 ? "JPEG: nothing is measured yet"
-                       : "JPEG: this browser does not decode H.264") {}
+      reason_(say(can_h264 ? Phrase::jpeg_unmeasured : Phrase::jpeg_without_h264)) {}
 
 bool ColorPreference::observe(const ColorMeasure& measure, TimePoint now) {
     if (!can_h264_)
@@ -47,10 +48,9 @@ bool ColorPreference::observe(const ColorMeasure& measure, TimePoint now) {
         return !asks_h264_;
     }
     if (!has_tried_ && measure.pictures_per_second > 0)
-        reason_ = !measure.is_thinned
-                      ? "JPEG: all pictures come in time"
-                      : "JPEG: only " + pictures_per_second(measure.pictures_per_second) +
-                            " come; H.264 is tried if that lasts";
+        reason_ = measure.is_thinned
+                      ? say(Phrase::jpeg_is_late, pictures_per_second(measure.pictures_per_second))
+                      : say(Phrase::jpeg_in_time);
     if (!measure.is_thinned || !last_whole_)
         last_whole_ = now;
     if (now - *last_whole_ < patience || now < not_before_)
@@ -62,8 +62,7 @@ bool ColorPreference::observe(const ColorMeasure& measure, TimePoint now) {
 void ColorPreference::begin(const ColorMeasure& measure) {
     asks_h264_ = has_tried_ = true;
     codec_ = video::parse_color_setting("h264").setting.text;
-    reason_ = "H.264 is tried: only " + pictures_per_second(measure.pictures_per_second) +
-              " came as JPEG";
+    reason_ = say(Phrase::h264_is_tried, pictures_per_second(measure.pictures_per_second));
     began_.reset();
     is_judged_ = false;
     pictures_before_ = measure.pictures_per_second;
@@ -72,7 +71,7 @@ void ColorPreference::begin(const ColorMeasure& measure) {
 
 void ColorPreference::judge(const ColorMeasure& measure, TimePoint now) {
     if (failures_.are_too_many(measure.lost, now))
-        return end("the browser's decoder failed with H.264", now);
+        return end(say(Phrase::h264_failed), now);
     if (!measure.has_h264) {
         began_.reset();
         return;
@@ -84,8 +83,7 @@ void ColorPreference::judge(const ColorMeasure& measure, TimePoint now) {
     if (measure.decode_ms <= slow_decode_ms)
         last_fast_ = now;
     if (now - last_fast_ >= patience)
-        return end("the browser took " + whole(measure.decode_ms) + " ms for a picture in H.264",
-                   now);
+        return end(say(Phrase::h264_is_slow, whole(measure.decode_ms)), now);
     if (now - *began_ >= longest_pause)
         pause_ = first_pause;
     if (is_judged_ || now - *began_ < trial)
@@ -94,8 +92,8 @@ void ColorPreference::judge(const ColorMeasure& measure, TimePoint now) {
     const std::string pictures = pictures_per_second(measure.pictures_per_second),
                       before = whole(pictures_before_);
     if (measure.pictures_per_second < enough * pictures_before_)
-        return end(pictures + " came as H.264, " + before + " before", now);
-    reason_ = "H.264: " + pictures + ", " + before + " as JPEG";
+        return end(say(Phrase::h264_is_no_better, pictures, before), now);
+    reason_ = say(Phrase::h264_is_used, pictures, before);
 }
 
 void ColorPreference::end(const std::string& why, TimePoint now) {
@@ -103,7 +101,7 @@ void ColorPreference::end(const std::string& why, TimePoint now) {
     codec_ = video::ColorSetting().text;
     not_before_ = now + pause_;
     last_whole_ = now;
-    reason_ = "JPEG: " + why + "; H.264 is tried again after " + whole(to_seconds(pause_)) + " s";
+    reason_ = say(Phrase::jpeg_for_now, why, whole(to_seconds(pause_)));
     pause_ = std::min(2 * pause_, longest_pause);
 }
 

@@ -11,6 +11,7 @@
 #include "client/participant_figures.h"
 #include "client/participant_shared.h"
 #include "wire/envelope.h"
+#include "wire/sentence.h"
 
 namespace theatron::client {
 namespace {
@@ -58,9 +59,7 @@ Participant::Participant(Options options)
     if (options_.keeps_cases)
         cases_ = std::make_unique<CaseKeeper>([this] { announce(); }, [this] { tell_content(); });
     if (session_.begin().size() + 1 > wire::max_first_envelope_size)
-        throw Error("Name, token and codecs together have more than " +
-                    std::to_string(wire::max_first_envelope_size) +
-                    " bytes; choose a shorter name.");
+        throw Error(say(Phrase::long_join, std::to_string(wire::max_first_envelope_size)));
     start();
 }
 
@@ -165,8 +164,8 @@ std::optional<Duration> Participant::end_connection(const net::Client::End& end)
     const bool refused = end.final || !session_.refusal().empty();
     const bool ended = !session_.goodbye().empty();
     const std::string why = refused && !session_.refusal().empty()
-                                ? wire::english(session_.refusal())
-                            : ended ? wire::english(session_.goodbye())
+                                ? wire::sentence(session_.refusal())
+                            : ended ? wire::sentence(session_.goodbye())
                                     : end.why;
     const bool news = shared_->status.problem != why || shared_->status.phase == Phase::joined;
     if (shared_->status.phase == Phase::joined) {
@@ -185,7 +184,7 @@ std::optional<Duration> Participant::end_connection(const net::Client::End& end)
     if (refused || ended)
         return std::nullopt;
     if (news)
-        remark(why + (was_joined_ ? " Reconnecting." : " Trying again."));
+        remark(say(was_joined_ ? Phrase::reconnecting : Phrase::trying_again, why));
     return std::exchange(wait_, std::min(2 * wait_, longest_wait));
 }
 
@@ -268,7 +267,7 @@ void Participant::on_control(ByteView message) {
             break;
         case Change::settings:
             if (!session_.note().empty())
-                remark(wire::english(session_.note()));
+                remark(wire::sentence(session_.note()));
             {
                 const std::lock_guard lock(shared_->mutex);
                 shared_->settings = session_.settings();

@@ -6,6 +6,7 @@
 #include "base/steady_clock.h"
 #include "client/participant_figures.h"
 #include "client/participant_shared.h"
+#include "wire/sentence.h"
 
 namespace theatron::client {
 namespace {
@@ -62,7 +63,7 @@ void Participant::on_welcome() {
     if (!session_.may_publish() && !numbers(Offer::cameras).empty())
         forget_numbers(Offer::cameras);
     for (const wire::Text& problem : session_.left_out())
-        remark(wire::english(problem));
+        remark(wire::sentence(problem));
     ping(steady_now());
     // Not where only messages were lost: the host still has them.
     offered_.clear();
@@ -71,7 +72,7 @@ void Participant::on_welcome() {
             offer_cameras(offer);
     announce();
     if (again)
-        remark("Connected again.");
+        remark(say(Phrase::connected_again));
     if (options_.described)
         options_.described();
 }
@@ -79,7 +80,7 @@ void Participant::on_welcome() {
 void Participant::on_cameras() {
     std::vector<std::string> news;
     for (const wire::Text& problem : session_.left_out())
-        news.push_back(wire::english(problem));
+        news.push_back(wire::sentence(problem));
     decoders_->change_cameras(session_.cameras());
     {
         const std::lock_guard lock(shared_->mutex);
@@ -93,10 +94,10 @@ void Participant::on_cameras() {
         };
         for (const Camera& camera : cameras)
             if (without(shared_->cameras, camera.description.id) && !is_face(camera))
-                news.push_back("Camera " + camera.description.name + " has joined.");
+                news.push_back(say(Phrase::camera_joined, camera.description.name));
         for (const Camera& camera : shared_->cameras)
             if (without(cameras, camera.description.id) && !is_face(camera))
-                news.push_back("Camera " + camera.description.name + " has left.");
+                news.push_back(say(Phrase::camera_left, camera.description.name));
         shared_->cameras = std::move(cameras);
         shared_->settings = session_.settings();
         ++shared_->generation;
@@ -121,7 +122,7 @@ void Participant::on_camera_states() {
             const wire::CameraCondition before =
                 std::exchange(camera.state, found->second).condition;
             using Condition = wire::CameraCondition;
-            const std::string name = "Camera " + camera.description.name;
+            const std::string& name = camera.description.name;
             const std::string problem = problem_text(camera.state, shared_->status.standing.role);
             const bool is_live = camera.state.condition == Condition::live;
             // The problem that it had before its pictures stood still is not told again.
@@ -129,21 +130,21 @@ void Participant::on_camera_states() {
             if (is_live)
                 camera.told_problem = camera.state.problem.code;
             if (is_news && !problem.empty())
-                news.push_back(name + ": " + problem);
+                news.push_back(say(Phrase::camera_problem, name, problem));
             else if (is_news)
-                news.push_back(name + " has no problem any more.");
+                news.push_back(say(Phrase::camera_well, name));
             // Faces come and go; people see it.
             if (camera.state.condition == before ||
                 camera.description.frame == wire::CameraFrame::face)
                 continue;
             if (camera.state.condition == Condition::ended)
-                news.push_back(name + " has ended; its last picture stays.");
+                news.push_back(say(Phrase::camera_ended, name));
             else if (camera.state.condition == Condition::failed)
-                news.push_back(name + " has failed: " + problem);
+                news.push_back(say(Phrase::camera_failed, name, problem));
             else if (camera.state.condition == Condition::stale)
-                news.push_back(name + " stands still. " + problem);
+                news.push_back(say(Phrase::camera_stale, name, problem));
             else
-                news.push_back(name + " is live again.");
+                news.push_back(say(Phrase::camera_live_again, name));
         }
     }
     for (const std::string& text : news)

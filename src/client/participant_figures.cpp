@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "session/permissions.h"
+#include "wire/sentence.h"
 
 namespace theatron::client {
 
@@ -58,14 +59,14 @@ std::uint64_t ParticipantFigures::dropped() const {
 
 std::string problem_text(const wire::CameraState& state, wire::Role reader) {
     return session::may(reader, session::Right::adjust)
-               ? wire::english(state.problem)
-               : wire::english_without_advice(state.problem);
+               ? wire::sentence(state.problem)
+               : wire::sentence_without_advice(state.problem);
 }
 
 std::string adjustment_text(const wire::Camera& camera) {
     const auto adjustment = session::decode_adjustment(camera.adjustment);
     if (!adjustment)
-        return "adjusted in a way that this version of Theatron does not know";
+        return say(Phrase::adjusted_by_newer);
     return *adjustment == session::CameraAdjustment{} ? "" : text_of(*adjustment);
 }
 
@@ -73,9 +74,9 @@ std::string recorded_text(const ParticipantFigures& figures) {
     std::string text;
     for (const auto& [name, lasts] : figures.recordings) {
         const auto seconds = std::max<std::int64_t>(lasts / std::chrono::seconds(1), 0);
-        text += (text.empty() ? "recorded by " : "; ") + name + ", " +
-                (seconds < 120 ? std::to_string(seconds) + " s"
-                               : std::to_string(seconds / 60) + " min");
+        text += say(
+            text.empty() ? Phrase::recorded_by : Phrase::recorded_by_also, name,
+            seconds < 120 ? std::to_string(seconds) + " s" : std::to_string(seconds / 60) + " min");
     }
     return text;
 }

@@ -6,17 +6,13 @@
 
 #include "client/participant_shared.h"
 #include "session/permissions.h"
+#include "wire/sentence.h"
 
 namespace theatron::client {
 namespace {
 
 // Answers that wait to be taken; the oldest is dropped.
 constexpr std::size_t max_waiting_answers = 64;
-
-std::string with_article(wire::Role role) {
-    const std::string text = wire::text_of(role);
-    return (role == wire::Role::publisher ? "a " : "an ") + text;
-}
 
 }  // namespace
 
@@ -28,7 +24,7 @@ void Participant::on_waiting() {
         shared_->status.host_name = session_.waiting().host_name;
     }
     announce();
-    remark("You wait until an operator lets you in.");
+    remark(say(Phrase::you_wait));
 }
 
 void Participant::on_standing() {
@@ -46,9 +42,9 @@ void Participant::on_standing() {
     if (!is_first)
         follow_role(before.role, now.role);
     if (!is_first && now.role != before.role)
-        remark("You are " + with_article(now.role) + " now.");
+        remark(say(Phrase::role_is_now, wire::spoken_with_article(now.role)));
     if (now.muted != before.muted && (now.muted || !is_first))
-        remark(now.muted ? "You are muted; nobody hears you." : "You are no longer muted.");
+        remark(say(now.muted ? Phrase::you_are_muted : Phrase::no_longer_muted));
 }
 
 // The host withdraws the face of a person whose new role does not show one.
@@ -73,9 +69,8 @@ void Participant::on_visitors() {
     announce();
     for (const wire::Visitor& visitor : session_.visitors())
         if (std::find(before.begin(), before.end(), visitor) == before.end())
-            remark(visitor.name + " asks to come in as " + with_article(visitor.role) +
-                   ". Say 'admit " + visitor.name + "' or 'refuse " + visitor.name +
-                   "'; in the window press Y or U.");
+            remark(say(Phrase::asks_to_come_in, visitor.name,
+                       wire::spoken_with_article(visitor.role)));
 }
 
 void Participant::on_managed() {

@@ -5,6 +5,7 @@
 #include "base/outside_text.h"
 #include "base/steady_clock.h"
 #include "client/participant_shared.h"
+#include "wire/sentence.h"
 
 namespace theatron::client {
 namespace {
@@ -66,7 +67,7 @@ void Participant::forget_numbers(Offer offer) {
 }
 
 void Participant::refuse_cameras(Offer offer, const wire::Text& why) {
-    const std::string problem = wire::english(why);
+    const std::string problem = wire::sentence(why);
     {
         const std::lock_guard lock(shared_->mutex);
         (offer == Offer::face ? shared_->status.face_problem : shared_->status.publish_problem) =
@@ -128,7 +129,7 @@ void Participant::on_share_ended() {
         }
         own.erase(found);
         ended.push_back(camera);
-        remark(message.by + " has ended the share of \"" + name + "\".");
+        remark(say(Phrase::share_ended, message.by, name));
     }
     if (!ended.empty() && options_.publishing.ended)
         options_.publishing.ended(ended);

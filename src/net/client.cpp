@@ -9,6 +9,7 @@
 #include "base/fault.h"
 #include "net/certificate.h"
 #include "net/connection.h"
+#include "phrases/phrase.h"
 
 namespace theatron::net {
 namespace {
@@ -48,13 +49,13 @@ struct Client::Impl {
     }
 
     void resolve() {
-        resolver.async_resolve(link.host, std::to_string(link.port),
-                               [this](beast::error_code error, tcp::resolver::results_type found) {
-                                   if (error)
-                                       return finish("The host " + link.host +
-                                                     " is not known: " + error.message() + ".");
-                                   connect(found);
-                               });
+        resolver.async_resolve(
+            link.host, std::to_string(link.port),
+            [this](beast::error_code error, tcp::resolver::results_type found) {
+                if (error)
+                    return finish(say(Phrase::host_unknown, link.host, error.message()));
+                connect(found);
+            });
     }
 
     void connect(const tcp::resolver::results_type& found) {
@@ -63,7 +64,7 @@ struct Client::Impl {
         tcp_stream.expires_after(patience);
         tcp_stream.async_connect(found, [this](beast::error_code error, const tcp::endpoint&) {
             if (error)
-                return finish("No host answers at " + where() + ": " + error.message() + ".");
+                return finish(say(Phrase::no_host_answers_because, where(), error.message()));
             tune_socket(beast::get_lowest_layer(*socket).socket());
             set_receive_buffer(beast::get_lowest_layer(*socket).socket(), viewer_receive_buffer);
             handshake();
@@ -75,16 +76,12 @@ struct Client::Impl {
         socket->next_layer().async_handshake(
             asio::ssl::stream_base::client, [this](beast::error_code error) {
                 if (error)
-                    return finish("The host at " + where() +
-                                  " does not speak TLS 1.3: " + error.message() + ".");
+                    return finish(say(Phrase::host_without_tls, where(), error.message()));
                 // The pin takes the place of a certificate authority. Nothing has
                 // been sent yet.
                 const std::string shown = fingerprint_of_peer(socket->next_layer().native_handle());
                 if (!equal_secrets(shown, link.fingerprint))
-                    return finish("The host at " + where() +
-                                      " shows another certificate than the link names; ask for a "
-                                      "new link, and do not trust this host until you have it.",
-                                  true);
+                    return finish(say(Phrase::other_certificate, where()), true);
                 upgrade();
             });
     }
@@ -94,15 +91,14 @@ struct Client::Impl {
         configure(*socket);
         socket->async_handshake(where(), "/connection", [this](beast::error_code error) {
             if (error)
-                return finish("The host at " + where() +
-                              " refuses a WebSocket: " + error.message() + ".");
+                return finish(say(Phrase::no_web_socket, where(), error.message()));
             Connection::Events events;
             events.control = handler.control;
             events.media = handler.media;
             events.state = handler.state;
             events.voice = handler.voice;
             events.closed = [this](const std::string& why) {
-                finish("The connection ended: " + why + ".");
+                finish(say(Phrase::connection_ended, why));
             };
             events.now = handler.now;
             connection = std::make_shared<Connection>(
@@ -144,7 +140,7 @@ Client::End Client::run() {
         impl_->io.run();
     });
     if (!ended)
-        return {"The connection ended: it met a fault here.", false};
+        return {say(Phrase::connection_ended, say(Phrase::met_a_fault)), false};
     return impl_->end;
 }
 

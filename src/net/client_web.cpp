@@ -12,6 +12,7 @@
 #include "net/acknowledger.h"
 #include "net/client.h"
 #include "net/silence.h"
+#include "phrases/phrase.h"
 
 // Emscripten 3.1 keeps sockets that were deleted (it deletes another key of its table).
 EM_JS(void, theatron_forget_socket, (int socket), { WS.sockets[socket] = null; });
@@ -86,6 +87,11 @@ struct Client::Impl {
         (void)contain("net", [&] { ended({why, false}); });
     }
 
+    template <class... Arguments>
+    void end(Phrase why, const Arguments&... arguments) {
+        finish(say(Phrase::connection_ended, say(why, arguments...)));
+    }
+
     // Runs the handler of one of the browser's events, then what was posted meanwhile.
     template <class Work>
     void on_event(Work work) {
@@ -104,7 +110,7 @@ struct Client::Impl {
                 write();
         });
         if (!done)
-            finish("The connection ended: it met a fault here.");
+            end(Phrase::met_a_fault);
     }
 
     void end_if_lost() {
@@ -112,11 +118,11 @@ struct Client::Impl {
         if (is_finished)
             return;
         if (silence.has_slept(now, wall_now()))
-            return finish("The connection ended: this computer has slept.");
+            return end(Phrase::computer_slept);
         if (silence.is_too_long(now))
-            return finish("The connection ended: the host is silent.");
+            return end(Phrase::host_is_silent);
         if (!is_open && now - began > Silence::longest_handshake)
-            finish("No host answers at " + where() + ".");
+            finish(say(Phrase::no_host_answers, where()));
     }
 
     // Browsers slow the timers of a hidden page down, but not its messages.
@@ -126,7 +132,7 @@ struct Client::Impl {
             return;
         next_tick = now + tick_every;
         if (outbox.stands_still(now))
-            return finish("The connection ended: the host takes nothing any more.");
+            return end(Phrase::host_takes_nothing);
         if (handler.tick)
             handler.tick();
     }
@@ -167,8 +173,7 @@ struct Client::Impl {
     void take(ByteView envelope) {
         const auto unwrapped = unwrapper.take(envelope);
         if (!unwrapped)
-            return finish("The connection ended: the other side sent a message that is " +
-                          std::string(to_text(unwrapped.error())) + ".");
+            return end(Phrase::other_side_wrong, to_text(unwrapped.error()));
         if (unwrapped->acknowledgement)
             return outbox.acknowledge(*unwrapped->acknowledgement, handler.now());
         acknowledger.came(envelope.size(), unwrapped->is_media, handler.now());
@@ -198,7 +203,7 @@ struct Client::Impl {
         self.silence.heard();
         self.on_event([&] {
             if (event->isText)
-                return self.finish("The connection ended: the other side sent text.");
+                return self.end(Phrase::other_side_sent_text);
             self.take({reinterpret_cast<const std::byte*>(event->data), event->numBytes});
         });
         return EM_TRUE;
@@ -206,10 +211,10 @@ struct Client::Impl {
     static EM_BOOL on_close(int, const EmscriptenWebSocketCloseEvent*, void* data) {
         auto& self = *static_cast<Impl*>(data);
         // A browser does not tell scripts why.
-        self.finish(self.is_open
-                        ? "The connection ended: the other side closed the connection."
-                        : "No host answers at " + self.where() +
-                              ", or this browser does not trust its certificate any more.");
+        if (self.is_open)
+            self.end(Phrase::other_side_closed);
+        else
+            self.finish(say(Phrase::no_host_or_distrust, self.where()));
         return EM_TRUE;
     }
 
@@ -223,7 +228,7 @@ struct Client::Impl {
         if (socket <= 0) {
             socket = 0;
             // Not from within start().
-            posted.push_back([this] { finish("This browser opens no WebSocket."); });
+            posted.push_back([this] { finish(say(Phrase::browser_opens_nothing)); });
             return later();
         }
         emscripten_websocket_set_onopen_callback(socket, this, on_open);
@@ -254,7 +259,7 @@ void Client::post(std::function<void()> work) {
 
 void Client::send_control(ByteView control) {
     if (!impl_->outbox.push_control(wire::wrap_control(control)))
-        impl_->finish("The connection ended: the other side does not read.");
+        impl_->end(Phrase::other_side_reads_not);
     impl_->silence.sent(impl_->handler.now());
     impl_->later();
 }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "net/silence.h"
+#include "phrases/phrase.h"
 
 namespace theatron::net {
 namespace {
@@ -19,9 +20,9 @@ namespace asio = boost::asio;
 std::string describe(const beast::error_code& error) {
     if (error == websocket::error::closed || error == asio::error::eof ||
         error == asio::ssl::error::stream_truncated || error == asio::error::connection_reset)
-        return "the other side closed the connection";
+        return say(Phrase::other_side_closed);
     if (error == beast::error::timeout)
-        return "the other side did not answer in time";
+        return say(Phrase::other_side_slow);
     return error.message();
 }
 
@@ -78,7 +79,7 @@ void Connection::send_control(ByteView control) {
         return;
     if (!outbox_.push_control(wire::wrap_control(control))) {
         if (!events_->control_lost)
-            return finish("the other side does not read");
+            return finish(say(Phrase::other_side_reads_not));
         const auto events = events_;
         events->control_lost();
         if (finished_)
@@ -160,8 +161,8 @@ void Connection::set_ceiling(double bytes_per_second) {
 
 void Connection::look() {
     if (!finished_ && outbox_.stands_still(now_()))
-        finish("it took nothing for " +
-               std::to_string(Outbox::give_up_after / std::chrono::seconds(1)) + " s");
+        finish(say(Phrase::took_nothing,
+                   std::to_string(Outbox::give_up_after / std::chrono::seconds(1))));
 }
 
 void Connection::close(const std::string& why) {
@@ -183,8 +184,7 @@ void Connection::abandon() {
 void Connection::take(ByteView envelope) {
     const auto unwrapped = unwrapper_.take(envelope);
     if (!unwrapped)
-        return finish("the other side sent a message that is " +
-                      std::string(to_text(unwrapped.error())));
+        return finish(say(Phrase::other_side_wrong, to_text(unwrapped.error())));
     if (unwrapped->acknowledgement) {
         outbox_.acknowledge(*unwrapped->acknowledgement, now_());
         return write();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "phrases/phrase.h"
 #include "room/people.h"
 #include "room/srgb.h"
 #include "viewer/age_text.h"
@@ -23,15 +24,15 @@ PersonCard card_of(const PersonNow& person) {
     card.speaks = person.speaks;
     card.is_recorded = person.is_recorded;
     if (person.pose_age_ms.value_or(0) > silent_person_ms && !person.speaks) {
-        card.state = "no sign for " + viewer::age_text(*person.pose_age_ms);
+        card.state = say(Phrase::screen_no_sign, viewer::age_text(*person.pose_age_ms));
         card.warns = true;
     } else if (person.points && person.points_at_images) {
-        card.state = "points at images";
+        card.state = say(Phrase::screen_points_at_images);
     } else if (person.points && person.pointed == Sight::hidden) {
         card.state = "points: hidden";
         card.warns = true;
     } else if (person.points && person.pointed == Sight::outside) {
-        card.state = "points elsewhere";
+        card.state = say(Phrase::screen_points_elsewhere);
         card.warns = true;
     } else if (person.points) {
         card.state = "points";
@@ -68,19 +69,17 @@ ScreenMessage message_of(const Participant::Status& status) {
         case Participant::Phase::joined:
             return {};
         case Participant::Phase::connecting:
-            return {"Connecting", status.host_name};
+            return {say(Phrase::screen_connecting), status.host_name};
         case Participant::Phase::waiting:
-            return {"Waiting to be let in", "An operator of the session decides."};
+            return {say(Phrase::screen_waits_at_door), say(Phrase::screen_operator_decides)};
         case Participant::Phase::lost:
-            return {
-                status.joins > 0 ? "No connection to the experts" : "The session is not open yet",
-                "This screen goes on by itself. " + status.problem};
+            return {say(status.joins > 0 ? Phrase::screen_no_experts : Phrase::screen_not_open_yet),
+                    say(Phrase::screen_goes_on, status.problem)};
         case Participant::Phase::refused:
-            return {"The host does not let this screen in",
-                    status.problem + " This screen tries again by itself."};
+            return {say(Phrase::screen_not_let_in),
+                    say(Phrase::screen_tries_again, status.problem)};
         case Participant::Phase::ended:
-            return {"The session is over",
-                    status.problem + " This screen joins the next one by itself."};
+            return {say(Phrase::session_is_over), say(Phrase::screen_joins_next, status.problem)};
     }
     return {};
 }
@@ -93,13 +92,14 @@ void describe_picture(const client::CameraFigures& camera, double age_ms, Conten
     const bool stands_still = !is_live || age_ms > frozen_ms;
     if (!content.playback.empty()) {
         if (stands_still)
-            content.warning = content.playback + ": no new picture for " + viewer::age_text(age_ms);
+            content.warning =
+                say(Phrase::screen_no_new_picture, content.playback, viewer::age_text(age_ms));
         return;
     }
     content.age = viewer::age_text(age_ms);
     content.age_warns = !is_live || age_ms > viewer::old_picture_ms;
     if (stands_still)
-        content.warning = "NOT LIVE: this picture is " + viewer::age_text(age_ms) + " old";
+        content.warning = say(Phrase::screen_picture_is_old, viewer::age_text(age_ms));
 }
 
 }  // namespace theatron::or_screen

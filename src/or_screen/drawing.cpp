@@ -2,6 +2,7 @@
 #include "or_screen/drawing.h"
 
 #include "or_screen/painter.h"
+#include "phrases/phrase.h"
 #include "xr/imgui_fonts_native.h"
 
 namespace theatron::or_screen {
@@ -61,7 +62,7 @@ void Drawing::draw(const Content& content, const Layout& layout, Vec2 by, const 
         else if (content.people_left_out > 0)
             painter.note_card("and " + std::to_string(content.people_left_out) + " more", card);
         else if (content.is_alone)
-            painter.note_card("Nobody else is here", card);
+            painter.note_card(say(Phrase::nobody_here), card);
     }
     if (!content.message.empty())
         painter.message(content, target.size, by);

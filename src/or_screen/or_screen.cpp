@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "phrases/phrase.h"
 #include "room/mark_mesh.h"
 #include "room/people.h"
 #include "room/srgb.h"
@@ -23,7 +24,8 @@ constexpr int room_part = 4;  // of the time: the room is drawn in one part of f
 constexpr Rgb room_ground{24, 26, 30};
 // Where nobody points: the middle of the operating table (docs/room.md).
 constexpr Vec3 table{0, 1, 0};
-constexpr const char* orientation_names[] = {"axial", "coronal", "sagittal"};
+constexpr Phrase orientation_names[] = {Phrase::slice_axial, Phrase::slice_coronal,
+                                        Phrase::slice_sagittal};
 
 // The clouds in the small picture of the room need fewer points.
 constexpr int room_depth_step = 2;
@@ -144,9 +146,8 @@ void OrScreen::take_slice() {
     slice_of_ = volume;
     slice_shown_ = wanted;
     char text[60];
-    std::snprintf(text, sizeof(text), "%s %.0f mm", orientation_names[wanted.orientation],
-                  wanted.position_mm);
-    content_.slice = text;
+    std::snprintf(text, sizeof(text), " %.0f mm", wanted.position_mm);
+    content_.slice = say(orientation_names[wanted.orientation]) + text;
 }
 
 std::optional<Vec2> OrScreen::slice_pixel(Vec3 place) const {

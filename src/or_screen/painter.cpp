@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "phrases/phrase.h"
 #include "xr/imgui_pass_native.h"
 #include "xr/panel_colors_native.h"
 
@@ -148,7 +149,7 @@ void Painter::pointers(const std::vector<PointerMark>& pointers, const Rect& are
     }
     for (const PointerMark& one : pointers)
         label(place_in(area, picture, one.place.pixel), one.color, one.initials, colors::warning,
-              one.place.sight == Sight::hidden ? "hidden from this camera" : "", area);
+              one.place.sight == Sight::hidden ? say(Phrase::screen_hidden) : std::string(), area);
 }
 
 void Painter::mark(const PictureMark& mark, const Rect& area, Size picture) {
@@ -187,7 +188,7 @@ void Painter::camera(const Content& content, const Rect& rect,
     if (!picture || picture->size().area() == 0) {
         list_.AddRectFilled(from(rect), to(rect), colors::card, rounding);
         if (content.message.empty())
-            centred(fonts_.name, rect, colors::label, "No camera picture");
+            centred(fonts_.name, rect, colors::label, say(Phrase::screen_no_camera));
         return;
     }
     // An old picture must not be taken for the present.

@@ -7,6 +7,7 @@
 #include "base/frame_order.h"
 #include "codec/strata.h"
 #include "geometry/calibration.h"
+#include "phrases/phrase.h"
 #include "video/depth_codecs.h"
 
 namespace theatron::receive {
@@ -86,7 +87,7 @@ void Receiver::set_settings(const std::vector<wire::StreamSetting>& settings) {
             stream.setting.reset();
     }
     if (!problem.empty())
-        throw Error("The host sends in a way that this Theatron does not know: " + problem);
+        throw Error(say(Phrase::unknown_sending, problem));
 }
 
 std::string Receiver::set_codec(Stream& stream, const wire::StreamSetting& setting) const {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "phrases/phrase.h"
 #include "room/facing.h"
 #include "room/mesh_parts.h"
 
@@ -177,8 +178,9 @@ void People::add_to(render::SceneFrame& frame, const std::vector<RoomPerson>& pe
             frame.objects.push_back({&skin_, *person.head, look(color, opacity)});
             add_face(frame, person, opacity);
         }
-        const std::string name =
-            person.name + (person.is_stale && person.age.empty() ? " (view is old)" : "");
+        const std::string name = person.is_stale && person.age.empty()
+                                     ? say(Phrase::person_of_old_view, person.name)
+                                     : person.name;
         const double height = std::clamp(name_per_distance * length(person.head->translation - eye),
                                          least_name_m, largest_name_m);
         Pose place = facing(person.head->translation + Vec3{0, name_above_m, 0}, eye);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "phrases/phrase.h"
+
 namespace theatron::session {
 namespace {
 
@@ -55,24 +57,23 @@ Pose without_nudge(const Pose& nudged, const CameraAdjustment& adjustment) {
 std::string text_of(const CameraAdjustment& adjustment) {
     char text[160];
     std::string all;
-    const auto add = [&] { all += (all.empty() ? "" : "; ") + std::string(text); };
+    const auto add = [&](Phrase what) { all += (all.empty() ? "" : "; ") + say(what, text); };
     if (adjustment.moved_m != Vec3{}) {
-        std::snprintf(text, sizeof(text), "moved by %.1f, %.1f, %.1f mm",
-                      adjustment.moved_m.x * 1000, adjustment.moved_m.y * 1000,
-                      adjustment.moved_m.z * 1000);
-        add();
+        std::snprintf(text, sizeof(text), "%.1f, %.1f, %.1f", adjustment.moved_m.x * 1000,
+                      adjustment.moved_m.y * 1000, adjustment.moved_m.z * 1000);
+        add(Phrase::moved_by);
     }
     if (adjustment.turned_deg != Vec3{}) {
-        std::snprintf(text, sizeof(text), "turned by %.2f, %.2f, %.2f degrees",
-                      adjustment.turned_deg.x, adjustment.turned_deg.y, adjustment.turned_deg.z);
-        add();
+        std::snprintf(text, sizeof(text), "%.2f, %.2f, %.2f", adjustment.turned_deg.x,
+                      adjustment.turned_deg.y, adjustment.turned_deg.z);
+        add(Phrase::turned_by);
     }
     if (adjustment.region) {
-        std::snprintf(text, sizeof(text), "depth only in %d:%d:%dx%d", adjustment.region->x,
-                      adjustment.region->y, adjustment.region->width, adjustment.region->height);
-        add();
+        std::snprintf(text, sizeof(text), "%d:%d:%dx%d", adjustment.region->x, adjustment.region->y,
+                      adjustment.region->width, adjustment.region->height);
+        add(Phrase::depth_only_in);
     }
-    return all.empty() ? "as registered" : all;
+    return all.empty() ? say(Phrase::as_registered) : all;
 }
 
 Bytes encode_adjustment(const CameraAdjustment& adjustment) {

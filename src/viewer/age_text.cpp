@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "phrases/phrase.h"
+
 namespace theatron::viewer {
 
 std::string age_text(double ms) {
@@ -22,13 +24,13 @@ std::string age_text(double ms) {
 
 std::string seen_age(double ms, bool is_live) {
     const std::string age = age_text(std::max(ms, 0.0));
-    return is_live ? age : "NOT LIVE: " + age + " old";
+    return is_live ? age : say(Phrase::age_not_live, age);
 }
 
 std::string picture_title(const std::string& name, std::optional<double> age_ms, bool is_live) {
     if (age_ms)
         return seen_age(*age_ms, is_live) + "  " + name;
-    return is_live ? name : "NOT LIVE  " + name;
+    return is_live ? name : say(Phrase::title_not_live, name);
 }
 
 }  // namespace theatron::viewer

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "geometry/screen.h"
+#include "phrases/phrase.h"
 
 namespace theatron::viewer {
 namespace {
@@ -27,15 +28,14 @@ Vec3 within(Vec3 vec, double longest) {
 }
 
 std::string value_text(CameraAdjustment adjustment, int part) {
-    constexpr const char* names[part_count] = {"Right x", "Up y",   "Back z",
-                                               "Tilt x",  "Turn y", "Roll z"};
+    constexpr Phrase names[part_count] = {Phrase::right_x, Phrase::up_y,   Phrase::back_z,
+                                          Phrase::tilt_x,  Phrase::turn_y, Phrase::roll_z};
     char text[64];
     if (part < 3)
-        std::snprintf(text, sizeof(text), "%s %+.0f mm", names[part],
-                      part_of(adjustment, part) * 1000);
+        std::snprintf(text, sizeof(text), " %+.0f mm", part_of(adjustment, part) * 1000);
     else
-        std::snprintf(text, sizeof(text), "%s %+.1f°", names[part], part_of(adjustment, part));
-    return text;
+        std::snprintf(text, sizeof(text), " %+.1f°", part_of(adjustment, part));
+    return say(names[part]) + text;
 }
 
 }  // namespace
@@ -194,16 +194,16 @@ std::string CameraAdjusting::draw(xr::WindowInput& input, const render::CameraVi
         return camera && CameraId(c.number) == camera->id;
     });
     if (seen == cloud.end())
-        return "The camera has sent no picture";
+        return say(Phrase::camera_has_no_picture);
     const auto box = drawn_region(rectangle, view, *seen);
     if (!box)
-        return "Camera " + camera->name + " sees too little there; draw around what it shows";
+        return say(Phrase::sees_too_little, camera->name);
     draws_ = false;
     note_undo();
     CameraAdjustment adjustment = current(*camera);
     adjustment.region = box;
     want(adjustment);
-    return "Only this part of camera " + camera->name + " is sent to all now";
+    return say(Phrase::region_is_sent, camera->name);
 }
 
 std::optional<std::pair<Vec2, Vec2>> CameraAdjusting::rectangle() const {
@@ -227,7 +227,7 @@ void CameraAdjusting::on_tick(client::Participant& participant, TimePoint now) {
 }
 
 void CameraAdjusting::add_panel(RoomPanel& panel) const {
-    xr::Panel shown{"Place of cameras, for all", {}};
+    xr::Panel shown{say(Phrase::place_of_cameras), {}};
     const auto command = [&](AdjustStep step) {
         panel.commands.push_back(step);
         return int(panel.commands.size()) - 1;
@@ -238,7 +238,7 @@ void CameraAdjusting::add_panel(RoomPanel& panel) const {
         const bool is_chosen = camera.id == chosen_;
         xr::PanelRow row{camera.name, text_of(adjustment), {}};
         if (!is_chosen)
-            row.buttons.push_back({"Choose", command({What::choose, camera.id, 0, 0})});
+            row.buttons.push_back({say(Phrase::choose), command({What::choose, camera.id, 0, 0})});
         shown.rows.push_back(std::move(row));
         for (int part = 0; is_chosen && part < part_count; ++part) {
             CameraAdjustment value = adjustment;
@@ -255,22 +255,23 @@ void CameraAdjusting::add_panel(RoomPanel& panel) const {
         if (is_chosen)
             shown.rows.push_back({"",
                                   "",
-                                  {{"Undo", command({What::undo, {}, 0, 0})},
-                                   {"As registered", command({What::reset, {}, 0, 0})}}});
+                                  {{say(Phrase::undo), command({What::undo, {}, 0, 0})},
+                                   {say(Phrase::reset_camera), command({What::reset, {}, 0, 0})}}});
         if (is_chosen && camera.has_region) {
-            xr::PanelRow region{
-                draws_              ? "Draw a rectangle"
-                : adjustment.region ? "A region"
-                                    : "Whole picture",
-                "",
-                {{draws_ ? "Stop" : "Draw region", command({What::draw, {}, 0, 0})}}};
+            xr::PanelRow region{say(draws_              ? Phrase::draw_rectangle
+                                    : adjustment.region ? Phrase::a_region
+                                                        : Phrase::whole_picture),
+                                "",
+                                {{say(draws_ ? Phrase::stop : Phrase::draw_region),
+                                  command({What::draw, {}, 0, 0})}}};
             if (adjustment.region)
-                region.buttons.push_back({"Whole picture", command({What::whole, {}, 0, 0})});
+                region.buttons.push_back(
+                    {say(Phrase::whole_picture), command({What::whole, {}, 0, 0})});
             shown.rows.push_back(std::move(region));
         }
     }
     if (cameras_.empty())
-        shown.rows.push_back({"There are no cameras of the room", "", {}});
+        shown.rows.push_back({say(Phrase::no_room_cameras), "", {}});
     panel.panels.push_back(std::move(shown));
 }
 

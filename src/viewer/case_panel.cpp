@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "phrases/phrase.h"
 #include "viewer/case_actions.h"
 #include "viewer/screen_handling.h"
 
@@ -24,21 +25,32 @@ std::string state_of(const CasePanelFacts& facts) {
         return "";
     if (!content->problem.empty())
         return content->problem;
-    return content->is_complete()
-               ? ""
-               : megabytes(content->progress.got) + " of " + megabytes(content->progress.all);
+    return content->is_complete() ? ""
+                                  : say(Phrase::amount_of, megabytes(content->progress.got),
+                                        megabytes(content->progress.all));
 }
 
 // The panel is over the picture of this person alone, and in no saved picture.
 xr::PanelRow patient_row(const wire::Patient& patient) {
     std::string detail;
-    const auto add = [&](const char* what, const std::string& text) {
+    const auto add = [&](Phrase what, const std::string& text) {
         if (!text.empty())
-            detail += (detail.empty() ? "" : ", ") + (what + text);
+            detail += (detail.empty() ? "" : ", ") + say(what, text);
     };
-    add("born ", patient.birth_date);
-    add("number ", patient.id);
-    return {patient.name.empty() ? "Patient" : "Patient: " + patient.name, detail, {}};
+    add(Phrase::born, patient.birth_date);
+    add(Phrase::patient_number, patient.id);
+    return {patient.name.empty() ? say(Phrase::patient) : say(Phrase::patient_named, patient.name),
+            detail,
+            {}};
+}
+
+// The name of a window of medical/window.h, in the person's language if it is known here.
+std::string window_name(std::string_view name) {
+    for (const Phrase known : {Phrase::abdomen, Phrase::liver, Phrase::vessels, Phrase::lung,
+                               Phrase::bone, Phrase::brain})
+        if (name == sentence_of(known).english)
+            return say(known);
+    return std::string(name);
 }
 
 class Builder {
@@ -51,6 +63,9 @@ public:
     }
     xr::PanelButton action(std::string label, std::function<bool(Participant&)> action) {
         return button(std::move(label), ChangeCase{std::move(action)});
+    }
+    xr::PanelButton action(Phrase label, std::function<bool(Participant&)> action) {
+        return this->action(say(label), std::move(action));
     }
     void row(xr::PanelRow row) { rows_.push_back(std::move(row)); }
     void row(std::string text, std::string detail, std::vector<xr::PanelButton> buttons) {
@@ -79,8 +94,9 @@ void add_parts(const CasePanelFacts& facts, Builder& add) {
         };
         add.row(
             parts[part.part].name,
-            std::to_string(std::lround(opacity * 100)) + " %" + (part.shown ? "" : ", hidden"),
-            {add.action(part.shown ? "Hide" : "Show",
+            say(part.shown ? Phrase::opacity : Phrase::opacity_hidden,
+                std::to_string(std::lround(opacity * 100))),
+            {add.action(part.shown ? Phrase::hide : Phrase::show,
                         [part](Participant& p) { return show_part(p, part.part, !part.shown); }),
              add.action("-", change(-opacity_step)), add.action("+", change(opacity_step))});
     }
@@ -96,7 +112,7 @@ void add_series(const CasePanelFacts& facts, Builder& add) {
             add.action(series[i].name, [next](Participant& p) { return set_screen(p, next); }));
     }
     if (buttons.size() > 1)
-        add.row("Series", "", std::move(buttons));
+        add.row(say(Phrase::series), "", std::move(buttons));
 }
 
 void add_pictures(const CasePanelFacts& facts, Builder& add) {
@@ -104,15 +120,17 @@ void add_pictures(const CasePanelFacts& facts, Builder& add) {
     if (pictures.empty())
         return;
     const session::CaseScreen screen = facts.room->screen->facts;
-    const auto step = [&](const char* label, int steps) {
+    const auto step = [&](Phrase label, int steps) {
         return add.action(label, [next = stepped(screen, int(pictures.size()), steps)](
                                      Participant& p) { return set_screen(p, next); });
     };
     if (!screen.picture || *screen.picture >= pictures.size())
-        return add.row("Pictures", std::to_string(pictures.size()), {step("Show", 0)});
-    add.row("Pictures",
-            std::to_string(*screen.picture + 1) + " of " + std::to_string(pictures.size()),
-            {step("Before", -1), step("Next", 1)});
+        return add.row(say(Phrase::pictures), std::to_string(pictures.size()),
+                       {step(Phrase::show, 0)});
+    add.row(say(Phrase::pictures),
+            say(Phrase::amount_of, std::to_string(*screen.picture + 1),
+                std::to_string(pictures.size())),
+            {step(Phrase::before, -1), step(Phrase::next, 1)});
 }
 
 void add_screen(const CasePanelFacts& facts, Builder& add) {
@@ -120,17 +138,17 @@ void add_screen(const CasePanelFacts& facts, Builder& add) {
         return;
     add_series(facts, add);
     add_pictures(facts, add);
-    add.row("Screen",
-            facts.presents             ? "you present"
-            : !facts.presenter.empty() ? facts.presenter + " presents"
-                                       : "all may change it",
-            {add.action(facts.presents ? "All may" : "Present",
+    add.row(say(Phrase::screen),
+            facts.presents             ? say(Phrase::you_present)
+            : !facts.presenter.empty() ? say(Phrase::presents, facts.presenter)
+                                       : say(Phrase::all_may_change),
+            {add.action(facts.presents ? Phrase::all_may : Phrase::present,
                         [on = !facts.presents](Participant& p) { return present(p, on); })});
     if (!facts.volume)
         return;
     const session::CaseScreen screen = facts.room->screen->facts;
     std::vector<xr::PanelButton> planes, windows;
-    const char* names[] = {"Axial", "Coronal", "Sagittal"};
+    const Phrase names[] = {Phrase::axial, Phrase::coronal, Phrase::sagittal};
     for (int i = 0; i < 3; ++i)
         planes.push_back(
             add.action(names[i], [next = turned(screen, *facts.volume, medical::Orientation(i))](
@@ -139,12 +157,12 @@ void add_screen(const CasePanelFacts& facts, Builder& add) {
         session::CaseScreen next = screen;
         next.center = preset.window.center;
         next.width = preset.window.width;
-        windows.push_back(add.action(std::string(preset.name),
+        windows.push_back(add.action(window_name(preset.name),
                                      [next](Participant& p) { return set_screen(p, next); }));
     }
-    add.row("Images", "", std::move(planes));
+    add.row(say(Phrase::images), "", std::move(planes));
     const auto half = windows.begin() + std::ptrdiff_t(windows.size() / 2);
-    add.row("Window", "", {windows.begin(), half});
+    add.row(say(Phrase::window), "", {windows.begin(), half});
     add.row("", "", {half, windows.end()});
 }
 
@@ -154,21 +172,21 @@ void add_case_panel(const CasePanelFacts& facts, RoomPanel& panel) {
     Builder add(panel);
     if (facts.room) {
         const bool known = facts.content && facts.content->description;
-        add.row(known ? facts.content->description->name : "A case", state_of(facts),
-                {add.action("Life size", [](Participant& p) { return set_scale(p, 1); }),
-                 add.action("Close", close_case)});
+        add.row(known ? facts.content->description->name : say(Phrase::a_case), state_of(facts),
+                {add.action(Phrase::life_size, [](Participant& p) { return set_scale(p, 1); }),
+                 add.action(Phrase::close, close_case)});
         if (const wire::Patient& patient = facts.patient;
             !patient.name.empty() || !patient.birth_date.empty() || !patient.id.empty())
             add.row(patient_row(patient));
         const bool is_apart = facts.room->organ.explosion != 0, cut = facts.room->organ.cut;
         std::vector<xr::PanelButton> buttons{
-            add.action(is_apart ? "Closer" : "Apart",
+            add.action(is_apart ? Phrase::closer : Phrase::apart,
                        [is_apart](Participant& p) { return explode(p, is_apart ? 0 : apart); }),
-            add.action("Together", put_together)};
+            add.action(Phrase::together, put_together)};
         if (facts.volume)
-            buttons.push_back(add.action(cut ? "Whole" : "Cut",
+            buttons.push_back(add.action(cut ? Phrase::whole : Phrase::cut,
                                          [cut](Participant& p) { return cut_at_slice(p, !cut); }));
-        add.row("Parts", cut ? "cut: hidden on one side of the slice" : "", std::move(buttons));
+        add.row(say(Phrase::parts), cut ? say(Phrase::is_cut) : "", std::move(buttons));
         add_screen(facts, add);
         add_parts(facts, add);
     }
@@ -176,11 +194,12 @@ void add_case_panel(const CasePanelFacts& facts, RoomPanel& panel) {
         const auto hash = to_content_hash(offered.hash);
         if (!hash || (facts.room && facts.room->organ.of_case == *hash))
             continue;
-        add.row(offered.name, megabytes(offered.bytes), {add.button("Open", OpenOffered{*hash})});
+        add.row(offered.name, megabytes(offered.bytes),
+                {add.button(say(Phrase::open), OpenOffered{*hash})});
     }
     if (!facts.room && facts.offered.empty())
-        add.row("The host offers no case", "", {});
-    add.finish("Case");
+        add.row(say(Phrase::no_case), "", {});
+    add.finish(say(Phrase::case_));
 }
 
 }  // namespace theatron::viewer

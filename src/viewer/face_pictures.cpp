@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "phrases/phrase.h"
 #include "viewer/age_text.h"
 
 namespace theatron::viewer {
@@ -46,7 +47,7 @@ bool FacePictures::note(TimePoint now) {
         const double age_ms = std::max(to_ms(now - face.captured), to_ms(now - face.taken));
         const double before = std::exchange(face.opacity, face_opacity(age_ms));
         std::string age = face.opacity > 0 && face.opacity < 1
-                              ? "picture stands still for " + age_text(age_ms)
+                              ? say(Phrase::face_stands_still, age_text(age_ms))
                               : std::string();
         changed = changed || before != face.opacity || age != face.age;
         face.age = std::move(age);

@@ -2,22 +2,43 @@
 #include "viewer/facts.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 
 #include "viewer/age_text.h"
 #include "viewer/trust_panel.h"
 #include "wire/condition_text.h"
+#include "wire/sentence.h"
 
 namespace theatron::viewer {
 namespace {
 
-std::string rounded(double value, int digits, const char* unit) {
+std::string frames(double per_second) {
+    return say(Phrase::frames_a_second, std::to_string(std::lround(per_second)));
+}
+
+std::string megabits(double per_second) {
     char text[40];
-    std::snprintf(text, sizeof(text), "%.*f %s", digits, value, unit);
+    std::snprintf(text, sizeof(text), "%.1f Mbit/s", per_second);
     return text;
 }
 
 std::string first_sentence(const std::string& text) {
     return text.substr(0, std::min(text.find(". "), text.size()));
+}
+
+Phrase count_of(wire::CameraCondition condition) {
+    switch (condition) {
+        case wire::CameraCondition::live:
+            return Phrase::live_count;
+        case wire::CameraCondition::stale:
+            return Phrase::stale_count;
+        case wire::CameraCondition::ended:
+            return Phrase::ended_count;
+        case wire::CameraCondition::failed:
+            break;
+    }
+    return Phrase::failed_count;
 }
 
 // "2 live", or "1 live, 1 stale".
@@ -32,22 +53,22 @@ xr::Fact cameras_fact(const std::vector<client::CameraFigures>& cameras) {
         });
         if (count == 0)
             continue;
-        text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + wire::text_of(condition);
+        text += (text.empty() ? "" : ", ") + say(count_of(condition), std::to_string(count));
         trouble = trouble || condition != Condition::live;
     }
     const auto direct = std::count_if(cameras.begin(), cameras.end(),
                                       [](const auto& camera) { return camera.direct; });
     if (direct > 0)
-        text += ", " + std::to_string(direct) + " direct";
-    return {"Cameras", text.empty() ? "none" : text, trouble};
+        text += ", " + say(Phrase::direct_count, std::to_string(direct));
+    return {say(Phrase::cameras), text.empty() ? say(Phrase::none) : text, trouble};
 }
 
 // A live camera with a problem that its picture does not show: it was moved, or plays damage.
 void add_problems(const std::vector<client::CameraFigures>& cameras, std::vector<xr::Fact>& line) {
     for (const auto& [camera, depth, color, direct] : cameras)
         if (camera.state.condition == wire::CameraCondition::live && !camera.state.problem.empty())
-            line.push_back({"Camera " + camera.description.name,
-                            first_sentence(wire::english(camera.state.problem)), true});
+            line.push_back({say(Phrase::camera_named, camera.description.name),
+                            first_sentence(wire::sentence(camera.state.problem)), true});
 }
 
 // The one text that all cameras have, "several" if they differ, "none" if there is none.
@@ -59,10 +80,10 @@ std::string common(const std::vector<client::CameraFigures>& cameras, const Text
         if (value.empty() || value == text)
             continue;
         if (!text.empty())
-            return "several";
+            return say(Phrase::several);
         text = value;
     }
-    return text.empty() ? "none" : text;
+    return text.empty() ? say(Phrase::none) : text;
 }
 
 // "h264 (lossy)" where a camera's newest depth image is not exact everywhere.
@@ -71,18 +92,18 @@ xr::Fact depth_fact(const std::vector<client::CameraFigures>& cameras) {
     const bool lossy = std::any_of(cameras.begin(), cameras.end(), [](const auto& c) {
         return c.depth.frames > 0 && c.depth.exact == receive::Exactness::nowhere;
     });
-    return {"Depth", codec + (lossy ? " (lossy)" : ""), lossy};
+    return {say(Phrase::depth_fact), lossy ? say(Phrase::lossy_codec, codec) : codec, lossy};
 }
 
 // "blend (auto)", "mesh, set by host, coarser".
 std::string drawing_text(const Facts& facts) {
     std::string text = facts.way.renderer;
     if (facts.renderer_chosen_by == Facts::ChosenBy::program)
-        text += " (auto)";
+        text = say(Phrase::drawn_automatically, text);
     if (facts.renderer_chosen_by == Facts::ChosenBy::host)
-        text += ", set by host";
+        text = say(Phrase::drawn_as_host_says, text);
     if (facts.way.scale < 1 || facts.way.depth_step > 1)
-        text += ", coarser";
+        text = say(Phrase::drawn_coarser, text);
     return text;
 }
 
@@ -97,10 +118,9 @@ bool drawing_is_slow(const Facts& facts) {
 
 // The one that the keys decide on, and the number of the others.
 std::string visitors_text(const std::vector<wire::Visitor>& visitors) {
-    const std::string others =
-        visitors.size() > 1 ? " and " + std::to_string(visitors.size() - 1) + " more" : "";
-    return visitors.front().name + " (" + wire::text_of(visitors.front().role) + ")" + others +
-           ": Y lets in, U refuses";
+    return say(visitors.size() > 1 ? Phrase::visitor_and_more : Phrase::visitor,
+               visitors.front().name, wire::spoken(visitors.front().role),
+               std::to_string(visitors.size() - 1));
 }
 
 // Facts on the cameras' pictures.
@@ -108,13 +128,15 @@ void add_pictures(const Facts& facts,
                   const std::function<std::string(const std::string&)>& filter_name,
                   std::vector<xr::Fact>& line) {
     const auto& [status, cameras, recordings] = facts.received;
-    line.push_back({"Dropped", std::to_string(facts.received.dropped())});
+    line.push_back({say(Phrase::dropped), std::to_string(facts.received.dropped())});
     if (status.delivery.level > 0)
-        line.push_back({"Sent", wire::sent_part(status.delivery), true});
+        line.push_back({say(Phrase::sent), wire::sent_part(status.delivery, language()), true});
     line.push_back(depth_fact(cameras));
-    line.push_back({"Colour", common(cameras, [](const auto& c) { return c.color.codec; })});
+    line.push_back(
+        {say(Phrase::color_fact), common(cameras, [](const auto& c) { return c.color.codec; })});
     const std::string filter = common(cameras, [](const auto& c) { return c.camera.state.filter; });
-    line.push_back({"Filter", filter_name(filter == "none" ? std::string() : filter)});
+    line.push_back(
+        {say(Phrase::filter), filter_name(filter == say(Phrase::none) ? std::string() : filter)});
 }
 
 std::vector<xr::Fact> line_of(const Facts& facts, const std::string& address,
@@ -122,58 +144,62 @@ std::vector<xr::Fact> line_of(const Facts& facts, const std::string& address,
     using Phase = client::Participant::Phase;
     const auto& [status, cameras, recordings] = facts.received;
     std::vector<xr::Fact> line;
-    line.push_back({"Host", status.host_name.empty() ? address : status.host_name});
-    const xr::Fact age{"Age of picture", facts.age_ms ? age_text(*facts.age_ms) : "unknown",
+    line.push_back({say(Phrase::host), status.host_name.empty() ? address : status.host_name});
+    const xr::Fact age{say(Phrase::age_of_picture),
+                       facts.age_ms ? age_text(*facts.age_ms) : say(Phrase::unknown),
                        facts.age_ms && *facts.age_ms > old_picture_ms};
     if (!facts.visitors.empty())
-        line.push_back({"At the door", visitors_text(facts.visitors), true});
+        line.push_back({say(Phrase::at_the_door), visitors_text(facts.visitors), true});
     if (status.phase == Phase::joined) {
         // Visible to everybody, first of all.
         if (!recordings.empty())
-            line.push_back({"Recording", client::recorded_text(facts.received), true});
+            line.push_back({say(Phrase::recording), client::recorded_text(facts.received), true});
         if (const auto voice = recorded_voice_fact(facts.voices); voice && !recordings.empty())
             line.push_back(*voice);
         if (status.standing.muted || status.standing.role != wire::Role::expert)
-            line.push_back({"You", wire::text_of(status.standing.role) +
-                                       std::string(status.standing.muted ? ", muted" : "")});
+            line.push_back({say(Phrase::you),
+                            status.standing.muted
+                                ? say(Phrase::role_and_muted, wire::spoken(status.standing.role))
+                                : wire::spoken(status.standing.role)});
         if (const auto microphone = microphone_fact(facts.voices, status.standing))
             line.push_back(*microphone);
         if (facts.own_face == OwnFace::seen)
-            line.push_back({"Webcam", "you are seen", true});
+            line.push_back({say(Phrase::webcam), say(Phrase::webcam_is_seen), true});
         if (facts.own_face == OwnFace::opening)
-            line.push_back({"Webcam", "is being opened"});
+            line.push_back({say(Phrase::webcam), say(Phrase::webcam_opens)});
         // No camera's present state beside pictures of the past.
         line.push_back(facts.past.empty() ? cameras_fact(cameras)
-                                          : xr::Fact{"Cameras", facts.past, true});
+                                          : xr::Fact{say(Phrase::cameras), facts.past, true});
         add_problems(cameras, line);
         if (facts.has_picture && !cameras.empty())
             line.push_back(age);
         if (!cameras.empty())
             line.push_back(
-                {"Received", rounded(facts.received.live_frames_per_second(), 0, "fps")});
-        line.push_back({"Drawn",
-                        rounded(facts.drawn_per_second, 0, "fps") +
-                            (facts.drawing_rests ? ", decoding comes first" : ""),
+                {say(Phrase::received), frames(facts.received.live_frames_per_second())});
+        line.push_back({say(Phrase::drawn),
+                        facts.drawing_rests
+                            ? say(Phrase::decoding_comes_first, frames(facts.drawn_per_second))
+                            : frames(facts.drawn_per_second),
                         drawing_is_slow(facts)});
-        line.push_back({"Data", rounded(facts.received.mbit_per_second(), 1, "Mbit/s")});
+        line.push_back({say(Phrase::data), megabits(facts.received.mbit_per_second())});
         if (!cameras.empty())
             add_pictures(facts, filter_name, line);
     } else {
         const bool is_waiting = status.phase == Phase::waiting;
         const bool is_connecting = status.phase == Phase::connecting;
-        line.push_back({"Connection",
-                        is_waiting      ? "waiting"
-                        : is_connecting ? "connecting"
-                                        : "none",
+        line.push_back({say(Phrase::connection),
+                        say(is_waiting      ? Phrase::is_waiting
+                            : is_connecting ? Phrase::is_connecting
+                                            : Phrase::none),
                         !is_waiting && !is_connecting});
         if (facts.has_picture)
             line.push_back(age);
     }
-    line.push_back({"Drawing", drawing_text(facts)});
-    line.push_back({"Help", "F1"});
+    line.push_back({say(Phrase::drawing), drawing_text(facts)});
+    line.push_back({say(Phrase::help), "F1"});
     // The last one: it comes and goes with the mouse, and no other fact moves.
     if (!facts.pointed.empty())
-        line.push_back({"Under the mouse", facts.pointed});
+        line.push_back({say(Phrase::under_mouse), facts.pointed});
     return line;
 }
 
@@ -184,19 +210,19 @@ std::string warning_of(const Facts& facts) {
     if (facts.received.status.phase != client::Participant::Phase::joined || !facts.has_picture)
         return {};
     if (!facts.past.empty())
-        return facts.past + (facts.frozen ? ", frozen. Space: go on; " : ". ") + "End: live again";
+        return say(facts.frozen ? Phrase::past_frozen : Phrase::past_end_key, facts.past);
     if (facts.frozen)
-        return "Frozen by you" +
-               (facts.age_ms ? ": this picture is " + age_text(*facts.age_ms) + " old" : "") +
-               ". Space: live again";
+        return facts.age_ms ? say(Phrase::frozen_and_old, age_text(*facts.age_ms))
+                            : say(Phrase::frozen_by_you);
     if (facts.age_ms && *facts.age_ms >= repeated_ms)
-        return "This picture is " + age_text(*facts.age_ms) + " old";
+        return say(Phrase::this_picture_is_old, age_text(*facts.age_ms));
     if (const std::string text = not_live_text(facts.received); !text.empty())
         return text;
     if (drawing_is_slow(facts))
-        return facts.renderer_chosen_by == Facts::ChosenBy::person && !facts.most_drawn_per_second
-                   ? "This computer draws too slowly; press M until \"auto\" appears"
-                   : "This computer draws too slowly; the connection is not the cause";
+        return say(facts.renderer_chosen_by == Facts::ChosenBy::person &&
+                           !facts.most_drawn_per_second
+                       ? Phrase::slow_press_m
+                       : Phrase::slow_not_connection);
     return {};
 }
 
@@ -206,26 +232,28 @@ struct Message {
 
 Message message_of(const Facts& facts, const std::string& address) {
     const client::Participant::Status& status = facts.received.status;
-    const std::string old = facts.has_picture && facts.age_ms && *facts.age_ms >= 1000
-                                ? "This picture is " + age_text(*facts.age_ms) + " old. "
-                                : "";
+    const auto with_age = [&](const std::string& text) {
+        return facts.has_picture && facts.age_ms && *facts.age_ms >= 1000
+                   ? say(Phrase::old_picture_and, age_text(*facts.age_ms), text)
+                   : text;
+    };
+    const auto with_key = [&] { return say(Phrase::press_esc, status.problem); };
     switch (status.phase) {
         case client::Participant::Phase::joined:
             if (!facts.has_picture)
-                return {"Waiting for the first picture…", ""};
+                return {say(Phrase::waits_for_picture), ""};
             return {};
         case client::Participant::Phase::connecting:
-            return {"Connecting…", address};
+            return {say(Phrase::connecting), address};
         case client::Participant::Phase::waiting:
-            return {"Waiting to be let in…", "The operating room decides. Esc: leave."};
+            return {say(Phrase::waits_at_door), say(Phrase::room_decides)};
         case client::Participant::Phase::lost:
-            return {status.joins > 0 ? "Connection lost, trying again…"
-                                     : "No connection yet, trying again…",
-                    old + status.problem};
+            return {say(status.joins > 0 ? Phrase::lost_connection : Phrase::no_connection_yet),
+                    with_age(status.problem)};
         case client::Participant::Phase::refused:
-            return {"The host does not let you in", status.problem + " Press Esc to leave."};
+            return {say(Phrase::host_refuses), with_key()};
         case client::Participant::Phase::ended:
-            return {"The session is over", old + status.problem + " Press Esc to leave."};
+            return {say(Phrase::session_is_over), with_age(with_key())};
     }
     return {};
 }

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 
+#include "testing/speaking.h"
+
 namespace theatron::viewer {
 namespace {
 
@@ -45,6 +47,21 @@ TEST(Overlay, SaysNothingAloudWhileAllIsWell) {
     EXPECT_EQ(fact(content, "Depth").value, "strata");
     EXPECT_FALSE(fact(content, "Depth").warning);
     EXPECT_EQ(fact(content, "Host").value, "OR 3");
+}
+
+TEST(Overlay, IsGermanForAGerman) {
+    const testing::Speaking german(Language::german);
+    Facts facts = healthy();
+    facts.age_ms = 12'000;
+    facts.received.status.standing.role = wire::Role::operator_;
+    facts.received.cameras[0].camera.state.problem = {wire::TextCode::camera_covered};
+    const xr::OverlayContent content = overlay(facts);
+    EXPECT_EQ(content.warning, "Dieses Bild ist 12 s alt");
+    EXPECT_EQ(fact(content, "Gastgeber").value, "OR 3");
+    EXPECT_EQ(fact(content, "Sie").value, "Sitzungsleitung");
+    EXPECT_EQ(fact(content, "Kameras").value, "1 live");
+    EXPECT_THAT(fact(content, "Kamera ").value, HasSubstr("Sie ist verdeckt"));
+    EXPECT_EQ(fact(content, "Empfangen").value, "30 Bilder/s");
 }
 
 TEST(Overlay, SaysAboveAllThatThePictureIsOfThePast) {

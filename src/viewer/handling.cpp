@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "phrases/phrase.h"
 #include "session/shared_screen.h"
 #include "viewer/case_actions.h"
 #include "viewer/refusal_text.h"
@@ -81,7 +82,7 @@ void Handling::grab(Vec2 pointer, bool part, std::optional<double> surface_m,
     if (session::is_pinned(*object))
         return;
     if (object->grip.holder != ParticipantId{} && object->grip.holder != participant.room_self()) {
-        note_ = meeting.name_of(object->grip.holder) + " holds this";
+        note_ = say(Phrase::holds_this, meeting.name_of(object->grip.holder));
         return;
     }
     const std::uint32_t grip = participant.ask_room(request::Grab{hit->object});
@@ -113,12 +114,12 @@ void Handling::on_key(xr::Action action, const render::CameraView& view, const M
         }
         if (const auto* object = meeting.find(held_->object);
             object && session::is_shared_screen(*object)) {
-            note_ = "P shows the screens, with buttons that end their shares";
+            note_ = say(Phrase::use_screens_panel);
             return;
         }
         if (open && (held_->object == open->organ_id ||
                      (open->screen && held_->object == open->screen->id))) {
-            note_ = "O shows the case, with a button that closes it";
+            note_ = say(Phrase::use_case_panel);
             return;
         }
         participant.ask_room(request::Remove{held_->object});
@@ -126,14 +127,14 @@ void Handling::on_key(xr::Action action, const render::CameraView& view, const M
     } else if (action == xr::Action::give && held_) {
         const auto to = meeting.nearest_person(held_->grasp.room_from_object().translation);
         if (!to) {
-            note_ = "Nobody is near who could take this";
+            note_ = say(Phrase::nobody_near);
             return;
         }
         participant.ask_room(request::HandOver{held_->object, held_->grip, *to});
-        note_ = "Given to " + meeting.name_of(*to);
+        note_ = say(Phrase::given_to, meeting.name_of(*to));
         held_.reset();
     } else if ((action == xr::Action::give || action == xr::Action::remove) && !held_) {
-        note_ = "Hold an object with the left mouse button first";
+        note_ = say(Phrase::hold_first);
     }
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "phrases/phrase.h"
 #include "session/shared_screen.h"
 #include "viewer/looking_back.h"
 #include "viewer/refusal_text.h"
@@ -159,7 +160,7 @@ void Headset::place_table(const xr::Intents& intents) {
         if (hand.takes) {
             places_table_ = false;
             hands_[side].chose = true;
-            note_ = "The table is placed";
+            note_ = say(Phrase::table_is_placed);
         }
         return;
     }
@@ -272,11 +273,11 @@ bool Headset::take(Hand& hand, LiveScene& scene, client::Participant& participan
     if (!object)
         return false;
     if (scene.past_moment()) {
-        note_ = looking_back_changes_nothing;
+        note_ = say(Phrase::changes_nothing);
         return true;
     }
     if (object->grip.holder != ParticipantId{} && object->grip.holder != participant.room_self()) {
-        note_ = meeting.name_of(object->grip.holder) + " holds this";
+        note_ = say(Phrase::holds_this, meeting.name_of(object->grip.holder));
         return true;
     }
     if (session::is_pinned(*object)) {
@@ -324,7 +325,7 @@ void Headset::hold(const xr::HandIntents& intents, Hand& hand, Meeting& meeting,
     if (intents.gives) {
         if (const auto to = meeting.nearest_person(shown.translation))
             return give(hand, *to, meeting, participant);
-        note_ = "Nobody is near who could take this";
+        note_ = say(Phrase::nobody_near);
     }
     if (intents.lets_go)
         let_go(hand, meeting, participant);
@@ -346,7 +347,7 @@ void Headset::let_go(Hand& hand, const Meeting& meeting, client::Participant& pa
 void Headset::give(Hand& hand, ParticipantId to, const Meeting& meeting,
                    client::Participant& participant) {
     participant.ask_room(request::HandOver{hand.held->object, hand.held->grip, to});
-    note_ = "Given to " + meeting.name_of(to);
+    note_ = say(Phrase::given_to, meeting.name_of(to));
     hand.held.reset();
 }
 

@@ -7,6 +7,7 @@
 #include "base/camera_names.h"
 #include "base/error.h"
 #include "client/participant_figures.h"
+#include "phrases/phrase.h"
 #include "room/facing.h"
 #include "session/room_object.h"
 #include "viewer/age_text.h"
@@ -446,8 +447,9 @@ bool LiveScene::note_ages(const client::Participant& participant) {
                 continue;
             const double ms = to_ms(participant.now() - frame->times.captured);
             const auto known = before.find(id);
-            std::string age = left_out_.contains(id) ? "not drawn: " + age_text(std::max(ms, 0.0))
-                                                     : seen_age(ms, is_live);
+            std::string age = left_out_.contains(id)
+                                  ? say(Phrase::not_drawn_age, age_text(std::max(ms, 0.0)))
+                                  : seen_age(ms, is_live);
             changed = changed || (!is_live && (known == before.end() || known->second != age));
             ages_.emplace(id, std::move(age));
         }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "phrases/phrase.h"
 #include "viewer/age_text.h"
 
 namespace theatron::viewer {
@@ -36,11 +37,12 @@ std::string past_text(const std::map<CameraId, receive::CameraFramePtr>& frames,
         if (frame->past)
             oldest = std::min(oldest.value_or(frame->times.captured), frame->times.captured);
     if (!oldest)
-        return looking.empty() ? "" : "NOT LIVE: looking back...";
+        return looking.empty() ? "" : say(Phrase::looks_back);
     if (looking.empty() && !left_out.empty())
-        return "NOT LIVE: camera " + left_out + " is not drawn until it is live";
-    return "NOT LIVE: " + age_text(std::max(to_ms(session_time - *oldest), 0.0)) + " ago" +
-           (left_out.empty() ? "" : " (not drawn: live camera " + left_out + ")");
+        return say(Phrase::camera_not_yet_live, left_out);
+    const std::string age = age_text(std::max(to_ms(session_time - *oldest), 0.0));
+    return left_out.empty() ? say(Phrase::past_ago, age)
+                            : say(Phrase::past_ago_without, age, left_out);
 }
 
 Duration LookingBack::here(const client::Participant& participant, TimePoint now) const {
@@ -68,23 +70,24 @@ void LookingBack::add_panel(const std::string& past, bool knows_objects,
                             const client::Participant& participant, TimePoint now,
                             RoomPanel& panel) const {
     using std::chrono::seconds;
-    const auto button = [&](const char* label, Duration ago) {
+    const auto button = [&](const std::string& label, Duration ago) {
         panel.commands.push_back(LookBackTo{ago});
         return xr::PanelButton{label, int(panel.commands.size()) - 1};
     };
-    xr::PanelRow row{past.empty() ? "The present" : past,
+    xr::PanelRow row{past.empty() ? say(Phrase::the_present) : past,
                      past.empty()    ? ""
-                     : knows_objects ? "People and voices are of now"
-                                     : "People and voices are of now; objects and marks of before\n"
-                                       "you came are not drawn",
+                     : knows_objects ? say(Phrase::people_are_of_now)
+                                     : say(Phrase::objects_are_unknown),
                      {}};
     if (past.empty())
-        row.buttons = {button("10 s ago", seconds(10)), button("30 s ago", seconds(30)),
-                       button("60 s ago", seconds(60))};
+        for (const int ago : {10, 30, 60})
+            row.buttons.push_back(
+                button(say(Phrase::seconds_ago, std::to_string(ago)), seconds(ago)));
     else
-        row.buttons = {button("Live", Duration(0)), button("-10 s", further(participant, now)),
+        row.buttons = {button(say(Phrase::live), Duration(0)),
+                       button("-10 s", further(participant, now)),
                        button("+10 s", nearer(participant, now))};
-    panel.panels.push_back({"Look back (you alone)", {std::move(row)}});
+    panel.panels.push_back({say(Phrase::look_back_alone), {std::move(row)}});
 }
 
 }  // namespace theatron::viewer

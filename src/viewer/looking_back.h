@@ -25,10 +25,6 @@ std::string past_text(const std::map<CameraId, receive::CameraFramePtr>& frames,
                       const std::set<CameraId>& looking,
                       const std::map<CameraId, std::string>& names, TimePoint session_time);
 
-// Said to a person who wants to change something meanwhile.
-inline constexpr const char* looking_back_changes_nothing =
-    "You look back and change nothing meanwhile. End: live again";
-
 // Use from one thread.
 class LookingBack {
 public:

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "phrases/phrase.h"
 #include "viewer/mark_actions.h"
 
 namespace theatron::viewer {
@@ -18,20 +19,22 @@ void add_mark_panel(const std::optional<MarkKind>& tool, bool is_operator, RoomP
         return button(tool == kind ? "[" + label + "]" : label, ChooseMarkTool{kind});
     };
     std::vector<xr::PanelRow> rows;
-    rows.push_back(
-        {"Draw",
-         "",
-         {tool_button("Stroke", MarkKind::stroke), tool_button("Arrow", MarkKind::arrow),
-          tool_button("Pin", MarkKind::pin), tool_button("Distance", MarkKind::distance)}});
+    rows.push_back({say(Phrase::draw),
+                    "",
+                    {tool_button(say(Phrase::stroke), MarkKind::stroke),
+                     tool_button(say(Phrase::arrow), MarkKind::arrow),
+                     tool_button(say(Phrase::pin), MarkKind::pin),
+                     tool_button(say(Phrase::distance), MarkKind::distance)}});
     std::vector<xr::PanelButton> buttons{
-        button("Undo", ChangeMarks{undo_mark}),
-        button("Clear mine",
+        button(say(Phrase::undo), ChangeMarks{undo_mark}),
+        button(say(Phrase::clear_mine),
                ChangeMarks{[](client::Participant& p) { return clear_marks(p, false); }})};
     if (is_operator)
-        buttons.push_back(button(
-            "Clear all", ChangeMarks{[](client::Participant& p) { return clear_marks(p, true); }}));
-    rows.push_back({"Remove", "", std::move(buttons)});
-    panel.panels.push_back({"Marks", std::move(rows)});
+        buttons.push_back(button(say(Phrase::clear_all), ChangeMarks{[](client::Participant& p) {
+                                     return clear_marks(p, true);
+                                 }}));
+    rows.push_back({say(Phrase::remove), "", std::move(buttons)});
+    panel.panels.push_back({say(Phrase::marks), std::move(rows)});
 }
 
 }  // namespace theatron::viewer

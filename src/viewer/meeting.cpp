@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "phrases/phrase.h"
 #include "room/facing.h"
 #include "session/room_bytes.h"
 #include "viewer/age_text.h"
@@ -177,7 +178,7 @@ void Meeting::add_to(render::SceneFrame& frame, const render::CameraView& view) 
         if (const auto meter = meters_.find(person.id); meter != meters_.end())
             person.name += " " + meter->second;
         if (shows_past_)
-            person.name += " (now)";
+            person.name = say(Phrase::person_now, person.name);
         if (const auto face = faces_.find(person.id); face != faces_.end())
             person.face = face->second;
     }
@@ -190,7 +191,7 @@ void Meeting::add_holder(render::SceneFrame& frame, session::ObjectId id,
     // Somebody who holds it now did not yet hold it, or not there, in the past that is shown.
     if (shows_past_ || object.grip.holder == ParticipantId{} || object.grip.holder == room_.self)
         return;
-    const std::string text = name_of(object.grip.holder) + " holds this";
+    const std::string text = say(Phrase::holds_this, name_of(object.grip.holder));
     double above_m = label_above_m;
     if (const auto screen = session::decode_shared_screen(object.kind, object.properties))
         above_m += 0.5 * session::place_of(object, *screen).height_m;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "image/scratch.h"
+#include "phrases/phrase.h"
 #include "room/mesh_parts.h"
 #include "room/organ_mesh.h"
 
@@ -21,7 +22,8 @@ using render::SurfaceLook;
 constexpr double before_m = 0.003;
 constexpr double letter_m = 0.02, fact_m = 0.013, letter_width = 0.75;
 constexpr Rgb ink{255, 220, 90};
-constexpr const char* orientation_names[] = {"axial", "coronal", "sagittal"};
+constexpr Phrase orientation_names[] = {Phrase::slice_axial, Phrase::slice_coronal,
+                                        Phrase::slice_sagittal};
 
 // Objects have y up and their front towards z; pictures have y down and z away from the reader.
 const Pose object_from_picture{Quat{0, 1, 0, 0}, {}};
@@ -230,18 +232,22 @@ void Monitor::add_slice_facts(render::SceneFrame& frame, const session::RoomObje
     char text[120];
     std::snprintf(text, sizeof(text), "%g mm", ruler.length_mm);
     facts.write(text, -half.x + 0.02, half.y - 0.026, fact_m);
-    std::snprintf(text, sizeof(text), "%s  %s %.1f mm  window %.0f / %.0f", series_.c_str(),
-                  orientation_names[shown_->orientation], shown_->position_mm, shown_->center,
-                  shown_->width);
-    facts.write(text, -half.x + 0.01, half.y + 0.6 * bar_m, fact_m);
+    const auto written = [&](const char* format, double value) {
+        std::snprintf(text, sizeof(text), format, value);
+        return std::string(text);
+    };
+    facts.write(say(Phrase::slice_facts, series_, say(orientation_names[shown_->orientation]),
+                    written("%.1f", shown_->position_mm), written("%.0f", shown_->center),
+                    written("%.0f", shown_->width)),
+                -half.x + 0.01, half.y + 0.6 * bar_m, fact_m);
 }
 
 void Monitor::add_picture_facts(render::SceneFrame& frame,
                                 const session::RoomObject& object) const {
     const Vec2 half{picture_face_.size_m.x / 2, picture_face_.size_m.y / 2};
     ScreenWriter(frame, object)
-        .write(picture_name_ + "  " + std::to_string(number_ + 1) + " of " +
-                   std::to_string(pictures_) + (picture_ ? "" : "  (it is being fetched)"),
+        .write(say(picture_ ? Phrase::picture_facts : Phrase::picture_is_fetched, picture_name_,
+                   std::to_string(number_ + 1), std::to_string(pictures_)),
                -half.x + 0.01, half.y + 0.6 * bar_m, fact_m);
 }
 

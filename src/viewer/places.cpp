@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "phrases/phrase.h"
 #include "room/moving.h"
 
 namespace theatron::viewer {
@@ -58,10 +59,10 @@ std::vector<Place> places_of(const ViewableCameras& cameras) {
         const Vec3 eye{middle.x + from.x, height, middle.z + from.z};
         return look_at(eye, middle, up);
     };
-    return {{"At the surgeon's side", standing(side * side_distance_m, room::standing_eyes_m)},
-            {"Opposite", standing(side * -side_distance_m, room::standing_eyes_m)},
-            {"Above the situs", look_at(middle + up * above_m, middle, ahead)},
-            {"Overview", standing(ahead * -overview_distance_m, overview_height_m)}};
+    return {{say(Phrase::surgeons_side), standing(side * side_distance_m, room::standing_eyes_m)},
+            {say(Phrase::opposite), standing(side * -side_distance_m, room::standing_eyes_m)},
+            {say(Phrase::above_situs), look_at(middle + up * above_m, middle, ahead)},
+            {say(Phrase::overview), standing(ahead * -overview_distance_m, overview_height_m)}};
 }
 
 std::optional<Pose> from_above(const ViewableCameras& cameras) {

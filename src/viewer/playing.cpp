@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "phrases/phrase.h"
+
 namespace theatron::viewer {
 namespace {
 
@@ -30,11 +32,11 @@ std::string clock_text(Duration position) {
 }
 
 std::string playback_text(const wire::Playback& playback, TimePoint session_time) {
-    const std::string text = "RECORDING " + clock_text(position_at(playback, session_time)) +
-                             " / " + clock_text(playback.length);
-    if (!playback.paused)
-        return text;
-    return text + (playback.by.empty() ? ", paused at its end" : ", paused by " + playback.by);
+    return say(!playback.paused      ? Phrase::plays_recording
+               : playback.by.empty() ? Phrase::recording_at_end
+                                     : Phrase::recording_paused,
+               clock_text(position_at(playback, session_time)), clock_text(playback.length),
+               playback.by);
 }
 
 bool Playing::carry_out(const PlayStep& play, client::Participant& participant, TimePoint now) {
@@ -79,7 +81,7 @@ std::optional<xr::PanelRow> Playing::bar(const client::Participant& participant,
     const auto playback = participant.playback();
     if (!playback)
         return std::nullopt;
-    const auto button = [&](const char* label, PlayStep::What what) {
+    const auto button = [&](const std::string& label, PlayStep::What what) {
         panel.commands.push_back(PlayStep{what});
         return xr::PanelButton{label, int(panel.commands.size()) - 1};
     };
@@ -87,17 +89,18 @@ std::optional<xr::PanelRow> Playing::bar(const client::Participant& participant,
     if (wanted_ ||
         (playback->at < participant.session_time(asked_at_) && now - asked_at_ < answered_within))
         here = std::min(wanted_.value_or(asked_), playback->length);
-    xr::PanelRow bar{"Recording " + clock_text(here) + " / " + clock_text(playback->length),
-                     playback->paused && !playback->by.empty() ? "Paused by " + playback->by : "",
-                     {}};
+    xr::PanelRow bar{
+        say(Phrase::bar_recording, clock_text(here), clock_text(playback->length)),
+        playback->paused && !playback->by.empty() ? say(Phrase::paused_by, playback->by) : "",
+        {}};
     if (playback->paused && playback->by.empty())
-        bar.detail = "At its end";
+        bar.detail = say(Phrase::at_its_end);
     bar.slider =
         xr::PanelSlider{to_seconds(here), 0, std::max(to_seconds(playback->length), 0.001), -1};
     if (!may_play)
         return bar;
     using What = PlayStep::What;
-    bar.buttons = {button(playback->paused ? "Play" : "Pause", What::toggle),
+    bar.buttons = {button(say(playback->paused ? Phrase::play : Phrase::pause), What::toggle),
                    button("-5 s", What::back), button("+5 s", What::forward)};
     bar.slider->command = button("", What::slide).command;
     return bar;

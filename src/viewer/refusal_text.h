@@ -5,6 +5,7 @@
 #include <string>
 
 #include "session/room_object.h"
+#include "wire/sentence.h"
 #include "wire/text.h"
 
 namespace theatron::viewer {
@@ -32,7 +33,7 @@ static_assert(code_of(session::Refusal::of_sharer) == wire::TextCode::screen_of_
 
 // Part of a sentence, without a full stop; empty where nothing was refused.
 inline std::string text_of(session::Refusal refusal) {
-    return wire::english({code_of(refusal)});
+    return wire::sentence({code_of(refusal)});
 }
 
 }  // namespace theatron::viewer

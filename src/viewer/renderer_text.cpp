@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "phrases/phrase.h"
 #include "render/cloud_set.h"
 #include "xr/drawing_pace.h"
 
@@ -33,8 +34,7 @@ std::vector<std::string> renderer_choices() {
 
 void check_renderer_choice(const std::string& name) {
     if (!is_choice(name) && name != render::yardstick_renderer)
-        throw Error("There is no renderer \"" + name + "\": choose one of " +
-                    listed(renderer_choices(), ", ") + ".");
+        throw Error(say(Phrase::no_renderer, name, listed(renderer_choices(), ", ")));
 }
 
 std::string renderer_for(const std::string& choice, std::size_t cameras) {
@@ -48,7 +48,7 @@ std::string follow_host(session::RendererChoice& choice, const wire::SetRenderer
         if (!word.renderer.empty())
             check_renderer_choice(word.renderer);
     } catch (const Error& e) {
-        return std::string("The host wants another way of drawing. ") + e.what();
+        return say(Phrase::host_wants_unknown, e.what());
     }
     choice.follow(word);
     return {};

@@ -3,6 +3,7 @@
 
 #include "base/shown_name.h"
 #include "session/room_bytes.h"
+#include "wire/sentence.h"
 
 namespace theatron::viewer {
 namespace {
@@ -27,31 +28,31 @@ std::optional<session::PersonFacts> facts_of(const client::Participant::Room& ro
 std::string doing(const RoomPanelFacts& facts, const room::RoomPerson& person) {
     std::string text;
     if (const auto known = facts_of(facts.room, person.id)) {
-        add(text, wire::text_of(known->role));
+        add(text, wire::spoken(known->role));
         if (known->muted)
-            add(text, "muted");
+            add(text, say(Phrase::muted));
         if (known->records)
-            add(text, "records");
+            add(text, say(Phrase::records));
         if (known->voice_recorded)
-            add(text, "voice may be recorded");
+            add(text, say(Phrase::voice_may_be_recorded));
     }
     if (const auto level = facts.speaking.find(person.id); level != facts.speaking.end())
-        add(text, "speaks " + meter_text(level->second));
+        add(text, say(Phrase::speaks, meter_text(level->second)));
     int held = 0;
     for (const auto& [number, object] : facts.room.objects)
         held += object.kind != session::ObjectKind::person && object.grip.holder == person.id;
     if (held > 0)
-        add(text, held == 1 ? "holds an object" : "holds " + std::to_string(held) + " objects");
+        add(text, say(held == 1 ? Phrase::holds_one : Phrase::holds_many, std::to_string(held)));
     if (!person.head)
-        add(text, "not in the room");
+        add(text, say(Phrase::not_in_room));
     else if (!person.age.empty())
         add(text, person.age);
     else if (person.is_stale)
-        add(text, "view is old");
+        add(text, say(Phrase::view_is_old));
     if (person.calls)
-        add(text, "asks all to come");
+        add(text, say(Phrase::asks_all));
     if (facts.followed == person.id)
-        add(text, "you see through their eyes");
+        add(text, say(Phrase::you_see_through));
     return text;
 }
 
@@ -59,62 +60,67 @@ std::string doing(const RoomPanelFacts& facts, const room::RoomPerson& person) {
 
 RoomPanel room_panel(const RoomPanelFacts& facts) {
     RoomPanel panel;
-    const auto button = [&](std::string label, RoomCommand command) {
+    const auto labelled = [&](std::string label, RoomCommand command) {
         panel.commands.push_back(std::move(command));
         return xr::PanelButton{std::move(label), int(panel.commands.size()) - 1};
     };
+    const auto button = [&](Phrase label, RoomCommand command) {
+        return labelled(say(label), std::move(command));
+    };
     using Action = wire::ManageAction;
-    xr::Panel who{"People", {}};
+    xr::Panel who{say(Phrase::people), {}};
     for (const room::RoomPerson& person : facts.people) {
         xr::PanelRow row{person.name, doing(facts, person), {}};
         if (person.head) {
-            row.buttons.push_back(button("Go to", GoToPerson{person.id}));
-            row.buttons.push_back(button("See through", LookThrough{person.id}));
+            row.buttons.push_back(button(Phrase::go_to, GoToPerson{person.id}));
+            row.buttons.push_back(button(Phrase::see_through, LookThrough{person.id}));
         }
         who.rows.push_back(std::move(row));
         const auto known = facts_of(facts.room, person.id);
         if (!facts.is_operator || !known || session::is_recorded(person.id))
             continue;
         const bool observes = known->role == wire::Role::observer;
-        who.rows.push_back({"",
-                            "",
-                            {known->muted ? button("Unmute", Decide{Action::unmute, person.id, {}})
-                                          : button("Mute", Decide{Action::mute, person.id, {}}),
-                             button(observes ? "Make expert" : "Make observer",
-                                    Decide{Action::set_role, person.id,
-                                           observes ? wire::Role::expert : wire::Role::observer}),
-                             button(facts.asked_removal == person.id
-                                        ? "Really remove " + clean_name(person.name, shortened_name)
-                                        : "Remove",
-                                    Decide{Action::remove, person.id, {}})}});
+        who.rows.push_back(
+            {"",
+             "",
+             {known->muted ? button(Phrase::unmute, Decide{Action::unmute, person.id, {}})
+                           : button(Phrase::mute, Decide{Action::mute, person.id, {}}),
+              button(observes ? Phrase::make_expert : Phrase::make_observer,
+                     Decide{Action::set_role, person.id,
+                            observes ? wire::Role::expert : wire::Role::observer}),
+              labelled(facts.asked_removal == person.id
+                           ? say(Phrase::really_remove, clean_name(person.name, shortened_name))
+                           : say(Phrase::remove),
+                       Decide{Action::remove, person.id, {}})}});
     }
     if (!who.rows.empty() && facts.may_call)
         who.rows.push_back({"",
                             "",
-                            {facts.is_calling ? button("Stop calling", Call{false})
-                                              : button("Call all to me", Call{true})}});
+                            {facts.is_calling ? button(Phrase::stop_calling, Call{false})
+                                              : button(Phrase::call_all, Call{true})}});
     if (who.rows.empty())
-        who.rows.push_back({"Nobody else is here", "", {}});
+        who.rows.push_back({say(Phrase::nobody_here), "", {}});
     if (facts.own_face == OwnFace::off)
-        who.rows.push_back({"", "", {button("Show my face", ShowFace{true})}});
+        who.rows.push_back({"", "", {button(Phrase::show_face, ShowFace{true})}});
     else if (facts.own_face != OwnFace::none)
-        who.rows.push_back({"", "You are seen", {button("Hide my face", ShowFace{false})}});
+        who.rows.push_back(
+            {"", say(Phrase::you_are_seen), {button(Phrase::hide_face, ShowFace{false})}});
     panel.panels.push_back(std::move(who));
     if (!facts.places.empty()) {
-        xr::Panel where{"Places", {}};
+        xr::Panel where{say(Phrase::places), {}};
         for (const Place& place : facts.places)
-            where.rows.push_back({place.name, "", {button("Go", GoToPlace{place})}});
+            where.rows.push_back({place.name, "", {button(Phrase::go, GoToPlace{place})}});
         panel.panels.push_back(std::move(where));
     }
     // Below the others: they stay in their places when somebody knocks.
     if (facts.is_operator && !facts.visitors.empty()) {
-        xr::Panel door{"At the door", {}};
+        xr::Panel door{say(Phrase::at_the_door), {}};
         for (const wire::Visitor& visitor : facts.visitors)
             door.rows.push_back(
                 {visitor.name,
-                 wire::text_of(visitor.role),
-                 {button("Let in", Decide{Action::admit, visitor.participant, {}}),
-                  button("Refuse", Decide{Action::turn_away, visitor.participant, {}})}});
+                 wire::spoken(visitor.role),
+                 {button(Phrase::let_in, Decide{Action::admit, visitor.participant, {}}),
+                  button(Phrase::refuse, Decide{Action::turn_away, visitor.participant, {}})}});
         panel.panels.push_back(std::move(door));
     }
     return panel;
@@ -124,12 +130,15 @@ RoomPanel call_panel(const std::vector<room::RoomPerson>& callers) {
     RoomPanel panel;
     if (callers.empty())
         return panel;
-    xr::Panel offer{"Calls you (J: go there)", {}};
+    xr::Panel offer{say(Phrase::calls_you), {}};
     for (const room::RoomPerson& person : callers) {
         const int first = int(panel.commands.size());
         panel.commands.push_back(AnswerCall{person.id, true});
         panel.commands.push_back(AnswerCall{person.id, false});
-        offer.rows.push_back({person.name, "", {{"Go there", first}, {"Stay here", first + 1}}});
+        offer.rows.push_back(
+            {person.name,
+             "",
+             {{say(Phrase::go_there), first}, {say(Phrase::stay_here), first + 1}}});
     }
     panel.panels.push_back(std::move(offer));
     return panel;

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "phrases/phrase.h"
 #include "session/permissions.h"
 #include "session/shared_screen.h"
 
@@ -16,18 +17,18 @@ namespace request = session::request;
 std::string state_of(const session::RoomObject& object, const session::SharedScreen& screen,
                      const ScreenPanelFacts& facts) {
     char width[32];
-    std::snprintf(width, sizeof(width), "%.2f m wide", object.scale);
-    std::string text = (object.creator == ParticipantId{} ? "of the host"
-                        : object.creator == facts.self    ? "you share it"
-                                                          : "shared by " + screen.publisher) +
-                       ", " + width;
+    std::snprintf(width, sizeof(width), "%.2f", object.scale);
+    std::string text = (object.creator == ParticipantId{} ? say(Phrase::of_host)
+                        : object.creator == facts.self    ? say(Phrase::you_share_it)
+                                                       : say(Phrase::shared_by, screen.publisher)) +
+                       ", " + say(Phrase::meters_wide, width);
     if (screen.pinned)
-        text += ", pinned";
+        text += ", " + say(Phrase::pinned);
     const ParticipantId holder = object.grip.holder;
     if (holder == facts.self && holder != ParticipantId{})
-        text += ", you hold it";
+        text += ", " + say(Phrase::you_hold_it);
     else if (const auto name = facts.names.find(holder); name != facts.names.end())
-        text += ", " + name->second + " holds it";
+        text += ", " + say(Phrase::holds_it, name->second);
     return text;
 }
 
@@ -40,27 +41,27 @@ bool may_decide_on_screen(const session::RoomObject& screen, ParticipantId self,
 
 void add_screen_panel(const ScreenPanelFacts& facts, RoomPanel& panel) {
     using What = ChangeScreen::What;
-    xr::Panel screens{"Screens", {}};
+    xr::Panel screens{say(Phrase::screens), {}};
     for (const auto& [id, object] : *facts.objects) {
         const auto screen = session::decode_shared_screen(object.kind, object.properties);
         if (!screen || !screen->camera || session::is_recorded(id))
             continue;
         xr::PanelRow row{screen->name, state_of(object, *screen, facts), {}};
-        const auto add = [&, number = id](const char* label, What what) {
+        const auto add = [&, number = id](Phrase label, What what) {
             panel.commands.push_back(ChangeScreen{what, number});
-            row.buttons.push_back({label, int(panel.commands.size()) - 1});
+            row.buttons.push_back({say(label), int(panel.commands.size()) - 1});
         };
         if (session::may(facts.role, session::Right::handle) && !screen->pinned &&
             object.grip.holder == ParticipantId{}) {
-            add("Smaller", What::smaller);
-            add("Larger", What::larger);
+            add(Phrase::smaller, What::smaller);
+            add(Phrase::larger, What::larger);
         }
         if (may_decide_on_screen(object, facts.self, facts.role)) {
-            add(screen->pinned ? "Unpin" : "Pin in place",
+            add(screen->pinned ? Phrase::unpin : Phrase::pin_in_place,
                 screen->pinned ? What::unpin : What::pin);
             // The host's own screens do not end.
             if (object.creator != ParticipantId{})
-                add("End share", What::end);
+                add(Phrase::end_share, What::end);
         }
         screens.rows.push_back(std::move(row));
     }

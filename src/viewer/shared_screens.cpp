@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "phrases/phrase.h"
 #include "room/people.h"
 #include "viewer/age_text.h"
 #include "wire/condition_text.h"
@@ -23,13 +24,13 @@ ScreenCaption screen_caption(const std::string& name, const wire::CameraState& s
     if (is_past && age_ms)
         return {name + "  " + seen_age(*age_ms, false), true};
     if (state.condition == Condition::ended)
-        return {name + ": has ended, this is its last picture", true};
+        return {say(Phrase::screen_ended, name), true};
     if (state.condition == Condition::failed)
-        return {name + ": has failed", true};
+        return {say(Phrase::screen_failed, name), true};
     if (!age_ms)
-        return {name + ": no picture yet", true};
+        return {say(Phrase::screen_waits, name), true};
     if (state.condition == Condition::stale || *age_ms >= old_picture_ms)
-        return {name + ": stands still for " + age_text(*age_ms), true};
+        return {say(Phrase::screen_stands_still, name, age_text(*age_ms)), true};
     return {name + "  " + age_text(*age_ms), false};
 }
 
@@ -107,7 +108,7 @@ bool SharedScreens::follow(const session::RoomObjects& objects, ParticipantId se
             own = std::move(known->second);
         own.name = facts->name;
         own.calibration.color.size = facts->picture;
-        own.caption = {facts->name + ": you share this", false};
+        own.caption = {say(Phrase::screen_is_own, facts->name), false};
         set(own, object_of(id));
     }
     return changed || before.size() != own_.size();
@@ -149,7 +150,8 @@ void SharedScreens::add(Screen& screen, render::SceneFrame& frame) {
         {&*screen.housing, place.room_from_screen, {color, 0, 0.6}, false, id, width});
     const Vec3 caption = Vec3{-x, -y - 0.7 * caption_height, -lifted} * width;
     frame.texts.push_back(
-        {screen.caption.text + (screen.object && screen.object->pinned ? "  pinned" : ""),
+        {screen.caption.text +
+             (screen.object && screen.object->pinned ? "  " + say(Phrase::pinned) : ""),
          place.room_from_screen * Pose{Quat{}, caption}, caption_height * width,
          screen.caption.is_trouble ? warning : ink});
 }

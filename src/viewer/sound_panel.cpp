@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/outside_text.h"
+#include "phrases/phrase.h"
 
 namespace theatron::viewer {
 namespace {
@@ -13,28 +14,31 @@ namespace {
 constexpr std::size_t max_shown_name = 40, max_shown_devices = 12;
 
 std::string shown_name(const std::string& device) {
-    return device == "default" ? "The usual one" : clean_text(device, max_shown_name);
+    return device == "default" ? say(Phrase::usual_device) : clean_text(device, max_shown_name);
 }
 
 void add_kind(UseSound::Kind kind, const std::vector<std::string>& devices,
               const std::string& in_use, RoomPanel& panel, xr::Panel& sound) {
     if (devices.empty() && in_use.empty())
         return;
-    const char* title = kind == UseSound::Kind::microphone ? "Microphone" : "Loudspeaker";
-    sound.rows.push_back({title, in_use.empty() ? "none" : shown_name(in_use), {}});
+    const Phrase title =
+        kind == UseSound::Kind::microphone ? Phrase::microphone : Phrase::loudspeaker;
+    sound.rows.push_back(
+        {say(title), in_use.empty() ? say(Phrase::no_device) : shown_name(in_use), {}});
     std::size_t shown = 0;
     for (const std::string& device : devices) {
         if (device == in_use || shown++ == max_shown_devices)
             continue;
         panel.commands.push_back(UseSound{kind, device});
-        sound.rows.push_back({shown_name(device), "", {{"Use", int(panel.commands.size()) - 1}}});
+        sound.rows.push_back(
+            {shown_name(device), "", {{say(Phrase::use), int(panel.commands.size()) - 1}}});
     }
 }
 
 }  // namespace
 
 void add_sound_panel(const SoundChoices& choices, RoomPanel& panel) {
-    xr::Panel sound{"Sound", {}};
+    xr::Panel sound{say(Phrase::sound), {}};
     add_kind(UseSound::Kind::microphone, choices.microphones, choices.microphone, panel, sound);
     add_kind(UseSound::Kind::loudspeaker, choices.loudspeakers, choices.loudspeaker, panel, sound);
     if (!sound.rows.empty())

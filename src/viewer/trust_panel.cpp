@@ -2,8 +2,10 @@
 #include "viewer/trust_panel.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
+#include "phrases/phrase.h"
 #include "viewer/age_text.h"
 #include "wire/condition_text.h"
 
@@ -20,11 +22,10 @@ double age_ms(const client::CameraFigures& camera) {
 }
 
 std::string rates(const client::CameraFigures& camera) {
-    char text[100];
-    std::snprintf(text, sizeof(text), "%.0f fps, %.1f Mbit/s, %llu lost on the way",
-                  camera.depth.frames_per_second, camera.mbit_per_second(),
-                  static_cast<unsigned long long>(camera.dropped()));
-    return text;
+    char mbit[32];
+    std::snprintf(mbit, sizeof(mbit), "%.1f", camera.mbit_per_second());
+    return say(Phrase::rates, std::to_string(std::lround(camera.depth.frames_per_second)), mbit,
+               std::to_string(camera.dropped()));
 }
 
 }  // namespace
@@ -34,40 +35,42 @@ std::string exactness_text(const client::CameraFigures& camera) {
         return "";
     switch (camera.depth.exact) {
         case receive::Exactness::everywhere:
-            return camera.camera.state.filter.empty() ? "lossless" : "lossless after filters";
+            return say(camera.camera.state.filter.empty() ? Phrase::lossless
+                                                          : Phrase::lossless_after_filters);
         case receive::Exactness::region:
-            return "lossless in the region of interest only";
+            return say(Phrase::lossless_in_region);
         case receive::Exactness::nowhere:
-            return "lossy";
+            return say(Phrase::lossy);
     }
     return "";
 }
 
 xr::Panel trust_panel(const client::ParticipantFigures& figures,
                       const std::function<std::string(const std::string&)>& filter_name) {
-    xr::Panel panel{"Cameras", {}};
+    xr::Panel panel{say(Phrase::cameras), {}};
     for (const client::CameraFigures& camera : figures.cameras) {
         const wire::CameraState& state = camera.camera.state;
         xr::PanelRow row{camera.camera.description.name, "", {}};
         if (camera.depth.frames == 0) {
-            row.text += ": no picture yet";
+            row.text = say(Phrase::row_waits, row.text);
         } else {
             row.text += ": " + seen_age(age_ms(camera), is_live(camera));
-            row.detail = rates(camera) + "\n" + "depth " + camera.depth.codec + ", " +
-                         exactness_text(camera) + "; filters: " + filter_name(state.filter);
+            row.detail = rates(camera) + "\n" +
+                         say(Phrase::depth_and_filters, camera.depth.codec, exactness_text(camera),
+                             filter_name(state.filter));
             if (!camera.color.codec.empty())
-                row.detail += "\ncolour " + camera.color.codec;
+                row.detail += "\n" + say(Phrase::color_codec, camera.color.codec);
         }
         if (const std::string text = client::adjustment_text(camera.camera.description);
             !text.empty())
-            row.detail += (row.detail.empty() ? "" : "\n") + ("by operators: " + text);
+            row.detail += (row.detail.empty() ? "" : "\n") + say(Phrase::by_operators, text);
         if (!state.problem.empty())
             row.detail += (row.detail.empty() ? "" : "\n") +
                           client::problem_text(state, figures.status.standing.role);
         panel.rows.push_back(std::move(row));
     }
     if (panel.rows.empty())
-        panel.rows.push_back({"There are no cameras", "", {}});
+        panel.rows.push_back({say(Phrase::no_cameras), "", {}});
     return panel;
 }
 
@@ -75,8 +78,8 @@ std::string not_live_text(const client::ParticipantFigures& figures) {
     std::string text;
     for (const client::CameraFigures& camera : figures.cameras)
         if (!is_live(camera) && camera.depth.frames > 0)
-            text += (text.empty() ? "Camera " : "; camera ") + camera.camera.description.name +
-                    " is " + seen_age(age_ms(camera), false);
+            text += say(text.empty() ? Phrase::camera_is : Phrase::camera_is_also,
+                        camera.camera.description.name, seen_age(age_ms(camera), false));
     return text;
 }
 

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/options.h"
+#include "phrases/phrase.h"
 
 namespace theatron::viewer {
 
@@ -31,10 +32,10 @@ render::CameraView ViewChoice::resolve(const std::map<CameraId, Calibration>& ca
     const auto calibration = calibrations.find(camera);
     const auto frame = newest.find(camera);
     if (calibration == calibrations.end())
-        throw Error("There is no camera " + std::to_string(int(camera)) + "; the host has " +
-                    std::to_string(calibrations.size()) + ", numbered from 0.");
+        throw Error(say(Phrase::no_such_camera, std::to_string(int(camera)),
+                        std::to_string(calibrations.size())));
     if (frame == newest.end())
-        throw Error("Camera " + std::to_string(int(camera)) + " sent no picture.");
+        throw Error(say(Phrase::camera_sent_nothing, std::to_string(int(camera))));
     const render::CameraView own = render::view_of_camera(
         calibration->second.depth, calibration->second.room_from_camera, picture);
     const Vec3 pivot = render::point_of_interest(calibration->second, frame->second->depth.view());

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "phrases/phrase.h"
 #include "session/permissions.h"
 #include "viewer/mark_actions.h"
 #include "viewer/mark_panel.h"
@@ -113,7 +114,7 @@ void Viewer::on_key(const xr::KeyPress& key, Size picture, TimePoint now) {
             break;
         case xr::Action::undo_mark:
             if (!undo_mark(participant_))
-                note("You have made no mark", now);
+                note(say(Phrase::no_own_mark), now);
             break;
         case xr::Action::slice_here:
             break;  // needs the mouse: show_slice_at()
@@ -124,7 +125,7 @@ void Viewer::on_key(const xr::KeyPress& key, Size picture, TimePoint now) {
             stop_following();
             scene_changed_ = true;
             { eye_.go_to(at_eye_height(eye_.view(picture).room_from_eye)); }
-            note(sits_ ? "Sitting" : "Standing", now);
+            note(say(sits_ ? Phrase::sitting : Phrase::standing), now);
             break;
         case xr::Action::own_view:
         case xr::Action::view_camera:
@@ -160,7 +161,7 @@ void Viewer::on_key(const xr::KeyPress& key, Size picture, TimePoint now) {
             if (const auto people = callers(); !people.empty())
                 answer_call(people.front().id, true, now);
             else
-                note("Nobody calls you.", now);
+                note(say(Phrase::nobody_calls), now);
             break;
         case xr::Action::admit:
             decide_on_visitor(wire::ManageAction::admit, now);
@@ -230,7 +231,7 @@ void Viewer::press(int command, TimePoint now) {
     }
     if (const auto* change = std::get_if<ChangeCase>(&chosen)) {
         if (!change->change(participant_))
-            note("This is not in the room any more", now);
+            note(say(Phrase::not_in_room_any_more), now);
         return;
     }
     if (const auto* step = std::get_if<AdjustStep>(&chosen)) {
@@ -249,7 +250,7 @@ void Viewer::press(int command, TimePoint now) {
         return play(*step, now);
     if (const auto* screen = std::get_if<ChangeScreen>(&chosen)) {
         if (!change_screen(*screen, participant_))
-            note("This is not in the room any more", now);
+            note(say(Phrase::not_in_room_any_more), now);
         return;
     }
     if (const auto* moment = std::get_if<LookBackTo>(&chosen))
@@ -258,7 +259,7 @@ void Viewer::press(int command, TimePoint now) {
         return marking_.choose(tool->tool, scene_.meeting());
     if (const auto* change = std::get_if<ChangeMarks>(&chosen)) {
         if (!change->change(participant_))
-            note("There is no such mark", now);
+            note(say(Phrase::no_such_mark), now);
         return;
     }
     if (const auto* offer = std::get_if<OpenOffered>(&chosen))
@@ -282,9 +283,9 @@ void Viewer::press(int command, TimePoint now) {
     const ParticipantId id = std::get<LookThrough>(chosen).person;
     const room::RoomPerson* person = scene_.meeting().person(id);
     if (!person)
-        return note("This person has left", now);
+        return note(say(Phrase::person_has_left), now);
     followed_ = id;
-    note("You see through the eyes of " + person->name + "; move to leave", now);
+    note(say(Phrase::through_eyes_of, person->name), now);
 }
 
 void Viewer::stop_following() {
@@ -295,11 +296,11 @@ void Viewer::stop_following() {
 void Viewer::decide_on_visitor(wire::ManageAction action, TimePoint now) {
     const auto visitors = participant_.visitors();
     if (visitors.empty())
-        return note("Nobody waits to be let in.", now);
+        return note(say(Phrase::nobody_waits), now);
     const wire::Visitor& first = visitors.front();
     participant_.manage(action, first.participant);
-    note((action == wire::ManageAction::admit ? "You have let in " : "You have not let in ") +
-             first.name + ".",
+    note(say(action == wire::ManageAction::admit ? Phrase::you_let_in : Phrase::you_turned_away,
+             first.name),
          now);
 }
 
@@ -311,9 +312,8 @@ void Viewer::follow_host(TimePoint now) {
     if (const std::string problem = viewer::follow_host(choice_, *command); !problem.empty())
         return note(problem, now);
     if (choice_.renderer() != before.renderer() || choice_.locked() != before.locked())
-        note(choice_.locked() || !before.locked()
-                 ? "The host has set the way of drawing: " + choice_.renderer()
-                 : "The way of drawing is yours again.",
+        note(choice_.locked() || !before.locked() ? say(Phrase::host_has_set, choice_.renderer())
+                                                  : say(Phrase::drawing_is_yours),
              now);
     choose_pace();
 }
@@ -401,12 +401,12 @@ void Viewer::send_own_pose(Size picture, TimePoint now) {
 }
 
 std::string Viewer::camera_text(CameraId camera) const {
-    std::string text = "camera " + std::to_string(int(camera));
+    const std::string number = std::to_string(int(camera));
     std::uint64_t generation = 0;
     for (const auto& known : participant_.cameras(generation))
         if (known.description.id == camera)
-            text += ": " + known.description.name;
-    return text;
+            return say(Phrase::camera_number_named, number, known.description.name);
+    return say(Phrase::camera_number, number);
 }
 
 void Viewer::draw(Size picture, const render::DrawTarget& target, TimePoint now) {

@@ -2,6 +2,7 @@
 // Going to people, and calls of people to each other.
 #include <utility>
 
+#include "phrases/phrase.h"
 #include "session/permissions.h"
 #include "viewer/viewer.h"
 
@@ -27,18 +28,18 @@ std::optional<Pose> Viewer::place_beside(ParticipantId id) const {
 void Viewer::go_to_person(ParticipantId id, TimePoint now) {
     const auto place = place_beside(id);
     if (!place || !eye_.is_placed())
-        return note("This person has left", now);
+        return note(say(Phrase::person_has_left), now);
     stop_following();
     scene_changed_ = true;
     eye_.go_to(*place);
-    note("Beside " + scene_.meeting().name_of(id), now);
+    note(say(Phrase::beside, scene_.meeting().name_of(id)), now);
 }
 
 void Viewer::call(bool begins, TimePoint now) {
     if (begins && !session::may(participant_.status().standing.role, session::Right::point))
-        return note("Your role does not allow to call others.", now);
+        return note(say(Phrase::may_not_call), now);
     calls_until_ = begins ? now + Meeting::called_for : TimePoint{};
-    note(begins ? "You ask the others to come to you; they decide." : "You no longer call.", now);
+    note(say(begins ? Phrase::you_call : Phrase::you_call_no_more), now);
 }
 
 void Viewer::answer_call(ParticipantId person, bool comes, TimePoint now) {
@@ -69,7 +70,7 @@ void Viewer::look_through_followed(TimePoint now) {
     const room::RoomPerson* person = scene_.meeting().person(*followed_);
     if (!person) {
         stop_following();
-        return note("The person through whose eyes you saw has left", now);
+        return note(say(Phrase::followed_has_left), now);
     }
     // The eye's frame has y down and z forward.
     eye_.go_to(*person->head * Pose{Quat{0, 1, 0, 0}, {}});

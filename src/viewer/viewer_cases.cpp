@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A person's view of the open case: its panel, and the slice through a place under the mouse.
+#include "phrases/phrase.h"
 #include "viewer/case_actions.h"
 #include "viewer/case_panel.h"
 #include "viewer/screen_handling.h"
@@ -23,7 +24,7 @@ void Viewer::show_slice_at(const xr::WindowInput& input, Size picture, TimePoint
     const auto place =
         hit ? meeting.case_scene().patient_point(hit->object, hit->picked.place) : std::nullopt;
     if (!open || !open->screen)
-        return note("Point at a part of an organ with images", now);
+        return note(say(Phrase::point_at_organ), now);
     const session::CaseScreen& screen = open->screen->facts;
     if (place)
         return void(set_screen(participant_, through(screen, *place)));
@@ -32,7 +33,7 @@ void Viewer::show_slice_at(const xr::WindowInput& input, Size picture, TimePoint
         is_screen ? meeting.case_scene().monitor().patient_point(*open, hit->picked.place)
                   : std::nullopt;
     if (!on_slice)
-        return note("Point at a part of an organ with images, or at a slice", now);
+        return note(say(Phrase::point_at_slice), now);
     session::CaseScreen next = screen;
     next.orientation = std::uint8_t((screen.orientation + 1) % session::CaseScreen::orientations);
     set_screen(participant_, through(next, *on_slice));

@@ -2,6 +2,7 @@
 // Choices of the way of drawing and of the codecs: the next one by a key, or one by its name.
 #include <algorithm>
 
+#include "phrases/phrase.h"
 #include "video/color_codec.h"
 #include "video/depth_codecs.h"
 #include "viewer/viewer.h"
@@ -24,11 +25,13 @@ void Viewer::choose_next_renderer(TimePoint now) {
 
 void Viewer::choose_renderer(const std::string& renderer, TimePoint now) {
     if (!choice_.choose(renderer))
-        return note("The host has set this way of drawing: " + choice_.renderer(), now);
+        return note(say(Phrase::host_has_set_this, choice_.renderer()), now);
     options_.renderer = choice_.renderer();
     choose_pace();
     const bool as_drawn = choice_.renderer() == way().renderer;
-    note("Drawing: " + choice_.renderer() + (as_drawn ? "" : ", now " + way().renderer), now);
+    note(say(as_drawn ? Phrase::drawing_is_now : Phrase::drawing_is_really, choice_.renderer(),
+             way().renderer),
+         now);
 }
 
 void Viewer::choose_next_depth_codec(TimePoint now) {
@@ -39,16 +42,15 @@ void Viewer::choose_depth_codec(const std::string& codec, TimePoint now) {
     options_.depth_codec = codec;
     participant_.choose_codecs(codec, "");
     const auto setting = video::parse_depth_setting(codec).setting;
-    note("Depth codec: " + codec +
-             (video::make_depth_codec(setting)->lossless()
-                  ? ", lossless"
-                  : ", LOSSY: depth is no longer what the camera measured"),
+    note(say(video::make_depth_codec(setting)->lossless() ? Phrase::depth_codec_lossless
+                                                          : Phrase::depth_codec_lossy,
+             codec),
          now);
 }
 
 void Viewer::choose_next_color_codec(TimePoint now) {
     choose_color_codec(next_name(video::color_codec_names(), options_.color_codec));
-    note("Colour codec: " + options_.color_codec, now);
+    note(say(Phrase::color_codec_is, options_.color_codec), now);
 }
 
 void Viewer::choose_color_codec(const std::string& codec) {

@@ -2,6 +2,7 @@
 // The view of a person with a headset.
 #include <utility>
 
+#include "phrases/phrase.h"
 #include "viewer/viewer.h"
 
 namespace theatron::viewer {
@@ -14,9 +15,7 @@ void Viewer::enter_headset(bool real_room, double pictures_per_s, TimePoint now)
     headset_wish_.reset();
     pace_limits_ = xr::limits_of_display(pictures_per_s);
     pace_ = xr::DrawingPace(pace_.ways(), 0, pace_limits_);
-    note(real_room ? "Hold a hand over the middle of the table, point to the patient's head, grip"
-                   : "Y or B, or your left palm: menu",
-         now);
+    note(say(real_room ? Phrase::how_to_place_table : Phrase::how_to_menu), now);
 }
 
 void Viewer::leave_headset() {
@@ -43,7 +42,9 @@ void Viewer::on_headset(const xr::HeadsetFrame& frame, TimePoint now) {
     facts.muted = participant_.status().standing.muted;
     facts.seated = headset_->is_seated();
     facts.real_room = scene_.has_real_room();
-    facts.drawing = choice_.renderer() == automatic ? way().renderer + " (auto)" : way().renderer;
+    facts.drawing = choice_.renderer() == automatic
+                        ? say(Phrase::drawn_automatically, way().renderer)
+                        : way().renderer;
     facts.people = scene_.meeting().people();
     facts.past = past(now);
     headset_->on_frame(frame, facts, scene_, participant_, now);
@@ -56,7 +57,7 @@ void Viewer::on_headset(const xr::HeadsetFrame& frame, TimePoint now) {
     const std::string notice = now < notice_until_ ? notice_ : "";
     const char* const between = facts.past.empty() || notice.empty() ? "" : ". ";
     scene_.set_headset_text(is_joined ? facts.past + between + notice
-                                      : "Connection lost, trying again...");
+                                      : say(Phrase::headset_lost_connection));
 }
 
 void Viewer::recentre_headset() {
@@ -68,7 +69,7 @@ void Viewer::follow_wish(const MenuRow& wish, TimePoint now) {
     if (wish.action == MenuAction::drawing) {
         choose_next_renderer(now);
     } else if (wish.action == MenuAction::new_brick && scene_.past_moment()) {
-        note(looking_back_changes_nothing, now);
+        note(say(Phrase::changes_nothing), now);
     } else if (wish.action == MenuAction::new_brick) {
         handling_.make_brick(headset_->head(), participant_);
     } else if (wish.action == MenuAction::live) {

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "base/error.h"
+#include "phrases/phrase.h"
 #include "viewer/age_text.h"
 #include "viewer/viewer.h"
 #include "wire/manage_text.h"
@@ -52,7 +53,7 @@ void Viewer::go_home(const xr::KeyPress& key, Size picture, TimePoint now) {
     try {
         eye_.go_home(choice, cameras(), picture);
         scene_changed_ = true;
-        note("View of " + camera_text(choice.camera), now);
+        note(say(Phrase::view_of, camera_text(choice.camera)), now);
     } catch (const Error& e) {
         note(e.what(), now);
     }
@@ -61,7 +62,7 @@ void Viewer::go_home(const xr::KeyPress& key, Size picture, TimePoint now) {
 void Viewer::view_from_above(TimePoint now) {
     auto place = from_above(cameras());
     if (!place || !eye_.is_placed())
-        return note("There is nothing to see from above", now);
+        return note(say(Phrase::nothing_from_above), now);
     stop_following();
     if (const auto& space = scene_.free_space())  // below the ceiling
         place->translation = room::kept_inside(*space, place->translation);
@@ -69,7 +70,7 @@ void Viewer::view_from_above(TimePoint now) {
     constexpr double seen_below_m = 1.95, least_m = 0.05;
     eye_.go_to(*place, std::max(place->translation.y - seen_below_m, least_m));
     scene_changed_ = true;
-    note("From above", now);
+    note(say(Phrase::from_above), now);
 }
 
 void Viewer::change_point_size(double factor, TimePoint now) {
@@ -79,18 +80,15 @@ void Viewer::change_point_size(double factor, TimePoint now) {
     scene_changed_ = true;
     const bool has_points = way().renderer == "splat" || way().renderer == "disc";
     char text[48];
-    std::snprintf(text, sizeof(text), "Point size: %.2f", point_size_);
-    note(std::string(text) +
-             (has_points ? "" : "; " + way().renderer + " has no points, splat and disc have (M)"),
+    std::snprintf(text, sizeof(text), "%.2f", point_size_);
+    note(say(has_points ? Phrase::point_size : Phrase::point_size_unused, text, way().renderer),
          now);
 }
 
 void Viewer::freeze(TimePoint now) {
     frozen_ = !frozen_;
     if (!frozen_)
-        note(participant_.looks_back() ? "Goes on; comma and period go to other moments"
-                                       : "Live again",
-             now);
+        note(say(participant_.looks_back() ? Phrase::goes_on : Phrase::live_again), now);
 }
 
 bool Viewer::may(session::Right right) const {
@@ -147,7 +145,7 @@ void Viewer::keep_present(xr::WindowInput& input, TimePoint now) {
         });
     input.keys.erase(last, input.keys.end());
     if (input.points || input.keys.size() < count)
-        note(looking_back_changes_nothing, now);
+        note(say(Phrase::changes_nothing), now);
     input.points = false;
 }
 
@@ -303,14 +301,14 @@ void Viewer::add_camera_pictures(Facts& facts, RoomPanel& panel, TimePoint now) 
         const auto& pictures =
             camera_pictures_->of(id, frame->number, known->second, frame->depth.view(),
                                  frame->color, large_ ? large_width : small_width);
-        const auto add = [&](PictureKind kind, const char* name,
+        const auto add = [&](PictureKind kind, Phrase name,
                              const std::shared_ptr<const ColorImage>& pixels) {
             const ShowLarge show{id, kind};
             if (!pixels || (large_ && *large_ != show))
                 return;
             panel.commands.push_back(show);
             xr::OverlayPicture picture{
-                picture_title(camera_text(id) + ", " + name, age_ms, is_live),
+                picture_title(camera_text(id) + ", " + say(name), age_ms, is_live),
                 pixels,
                 {},
                 "",
@@ -324,9 +322,9 @@ void Viewer::add_camera_pictures(Facts& facts, RoomPanel& panel, TimePoint now) 
             }
             facts.pictures.push_back(std::move(picture));
         };
-        add(PictureKind::color, "colour", pictures.color);
-        add(PictureKind::depth, "depth", pictures.depth);
-        add(PictureKind::blended, "both", pictures.blended);
+        add(PictureKind::color, Phrase::color_picture, pictures.color);
+        add(PictureKind::depth, Phrase::depth_picture, pictures.depth);
+        add(PictureKind::blended, Phrase::blended_picture, pictures.blended);
     }
     if (facts.pictures.empty())
         large_.reset();  // the camera has left
@@ -337,15 +335,16 @@ std::string Viewer::pointed_text() {
         return "";
     const auto at = surface_at(*mouse_, eye_.view(picture_), scene_.meeting(), scene_.cloud());
     if (!at)
-        return "no surface";
+        return say(Phrase::no_surface);
     if (!at->measured)
-        return (at->surface == session::MarkedSurface::slice ? "image; " : "organ; ") +
-               place_text(at->place);
+        return say(
+            at->surface == session::MarkedSurface::slice ? Phrase::on_image : Phrase::on_organ,
+            place_text(at->place));
     const auto camera = CameraId(at->measured->camera);
     const auto known = scene_.calibrations().find(camera);
     const bool is_registered = known != scene_.calibrations().end() && known->second.registered;
-    return meters(length(at->measured->in_camera)) + " from " + camera_text(camera) + "; " +
-           place_text(at->place) + (is_registered ? "" : " (camera is not registered)");
+    return say(is_registered ? Phrase::from_camera : Phrase::from_unregistered,
+               meters(length(at->measured->in_camera)), camera_text(camera), place_text(at->place));
 }
 
 }  // namespace theatron::viewer

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "phrases/phrase.h"
+
 namespace theatron::viewer {
 namespace {
 
@@ -24,34 +26,36 @@ std::string meter_text(int level_db) {
 std::optional<xr::Fact> recorded_voice_fact(const Voices& voices) {
     if (!voices.may_record || !voices.microphone || *voices.microphone == Microphone::none)
         return std::nullopt;
-    return *voices.may_record ? xr::Fact{"Your voice", "is recorded, F8 ends that", true}
-                              : xr::Fact{"Your voice", "is not recorded, F8 agrees", false};
+    return *voices.may_record
+               ? xr::Fact{say(Phrase::your_voice), say(Phrase::voice_is_recorded), true}
+               : xr::Fact{say(Phrase::your_voice), say(Phrase::voice_is_not_recorded), false};
 }
 
 std::optional<xr::Fact> microphone_fact(const Voices& voices, const wire::Standing& standing) {
     if (!voices.microphone)
         return std::nullopt;
-    const auto fact = [](const std::string& text, bool warning) {
-        return xr::Fact{"Microphone", text, warning};
+    const auto fact = [&](Phrase text, bool warning) {
+        return xr::Fact{say(Phrase::microphone), say(text, meter_text(voices.own_level_db)),
+                        warning};
     };
     switch (*voices.microphone) {
         case Microphone::none:
             return std::nullopt;
         case Microphone::missing:
-            return fact("missing: it is used when it is plugged in", true);
+            return fact(Phrase::microphone_missing, true);
         case Microphone::closed:
-            return fact("closed, L opens it", false);
+            return fact(Phrase::microphone_closed, false);
         case Microphone::waits:
         case Microphone::open:
             break;
     }
     if (standing.muted)
-        return fact("open, but an operator has muted you", true);
+        return fact(Phrase::microphone_muted, true);
     if (standing.role == wire::Role::observer)
-        return fact("open, but observers are not heard", true);
+        return fact(Phrase::microphone_not_heard, true);
     if (voices.microphone == Microphone::waits)
-        return fact("hold Enter to speak", false);
-    return fact("open " + meter_text(voices.own_level_db), false);
+        return fact(Phrase::microphone_waits, false);
+    return fact(Phrase::microphone_open, false);
 }
 
 }  // namespace theatron::viewer

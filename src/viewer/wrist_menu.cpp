@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "phrases/phrase.h"
 #include "room/facing.h"
 
 namespace theatron::viewer {
@@ -15,36 +16,36 @@ constexpr double row_letter_m = 0.0105, text_from_left_m = 0.012, above_panel_m 
 std::vector<MenuRow> menu_rows(const MenuFacts& facts) {
     std::vector<MenuRow> rows;
     if (!facts.past.empty())
-        rows.push_back({MenuAction::live, "Live again", {}});
+        rows.push_back({MenuAction::live, say(Phrase::menu_live), {}});
     rows.push_back({MenuAction::microphone,
-                    facts.muted             ? "An operator has muted you"
-                    : facts.microphone_open ? "Close microphone"
-                                            : "Speak",
+                    say(facts.muted             ? Phrase::menu_muted
+                        : facts.microphone_open ? Phrase::menu_close_microphone
+                                                : Phrase::menu_speak),
                     {}});
     if (facts.real_room) {
-        rows.push_back({MenuAction::place_table, "Place the table again", {}});
+        rows.push_back({MenuAction::place_table, say(Phrase::menu_place_table), {}});
     } else {
-        rows.push_back({MenuAction::recentre, "Recentre", {}});
+        rows.push_back({MenuAction::recentre, say(Phrase::menu_recentre), {}});
         rows.push_back(
-            {MenuAction::seat, facts.seated ? "Stand" : "Sit, and see as if standing", {}});
-        rows.push_back({MenuAction::turn_left, "Turn left", {}});
-        rows.push_back({MenuAction::turn_right, "Turn right", {}});
+            {MenuAction::seat, say(facts.seated ? Phrase::menu_stand : Phrase::menu_sit), {}});
+        rows.push_back({MenuAction::turn_left, say(Phrase::menu_turn_left), {}});
+        rows.push_back({MenuAction::turn_right, say(Phrase::menu_turn_right), {}});
     }
-    rows.push_back({MenuAction::new_brick, "New brick", {}});
-    rows.push_back({MenuAction::drawing, "Drawing: " + facts.drawing, {}});
+    rows.push_back({MenuAction::new_brick, say(Phrase::menu_new_brick), {}});
+    rows.push_back({MenuAction::drawing, say(Phrase::menu_drawing, facts.drawing), {}});
     std::size_t shown = 0;
     for (const room::RoomPerson& person : facts.people) {
         if (shown++ == most_menu_people)
             break;
-        rows.push_back(
-            {MenuAction::go_to_person,
-             (facts.real_room ? "" : "Go to ") + person.name + (person.calls ? " (calls)" : ""),
-             person.id});
+        const std::string row =
+            facts.real_room ? person.name : say(Phrase::menu_go_to, person.name);
+        rows.push_back({MenuAction::go_to_person, person.calls ? say(Phrase::menu_calls, row) : row,
+                        person.id});
     }
     if (facts.people.size() > most_menu_people)
-        rows.back().text +=
-            ", and " + std::to_string(facts.people.size() - most_menu_people) + " more";
-    rows.push_back({MenuAction::leave, "Take off the headset's view", {}});
+        rows.back().text = say(Phrase::menu_more, rows.back().text,
+                               std::to_string(facts.people.size() - most_menu_people));
+    rows.push_back({MenuAction::leave, say(Phrase::menu_leave), {}});
     return rows;
 }
 

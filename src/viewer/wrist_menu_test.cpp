@@ -4,6 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include "base/utf8.h"
+#include "phrases/phrase.h"
+#include "render/glyphs.h"
+#include "testing/speaking.h"
 
 namespace theatron::viewer {
 namespace {
@@ -27,6 +35,51 @@ TEST(WristMenu, TheRealRoomDoesNotMoveAndItsTableCanBePlacedAgain) {
     facts.real_room = true;
     EXPECT_FALSE(has(menu_rows(facts), MenuAction::turn_left));
     EXPECT_TRUE(has(menu_rows(facts), MenuAction::place_table));
+}
+
+// The headset writes with the letters of the font's atlas; the page and the window have others.
+bool can_be_written_in_the_room(std::string_view text) {
+    while (!text.empty()) {
+        const Utf8Character letter = first_character(text);
+        if (!letter.valid || (!render::is_in_atlas(letter.code) && letter.code != U'\n'))
+            return false;
+        text.remove_prefix(letter.bytes);
+    }
+    return true;
+}
+
+TEST(WristMenu, AllNotesHaveLettersInTheRoomInEveryLanguage) {
+    const std::pair<Phrase, const char*> all[] = {
+#define PHRASE(key, english, german) {Phrase::key, #key},
+#include "phrases/connection.inc"
+#include "phrases/meeting.inc"
+#include "phrases/pictures.inc"
+#include "phrases/window.inc"
+#undef PHRASE
+    };
+    // Messages over the picture, which the headset has as phrases of its own.
+    const std::set<Phrase> messages{Phrase::waits_for_picture, Phrase::connecting,
+                                    Phrase::waits_at_door, Phrase::lost_connection,
+                                    Phrase::no_connection_yet};
+    for (const auto& [phrase, key] : all)
+        for (const Language which : {Language::english, Language::german})
+            EXPECT_TRUE(messages.contains(phrase) ||
+                        can_be_written_in_the_room(sentence_of(phrase).in(which)))
+                << key;
+}
+
+TEST(WristMenu, IsGermanForAGermanAndItsRowsAreShort) {
+    const testing::Speaking german(Language::german);
+    MenuFacts facts;
+    facts.drawing = say(Phrase::drawn_automatically, "splat");
+    std::vector<MenuRow> rows = menu_rows(facts);
+    facts.real_room = facts.muted = true;
+    facts.past = "before";
+    for (const MenuRow& row : menu_rows(facts))
+        rows.push_back(row);
+    for (const MenuRow& row : rows)
+        EXPECT_LE(row.text.size(), 36u) << row.text << " is wider than the menu";
+    EXPECT_EQ(rows.back().text, "Das Headset verlassen");
 }
 
 TEST(WristMenu, ManyPeopleAreCountedAndLeavingStaysTheLastRow) {

@@ -8,6 +8,7 @@
 
 #include "base/outside_text.h"
 #include "control_generated.h"
+#include "wire/sentence.h"
 
 namespace theatron::wire {
 namespace {
@@ -363,6 +364,10 @@ Refused refused(Text reason) {
 }
 
 std::string sent_part(const Delivery& delivery) {
+    return sent_part(delivery, Language::english);
+}
+
+std::string sent_part(const Delivery& delivery, Language which) {
     std::vector<Text> parts;
     if (delivery.one_frame_of == 2)
         parts.push_back({TextCode::half_of_frames});
@@ -378,7 +383,7 @@ std::string sent_part(const Delivery& delivery) {
         parts.push_back({TextCode::everything_is_sent});
     std::string result;
     for (const Text& part : parts)
-        result += (result.empty() ? "" : ", ") + english(part);
+        result += (result.empty() ? "" : ", ") + sentence(part, which);
     return result;
 }
 

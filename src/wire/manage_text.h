@@ -5,6 +5,7 @@
 #include <string>
 
 #include "wire/control.h"
+#include "wire/sentence.h"
 #include "wire/text.h"
 
 namespace theatron::wire {
@@ -28,9 +29,9 @@ static_assert(code_of(ManageRefusal::playing_role) == TextCode::role_plays_not);
 static_assert(code_of(ManageRefusal::nothing_to_play) == TextCode::nothing_to_play);
 static_assert(code_of(ManageRefusal::nothing_kept) == TextCode::nothing_kept);
 
-// A sentence; empty for `none`.
+// A sentence, in the language of the program's person; empty for `none`.
 inline std::string text_of(ManageRefusal refusal) {
-    return english({code_of(refusal)});
+    return sentence({code_of(refusal)});
 }
 
 }  // namespace theatron::wire

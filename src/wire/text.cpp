@@ -6,156 +6,286 @@
 #include <string_view>
 #include <utility>
 
+#include "wire/sentence.h"
+
 namespace theatron::wire {
 namespace {
 
 struct Row {
     TextCode code;
-    std::string_view text;
-    std::string_view advice = {};  // sentences that only operators can follow
+    Sentence text;
+    Sentence advice = {};  // sentences that only operators can follow
 };
 
 // In the order of the codes.
 constexpr Row rows[] = {
-    {TextCode::as_written, "{0}"},
+    {TextCode::as_written, {"{0}", "{0}"}},
 
     {TextCode::host_too_old,
-     "This host is older than your Theatron (protocol {0}, you need {1}); update the host."},
+     {"This host is older than your Theatron (protocol {0}, you need {1}); update the host.",
+      "Dieser Gastgeber ist älter als Ihr Theatron (Protokoll {0}, Sie brauchen {1}); er muss "
+      "aktualisiert werden."}},
     {TextCode::program_too_old,
-     "Your Theatron is too old for this host (protocol {0}, it needs {1}); update it."},
-    {TextCode::wrong_token, "The join token is wrong; ask for the host's current link."},
-    {TextCode::link_expired, "This link has expired; ask for a new one."},
+     {"Your Theatron is too old for this host (protocol {0}, it needs {1}); update it.",
+      "Ihr Theatron ist zu alt für diesen Gastgeber (Protokoll {0}, er braucht {1}); aktualisieren "
+      "Sie es."}},
+    {TextCode::wrong_token,
+     {"The join token is wrong; ask for the host's current link.",
+      "Der Zugangscode dieses Links ist falsch; bitten Sie um den jetzigen Link des Gastgebers."}},
+    {TextCode::link_expired,
+     {"This link has expired; ask for a new one.",
+      "Dieser Link ist abgelaufen; bitten Sie um einen neuen."}},
     {TextCode::too_many_recordings,
-     "This session is recorded {0} times already, which is the most it allows; end another "
-     "recording."},
-    {TextCode::damaged_message, "A message was {0}."},
-    {TextCode::not_joined, "Join first."},
-    {TextCode::joined_too_late, "No join came in time."},
-    {TextCode::too_many_requests, "There were far more requests than a host answers."},
-    {TextCode::damaged_picture, "A picture was {0}."},
-    {TextCode::foreign_picture, "A picture belongs to no camera of this participant."},
-    {TextCode::session_over, "The host has ended the session."},
-    {TextCode::no_reason, "The host gave no reason."},
-    {TextCode::removed_by_operator, "An operator has removed you from this session."},
-    {TextCode::link_revoked, "The link by which you came is no longer valid; ask for a new one."},
-    {TextCode::not_let_in, "An operator has not let you in."},
-    {TextCode::ended_by_operator, "An operator has ended the session."},
-    {TextCode::session_has_ended, "The session has ended; an operator must begin another one."},
-    {TextCode::observer_records, "An observer cannot record; ask for a link of an expert."},
-    {TextCode::too_many_visitors, "Too many people wait to be let in; try again later."},
+     {"This session is recorded {0} times already, which is the most it allows; end another "
+      "recording.",
+      "Diese Sitzung wird schon {0}-mal aufgenommen; mehr sind nicht erlaubt. Beenden Sie eine "
+      "andere Aufnahme."}},
+    {TextCode::damaged_message, {"A message was {0}.", "Eine Nachricht war fehlerhaft ({0})."}},
+    {TextCode::not_joined, {"Join first.", "Treten Sie zuerst der Sitzung bei."}},
+    {TextCode::joined_too_late, {"No join came in time.", "Der Beitritt kam nicht rechtzeitig."}},
+    {TextCode::too_many_requests,
+     {"There were far more requests than a host answers.",
+      "Es kamen weit mehr Anfragen, als ein Gastgeber beantwortet."}},
+    {TextCode::damaged_picture, {"A picture was {0}.", "Ein Bild war fehlerhaft ({0})."}},
+    {TextCode::foreign_picture,
+     {"A picture belongs to no camera of this participant.",
+      "Ein Bild gehört zu keiner Kamera dieses Teilnehmers."}},
+    {TextCode::session_over,
+     {"The host has ended the session.", "Der Gastgeber hat die Sitzung beendet."}},
+    {TextCode::no_reason, {"The host gave no reason.", "Der Gastgeber nannte keinen Grund."}},
+    {TextCode::removed_by_operator,
+     {"An operator has removed you from this session.",
+      "Die Sitzungsleitung hat Sie aus dieser Sitzung entfernt."}},
+    {TextCode::link_revoked,
+     {"The link by which you came is no longer valid; ask for a new one.",
+      "Der Link, über den Sie kamen, gilt nicht mehr; bitten Sie um einen neuen."}},
+    {TextCode::not_let_in,
+     {"An operator has not let you in.", "Die Sitzungsleitung hat Sie nicht eingelassen."}},
+    {TextCode::ended_by_operator,
+     {"An operator has ended the session.", "Die Sitzungsleitung hat die Sitzung beendet."}},
+    {TextCode::session_has_ended,
+     {"The session has ended; an operator must begin another one.",
+      "Die Sitzung ist beendet; die Sitzungsleitung muss eine neue beginnen."}},
+    {TextCode::observer_records,
+     {"An observer cannot record; ask for a link of an expert.",
+      "Beobachter können nicht aufnehmen; bitten Sie um einen Link für Experten."}},
+    {TextCode::too_many_visitors,
+     {"Too many people wait to be let in; try again later.",
+      "Zu viele Personen warten auf Einlass; versuchen Sie es später noch einmal."}},
     {TextCode::all_places_taken,
-     "All {0} places of this session are taken; the last ones are kept for operators. Try again "
-     "when somebody has left."},
+     {"All {0} places of this session are taken; the last ones are kept for operators. Try again "
+      "when somebody has left.",
+      "Alle {0} Plätze dieser Sitzung sind belegt; die letzten sind der Sitzungsleitung "
+      "vorbehalten. Versuchen Sie es noch einmal, wenn jemand gegangen ist."}},
     {TextCode::link_full,
-     "{0} participants are in by this link, which is as many as one link admits; ask for a link "
-     "of your own."},
+     {"{0} participants are in by this link, which is as many as one link admits; ask for a link "
+      "of your own.",
+      "Über diesen Link sind {0} Teilnehmer da, mehr lässt ein Link nicht ein; bitten Sie um einen "
+      "eigenen Link."}},
 
-    {TextCode::camera_silent, "It sends no pictures."},
-    {TextCode::camera_repeating, "It sends the same picture again and again."},
-    {TextCode::camera_time_jump, "The times of its pictures are impossible."},
-    {TextCode::camera_gone, "It does not answer."},
-    {TextCode::recording_lost_one, "Its recording is damaged: 1 picture is lost."},
-    {TextCode::recording_lost_pictures, "Its recording is damaged: {0} pictures are lost."},
+    {TextCode::camera_silent, {"It sends no pictures.", "Sie sendet keine Bilder."}},
+    {TextCode::camera_repeating,
+     {"It sends the same picture again and again.", "Sie sendet immer wieder dasselbe Bild."}},
+    {TextCode::camera_time_jump,
+     {"The times of its pictures are impossible.", "Die Zeiten ihrer Bilder sind unmöglich."}},
+    {TextCode::camera_gone, {"It does not answer.", "Sie antwortet nicht."}},
+    {TextCode::recording_lost_one,
+     {"Its recording is damaged: 1 picture is lost.",
+      "Ihre Aufnahme ist beschädigt: 1 Bild ist verloren."}},
+    {TextCode::recording_lost_pictures,
+     {"Its recording is damaged: {0} pictures are lost.",
+      "Ihre Aufnahme ist beschädigt: {0} Bilder sind verloren."}},
     {TextCode::camera_number_too_high,
-     "The camera {0} has the number {1}, beyond all that there are; it cannot be shown."},
+     {"The camera {0} has the number {1}, beyond all that there are; it cannot be shown.",
+      "Die Kamera {0} hat die Nummer {1}, höher als alle, die es gibt; sie kann nicht gezeigt "
+      "werden."}},
     {TextCode::camera_foreign_streams,
-     "The camera {0} names streams that are not its own; it cannot be shown."},
-    {TextCode::camera_bad_rate, "The camera {0} has an impossible frame rate; it cannot be shown."},
+     {"The camera {0} names streams that are not its own; it cannot be shown.",
+      "Die Kamera {0} nennt Datenströme, die ihr nicht gehören; sie kann nicht gezeigt werden."}},
+    {TextCode::camera_bad_rate,
+     {"The camera {0} has an impossible frame rate; it cannot be shown.",
+      "Die Kamera {0} hat eine unmögliche Bildrate; sie kann nicht gezeigt werden."}},
     {TextCode::camera_bad_calibration,
-     "The camera {0} has a calibration that is {1}; it cannot be shown."},
+     {"The camera {0} has a calibration that is {1}; it cannot be shown.",
+      "Die Kamera {0} hat eine unbrauchbare Kalibrierung ({1}); sie kann nicht gezeigt werden."}},
     {TextCode::one_camera_too_many,
-     "The camera {0} is one more than there can be; it cannot be shown."},
+     {"The camera {0} is one more than there can be; it cannot be shown.",
+      "Die Kamera {0} ist eine mehr, als es geben kann; sie kann nicht gezeigt werden."}},
     {TextCode::camera_number_taken,
-     "The camera {0} has a number that another one has; it cannot be shown."},
+     {"The camera {0} has a number that another one has; it cannot be shown.",
+      "Die Kamera {0} hat die Nummer einer anderen; sie kann nicht gezeigt werden."}},
     {TextCode::camera_too_many_pixels,
-     "The camera {0} has more pixels than there is room for beside the others; it cannot be "
-     "shown."},
-    {TextCode::camera_moved, "The camera was moved by {0} mm and {1} degrees.",
-     " Put it back, or find its new place with 'theatron register LINK --refine PLACES --output "
-     "NEW'. A nudge says that it is right as it is."},
-    {TextCode::cameras_apart, "Surfaces that {0} sees, too, are {1} mm apart.",
-     " Find the cameras' places again with 'theatron register LINK --output NEW' and the board."},
+     {"The camera {0} has more pixels than there is room for beside the others; it cannot be "
+      "shown.",
+      "Die Kamera {0} hat mehr Bildpunkte, als neben den anderen Platz haben; sie kann nicht "
+      "gezeigt werden."}},
+    {TextCode::camera_moved,
+     {"The camera was moved by {0} mm and {1} degrees.",
+      "Die Kamera wurde um {0} mm und {1} Grad bewegt."},
+     {" Put it back, or find its new place with 'theatron register LINK --refine PLACES --output "
+      "NEW'. A nudge says that it is right as it is.",
+      " Stellen Sie sie zurück, oder bestimmen Sie ihren neuen Ort mit 'theatron register LINK "
+      "--refine PLACES --output NEW'. Ein kleines Verstellen (F6) sagt, dass sie richtig steht, "
+      "wie sie ist."}},
+    {TextCode::cameras_apart,
+     {"Surfaces that {0} sees, too, are {1} mm apart.",
+      "Flächen, die auch {0} sieht, liegen {1} mm auseinander."},
+     {" Find the cameras' places again with 'theatron register LINK --output NEW' and the board.",
+      " Bestimmen Sie die Orte der Kameras neu, mit 'theatron register LINK --output NEW' und der "
+      "Tafel."}},
     {TextCode::camera_without_depth,
-     "The camera {0} has no depth, which this version cannot show."},
-    {TextCode::no_pictures_come, "Its pictures do not arrive any more."},
+     {"The camera {0} has no depth, which this version cannot show.",
+      "Die Kamera {0} misst keine Tiefe; das kann diese Version nicht zeigen."}},
+    {TextCode::no_pictures_come,
+     {"Its pictures do not arrive any more.", "Ihre Bilder kommen nicht mehr an."}},
     {TextCode::camera_moved_far,
-     "The camera was moved by more than {0} mm, or turned, so far that its picture cannot be "
-     "matched.",
-     " Put it back, find its place with the board and 'theatron register LINK --output NEW', or "
-     "say that it is right as it is now: 'nudge {1} none'."},
+     {"The camera was moved by more than {0} mm, or turned, so far that its picture cannot be "
+      "matched.",
+      "Die Kamera wurde um mehr als {0} mm bewegt oder gedreht, so weit, dass ihr Bild nicht zu "
+      "vergleichen ist."},
+     {" Put it back, find its place with the board and 'theatron register LINK --output NEW', or "
+      "say that it is right as it is now: 'nudge {1} none'.",
+      " Stellen Sie sie zurück, bestimmen Sie ihren Ort mit der Tafel und 'theatron register LINK "
+      "--output NEW', oder sagen Sie, dass sie so richtig steht: 'nudge {1} none'."}},
     {TextCode::camera_covered,
-     "It is covered, or sees nothing: the watch over its place cannot compare."},
+     {"It is covered, or sees nothing: the watch over its place cannot compare.",
+      "Sie ist verdeckt oder sieht nichts: Ihr Ort lässt sich nicht überwachen."}},
     {TextCode::camera_moved_together,
-     "The camera was moved by {0} mm and {1} degrees together with {2}, or everything that both "
-     "see was.",
-     " Put both back, or find their places with the board and 'theatron register LINK --output "
-     "NEW'. If they stand where they stood, say so of each: 'nudge {3} none'."},
+     {"The camera was moved by {0} mm and {1} degrees together with {2}, or everything that both "
+      "see was.",
+      "Die Kamera wurde um {0} mm und {1} Grad bewegt, zusammen mit {2}; oder alles, was beide "
+      "sehen, wurde bewegt."},
+     {" Put both back, or find their places with the board and 'theatron register LINK --output "
+      "NEW'. If they stand where they stood, say so of each: 'nudge {3} none'.",
+      " Stellen Sie beide zurück, oder bestimmen Sie ihre Orte mit der Tafel und 'theatron "
+      "register LINK --output NEW'. Stehen sie, wo sie standen, so sagen Sie es für jede: 'nudge "
+      "{3} none'."}},
 
     {TextCode::all_encodings_taken,
-     "The host already encodes in {0} ways; instead of {1} you get the nearest of them."},
+     {"The host already encodes in {0} ways; instead of {1} you get the nearest of them.",
+      "Der Gastgeber kodiert schon auf {0} Arten; statt {1} erhalten Sie die nächste davon."}},
     {TextCode::encoding_is_slow,
-     "Encoding {0} takes {1} ms a picture here, more than its share, so you get fewer pictures "
-     "than the cameras take; another codec would be faster."},
-    {TextCode::frames_were_late, "frames took {0} ms to arrive"},
-    {TextCode::ceiling, "your ceiling is {0} Mbit/s"},
-    {TextCode::link_has_room, "there is room for more"},
-    {TextCode::link_is_tried, "trying whether more arrives in time"},
-    {TextCode::trial_failed, "your link or computer did not take more"},
-    {TextCode::everything_is_sent, "everything"},
-    {TextCode::half_of_frames, "half of the frames"},
-    {TextCode::quarter_of_frames, "a quarter of the frames"},
-    {TextCode::one_frame_of, "one frame of {0}"},
-    {TextCode::coarser_color, "colour as {0}"},
-    {TextCode::loss_outside_region, "bounded loss outside the region"},
+     {"Encoding {0} takes {1} ms a picture here, more than its share, so you get fewer pictures "
+      "than the cameras take; another codec would be faster.",
+      "Die Kodierung {0} braucht hier {1} ms für ein Bild, mehr als ihren Anteil; darum erhalten "
+      "Sie weniger Bilder, als die Kameras aufnehmen. Ein anderer Codec wäre schneller."}},
+    {TextCode::frames_were_late,
+     {"frames took {0} ms to arrive", "Bilder brauchten {0} ms bis hierher"}},
+    {TextCode::ceiling, {"your ceiling is {0} Mbit/s", "Ihre Obergrenze ist {0} Mbit/s"}},
+    {TextCode::link_has_room, {"there is room for more", "es ist Platz für mehr"}},
+    {TextCode::link_is_tried,
+     {"trying whether more arrives in time", "es wird versucht, ob mehr rechtzeitig ankommt"}},
+    {TextCode::trial_failed,
+     {"your link or computer did not take more",
+      "Ihre Leitung oder Ihr Rechner nahm nicht mehr auf"}},
+    {TextCode::everything_is_sent, {"everything", "alles"}},
+    {TextCode::half_of_frames, {"half of the frames", "die Hälfte der Bilder"}},
+    {TextCode::quarter_of_frames, {"a quarter of the frames", "ein Viertel der Bilder"}},
+    {TextCode::one_frame_of, {"one frame of {0}", "eines von {0} Bildern"}},
+    {TextCode::coarser_color, {"colour as {0}", "Farbe als {0}"}},
+    {TextCode::loss_outside_region,
+     {"bounded loss outside the region", "begrenzter Verlust außerhalb des wichtigen Bereichs"}},
 
     {TextCode::link_without_cameras,
-     "Your role here lets you send no cameras; use the host's link for publishers, or ask an "
-     "operator for that role."},
-    {TextCode::no_camera_offered, "No camera was offered."},
-    {TextCode::too_many_own_cameras, "A participant can send {0} cameras at once."},
-    {TextCode::session_full, "The session has {0} cameras, which is the most it allows."},
+     {"Your role here lets you send no cameras; use the host's link for publishers, or ask an "
+      "operator for that role.",
+      "Ihre Rolle erlaubt hier nicht, Kameras zu senden; nehmen Sie den Link für Kameras, oder "
+      "bitten Sie die Sitzungsleitung um diese Rolle."}},
+    {TextCode::no_camera_offered, {"No camera was offered.", "Es wurde keine Kamera angeboten."}},
+    {TextCode::too_many_own_cameras,
+     {"A participant can send {0} cameras at once.",
+      "Ein Teilnehmer kann {0} Kameras zugleich senden."}},
+    {TextCode::session_full,
+     {"The session has {0} cameras, which is the most it allows.",
+      "Die Sitzung hat {0} Kameras; mehr sind nicht erlaubt."}},
     {TextCode::no_camera_numbers,
-     "The session has had so many cameras that there are no numbers left; the host has to be "
-     "started anew."},
-    {TextCode::offered_too_often, "Cameras were offered too often; wait a little."},
+     {"The session has had so many cameras that there are no numbers left; the host has to be "
+      "started anew.",
+      "Die Sitzung hatte so viele Kameras, dass keine Nummern mehr frei sind; der Gastgeber muss "
+      "neu gestartet werden."}},
+    {TextCode::offered_too_often,
+     {"Cameras were offered too often; wait a little.",
+      "Kameras wurden zu oft angeboten; warten Sie ein wenig."}},
     {TextCode::face_beyond_limits,
-     "The picture of a face is a screen of at most {0} pixels, {1} times a second."},
-    {TextCode::one_face, "A participant shows one face; withdraw the first one."},
+     {"The picture of a face is a screen of at most {0} pixels, {1} times a second.",
+      "Das Bild eines Gesichts darf höchstens {0} Bildpunkte haben und {1}-mal in der Sekunde "
+      "kommen."}},
+    {TextCode::one_face,
+     {"A participant shows one face; withdraw the first one.",
+      "Ein Teilnehmer zeigt ein Gesicht; ziehen Sie das erste zurück."}},
     {TextCode::too_many_faces,
-     "The session shows {0} faces, which is the most it allows; you are seen without a picture."},
-    {TextCode::face_forbidden, "Observers show no face; ask the operator to make you an expert."},
+     {"The session shows {0} faces, which is the most it allows; you are seen without a picture.",
+      "Die Sitzung zeigt {0} Gesichter, mehr sind nicht erlaubt; Sie werden ohne Bild gesehen."}},
+    {TextCode::face_forbidden,
+     {"Observers show no face; ask the operator to make you an expert.",
+      "Beobachter zeigen kein Gesicht; bitten Sie die Sitzungsleitung, Sie zum Experten zu "
+      "machen."}},
     {TextCode::host_without_faces,
-     "This host is too old to show your face; you are seen without a picture."},
+     {"This host is too old to show your face; you are seen without a picture.",
+      "Dieser Gastgeber ist zu alt, um Ihr Gesicht zu zeigen; Sie werden ohne Bild gesehen."}},
 
-    {TextCode::object_gone, "That object is gone"},
-    {TextCode::held_by_another, "Somebody else holds this"},
-    {TextCode::not_held, "You no longer hold this"},
-    {TextCode::role_forbids, "Your role does not allow this"},
-    {TextCode::person_gone, "That person has left"},
-    {TextCode::room_full, "The room holds no more objects, or no more of yours: remove some first"},
-    {TextCode::beyond_room_limits, "The object would be out of the room's limits"},
-    {TextCode::room_too_often, "That was too much at once; try again"},
-    {TextCode::part_of_recording, "Only the recording moves this"},
-    {TextCode::part_of_case, "This belongs to the case; hide it, or close the case"},
-    {TextCode::of_another, "Somebody else made this"},
-    {TextCode::mark_stays, "A mark stays as it was made; it can only be removed"},
-    {TextCode::screen_pinned, "This screen is pinned; its sharer or an operator unpins it"},
-    {TextCode::screen_of_another, "Only the person who shares this and operators may do that"},
+    {TextCode::object_gone, {"That object is gone", "Dieses Objekt gibt es nicht mehr"}},
+    {TextCode::held_by_another, {"Somebody else holds this", "Jemand anders hält das"}},
+    {TextCode::not_held, {"You no longer hold this", "Sie halten das nicht mehr"}},
+    {TextCode::role_forbids, {"Your role does not allow this", "Ihre Rolle erlaubt das nicht"}},
+    {TextCode::person_gone, {"That person has left", "Diese Person ist gegangen"}},
+    {TextCode::room_full,
+     {"The room holds no more objects, or no more of yours: remove some first",
+      "Der Raum fasst keine weiteren Objekte, oder keine weiteren von Ihnen: Entfernen Sie zuerst "
+      "einige"}},
+    {TextCode::beyond_room_limits,
+     {"The object would be out of the room's limits",
+      "Das Objekt läge außerhalb der Grenzen des Raums"}},
+    {TextCode::room_too_often,
+     {"That was too much at once; try again",
+      "Das war zu viel auf einmal; versuchen Sie es noch einmal"}},
+    {TextCode::part_of_recording, {"Only the recording moves this", "Das bewegt nur die Aufnahme"}},
+    {TextCode::part_of_case,
+     {"This belongs to the case; hide it, or close the case",
+      "Das gehört zum Fall; verbergen Sie es, oder schließen Sie den Fall"}},
+    {TextCode::of_another, {"Somebody else made this", "Das hat jemand anders gemacht"}},
+    {TextCode::mark_stays,
+     {"A mark stays as it was made; it can only be removed",
+      "Eine Marke bleibt, wie sie gemacht wurde; sie lässt sich nur entfernen"}},
+    {TextCode::screen_pinned,
+     {"This screen is pinned; its sharer or an operator unpins it",
+      "Dieser Bildschirm ist festgemacht; wer ihn teilt oder die Sitzungsleitung kann ihn lösen"}},
+    {TextCode::screen_of_another,
+     {"Only the person who shares this and operators may do that",
+      "Das darf nur, wer den Bildschirm teilt, und die Sitzungsleitung"}},
 
-    {TextCode::operators_decide, "Only operators decide on others."},
-    {TextCode::decided_person_gone, "That person has left."},
-    {TextCode::person_is_in, "That person is in the session already."},
-    {TextCode::person_waits, "That person must be let in first."},
-    {TextCode::not_on_yourself, "Another operator must do this for you."},
-    {TextCode::decided_too_often, "Those were too many decisions at once; try again."},
-    {TextCode::adjusted_camera_gone, "That camera has left, or cannot be adjusted."},
+    {TextCode::operators_decide,
+     {"Only operators decide on others.", "Über andere entscheidet nur die Sitzungsleitung."}},
+    {TextCode::decided_person_gone, {"That person has left.", "Diese Person ist gegangen."}},
+    {TextCode::person_is_in,
+     {"That person is in the session already.", "Diese Person ist schon in der Sitzung."}},
+    {TextCode::person_waits,
+     {"That person must be let in first.", "Diese Person muss zuerst eingelassen werden."}},
+    {TextCode::not_on_yourself,
+     {"Another operator must do this for you.",
+      "Das muss jemand anders von der Sitzungsleitung für Sie tun."}},
+    {TextCode::decided_too_often,
+     {"Those were too many decisions at once; try again.",
+      "Das waren zu viele Entscheidungen auf einmal; versuchen Sie es noch einmal."}},
+    {TextCode::adjusted_camera_gone,
+     {"That camera has left, or cannot be adjusted.",
+      "Diese Kamera ist nicht mehr da oder lässt sich nicht verstellen."}},
     {TextCode::beyond_adjustment,
-     "A camera can be moved by 0.3 m and turned by 15 degrees; beyond that, register it anew. Only "
-     "the host's own cameras have a region, and it lies in their picture."},
-    {TextCode::operators_adjust, "Only operators adjust cameras."},
-    {TextCode::role_plays_not, "Your role does not allow to play the recording."},
-    {TextCode::nothing_to_play, "This host plays no recording."},
-    {TextCode::nothing_kept, "The host keeps nothing of the last minute that you may see."},
+     {"A camera can be moved by 0.3 m and turned by 15 degrees; beyond that, register it anew. "
+      "Only the host's own cameras have a region, and it lies in their picture.",
+      "Eine Kamera lässt sich um 0.3 m verschieben und um 15 Grad drehen; darüber hinaus "
+      "registrieren Sie sie neu. Nur die Kameras des Gastgebers haben einen Bereich, und er liegt "
+      "in ihrem Bild."}},
+    {TextCode::operators_adjust,
+     {"Only operators adjust cameras.", "Kameras verstellt nur die Sitzungsleitung."}},
+    {TextCode::role_plays_not,
+     {"Your role does not allow to play the recording.",
+      "Ihre Rolle erlaubt nicht, die Aufnahme abzuspielen."}},
+    {TextCode::nothing_to_play,
+     {"This host plays no recording.", "Dieser Gastgeber spielt keine Aufnahme ab."}},
+    {TextCode::nothing_kept,
+     {"The host keeps nothing of the last minute that you may see.",
+      "Der Gastgeber hat von der letzten Minute nichts behalten, was Sie sehen dürfen."}},
 };
 
 constexpr bool is_in_order() {
@@ -166,6 +296,15 @@ constexpr bool is_in_order() {
 }
 static_assert(is_in_order());
 
+// A row without its German is none.
+constexpr bool is_in_every_language() {
+    for (const Row& row : rows)
+        if (row.text.german.empty() || row.advice.english.empty() != row.advice.german.empty())
+            return false;
+    return true;
+}
+static_assert(is_in_every_language());
+
 // Null if there is none.
 const Row* find(TextCode code) {
     const auto* row =
@@ -174,48 +313,46 @@ const Row* find(TextCode code) {
     return row == std::end(rows) || row->code != code ? nullptr : row;
 }
 
-// A number of a newer program.
-std::string_view subject_of(TextCode code) {
-    switch (std::uint16_t(code) / 100) {
-        case 1:
-            return "The host ends the connection for a reason";
-        case 2:
-            return "Something is wrong with a camera";
-        case 3:
-            return "The host has changed what it sends for a reason";
-        case 4:
-            return "The host does not take the cameras for a reason";
-        case 5:
-            return "The host does not allow this change of the room for a reason";
-        case 6:
-            return "The host does not carry out this decision for a reason";
-        default:
-            return "The other program says something";
-    }
-}
+// A number of a newer program. {0}: the number and the arguments.
+constexpr Sentence unknown_texts[] = {
+    {"The other program says something that this version of Theatron does not know (number {0}); a "
+     "newer version can show it.",
+     "Das andere Programm sagt etwas, das diese Version von Theatron nicht kennt (Nummer {0}); "
+     "eine "
+     "neuere Version kann es zeigen."},
+    {"The host ends the connection for a reason that this version of Theatron does not know "
+     "(number {0}); a newer version can show it.",
+     "Der Gastgeber beendet die Verbindung aus einem Grund, den diese Version von Theatron nicht "
+     "kennt (Nummer {0}); eine neuere Version kann ihn zeigen."},
+    {"Something is wrong with a camera that this version of Theatron does not know (number {0}); a "
+     "newer version can show it.",
+     "Mit einer Kamera stimmt etwas nicht, das diese Version von Theatron nicht kennt (Nummer "
+     "{0}); eine neuere Version kann es zeigen."},
+    {"The host has changed what it sends for a reason that this version of Theatron does not know "
+     "(number {0}); a newer version can show it.",
+     "Der Gastgeber sendet etwas anderes aus einem Grund, den diese Version von Theatron nicht "
+     "kennt (Nummer {0}); eine neuere Version kann ihn zeigen."},
+    {"The host does not take the cameras for a reason that this version of Theatron does not know "
+     "(number {0}); a newer version can show it.",
+     "Der Gastgeber nimmt die Kameras nicht an aus einem Grund, den diese Version von Theatron "
+     "nicht kennt (Nummer {0}); eine neuere Version kann ihn zeigen."},
+    {"The host does not allow this change of the room for a reason that this version of Theatron "
+     "does not know (number {0}); a newer version can show it.",
+     "Der Gastgeber erlaubt diese Änderung des Raums nicht aus einem Grund, den diese Version von "
+     "Theatron nicht kennt (Nummer {0}); eine neuere Version kann ihn zeigen."},
+    {"The host does not carry out this decision for a reason that this version of Theatron does "
+     "not know (number {0}); a newer version can show it.",
+     "Aus einem Grund, den diese Version von Theatron nicht kennt (Nummer {0}), führt der "
+     "Gastgeber diese Entscheidung nicht aus; eine neuere Version kann ihn zeigen."},
+};
 
-std::string unknown(const Text& text) {
-    std::string result = std::string(subject_of(text.code)) +
-                         " that this version of Theatron does not know (number " +
-                         std::to_string(int(text.code));
+std::string unknown(const Text& text, Language which) {
+    const auto subject = std::size_t(text.code) / 100;
+    std::string number = std::to_string(int(text.code));
     for (const std::string& argument : text.arguments)
-        result += ", " + argument;
-    return result + "); a newer version can show it.";
-}
-
-// The sentence with the arguments in their places.
-std::string filled_in(std::string_view sentence, const std::vector<std::string>& arguments) {
-    std::string result;
-    for (std::size_t i = 0; i < sentence.size(); ++i) {
-        if (sentence[i] != '{') {
-            result += sentence[i];
-            continue;
-        }
-        const auto argument = std::size_t(sentence[i + 1] - '0');
-        result += argument < arguments.size() ? arguments[argument] : "?";
-        i += 2;
-    }
-    return result;
+        number += ", " + argument;
+    return filled_in(unknown_texts[subject < std::size(unknown_texts) ? subject : 0].in(which),
+                     {number});
 }
 
 }  // namespace
@@ -231,15 +368,24 @@ Text as_written(std::string sentence) {
 }
 
 std::string english(const Text& text) {
-    const Row* row = find(text.code);
-    return english_without_advice(text) + (row ? filled_in(row->advice, text.arguments) : "");
+    return sentence(text, Language::english);
 }
 
 std::string english_without_advice(const Text& text) {
+    return sentence_without_advice(text, Language::english);
+}
+
+std::string sentence(const Text& text, Language which) {
+    const Row* row = find(text.code);
+    return sentence_without_advice(text, which) +
+           (row ? filled_in(row->advice.in(which), text.arguments) : "");
+}
+
+std::string sentence_without_advice(const Text& text, Language which) {
     if (text.empty())
         return {};
     const Row* row = find(text.code);
-    return row ? filled_in(row->text, text.arguments) : unknown(text);
+    return row ? filled_in(row->text.in(which), text.arguments) : unknown(text, which);
 }
 
 }  // namespace theatron::wire

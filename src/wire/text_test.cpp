@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include "testing/speaking.h"
+#include "wire/control.h"
+#include "wire/sentence.h"
+
 namespace theatron::wire {
 namespace {
 
@@ -56,6 +60,31 @@ TEST(Text, MissingAndSurplusArgumentsDoNoHarm) {
     EXPECT_EQ(english({TextCode::ceiling}), "your ceiling is ? Mbit/s");
     EXPECT_EQ(english({TextCode::wrong_token, {"a", "b"}}),
               "The join token is wrong; ask for the host's current link.");
+}
+
+TEST(Text, EveryoneIsToldInTheirOwnLanguageAndLogsAreEnglish) {
+    const testing::Speaking german(Language::german);
+    const Text late{TextCode::all_places_taken, {"8"}};
+    EXPECT_EQ(sentence(late).rfind("Alle 8 Plätze dieser Sitzung sind belegt; ", 0), 0u);
+    EXPECT_EQ(english(late).rfind("All 8 places of this session are taken; ", 0), 0u);
+    EXPECT_EQ(
+        sentence({TextCode{199}, {"room 3"}}),
+        "Der Gastgeber beendet die Verbindung aus einem Grund, den diese Version von Theatron "
+        "nicht kennt (Nummer 199, room 3); eine neuere Version kann ihn zeigen.");
+    EXPECT_EQ(sentence({}), "");
+    const Text moved{TextCode::camera_moved, {"8.0", "0.10"}};
+    EXPECT_EQ(sentence_without_advice(moved), "Die Kamera wurde um 8.0 mm und 0.10 Grad bewegt.");
+    EXPECT_NE(sentence(moved).find("Stellen Sie sie zurück"), std::string::npos);
+    EXPECT_EQ(spoken(Role::operator_), "Sitzungsleitung");
+}
+
+TEST(Text, APartOfTheFramesIsNamedInBothLanguages) {
+    Delivery delivery;
+    delivery.one_frame_of = 8;
+    delivery.lossy_outside_region = true;
+    EXPECT_EQ(sent_part(delivery), "one frame of 8, bounded loss outside the region");
+    EXPECT_EQ(sent_part(delivery, Language::german),
+              "eines von 8 Bildern, begrenzter Verlust außerhalb des wichtigen Bereichs");
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <initializer_list>
 #include <utility>
 
+#include "phrases/phrase.h"
 #include "render/picture_texture.h"
 #include "xr/imgui_fonts_native.h"
 #include "xr/panel_colors_native.h"
@@ -124,7 +125,7 @@ struct EntryForm::Parts {
     EntryAnswer form(const EntryFacts& facts, float width);
     void recent_list(float width);
     void session(const EntryFacts& facts, float width);
-    void label(const char* words) const;
+    void label(Phrase words) const;
 };
 
 void EntryForm::Parts::make_fonts(double pixels) {
@@ -187,16 +188,18 @@ void EntryForm::Parts::take(const FormInput& input, Size window) {
     io.NavInputs[ImGuiNavInput_KeyRight_] = is_down(ImGuiKey_RightArrow);
 }
 
-void EntryForm::Parts::label(const char* words) const {
+void EntryForm::Parts::label(Phrase words) const {
     ImGui::PushFont(small);
-    ImGui::TextDisabled("%s", words);
+    ImGui::TextDisabled("%s", say(words).c_str());
     ImGui::PopFont();
 }
 
 EntryAnswer EntryForm::Parts::form(const EntryFacts& facts, float width) {
     EntryAnswer answer = EntryAnswer::none;
-    const float paste = ImGui::CalcTextSize("Paste").x + 2 * ImGui::GetStyle().FramePadding.x;
-    label("The link that you were given");
+    const std::string paste_text = say(Phrase::form_paste);
+    const float paste =
+        ImGui::CalcTextSize(paste_text.c_str()).x + 2 * ImGui::GetStyle().FramePadding.x;
+    label(Phrase::form_link);
     ImGui::SetNextItemWidth(width - paste - ImGui::GetStyle().ItemSpacing.x);
     if (fresh == 0 && fields.link.empty())
         ImGui::SetKeyboardFocusHere();
@@ -205,23 +208,23 @@ EntryAnswer EntryForm::Parts::form(const EntryFacts& facts, float width) {
         "##link", link.letters.data(), link.letters.size(),
         ImGuiInputTextFlags_EnterReturnsTrue | (is_hidden ? ImGuiInputTextFlags_Password : 0));
     ImGui::SameLine();
-    if (ImGui::Button("Paste"))
+    if (ImGui::Button(paste_text.c_str()))
         link.set(clipboard.text());
     recent_list(width);
-    label("Your name, which the others see");
+    label(Phrase::form_name);
     ImGui::SetNextItemWidth(width);
     if (fresh == 0 && !fields.link.empty())
         ImGui::SetKeyboardFocusHere();
     entered = ImGui::InputText("##name", name.letters.data(), name.letters.size(),
                                ImGuiInputTextFlags_EnterReturnsTrue) ||
               entered;
-    ImGui::Checkbox("Hear the others", &fields.hears);
+    ImGui::Checkbox(say(Phrase::form_hears).c_str(), &fields.hears);
     ImGui::SameLine(0, 2 * float(text_pixels));
-    ImGui::Checkbox("Speak with my microphone", &fields.speaks);
+    ImGui::Checkbox(say(Phrase::form_speaks).c_str(), &fields.speaks);
     ImGui::BeginDisabled(!fields.speaks);
-    ImGui::Checkbox("My voice may be recorded", &fields.voice_may_record);
+    ImGui::Checkbox(say(Phrase::form_may_record).c_str(), &fields.voice_may_record);
     ImGui::EndDisabled();
-    ImGui::Checkbox("Show my face with my webcam", &fields.shows_face);
+    ImGui::Checkbox(say(Phrase::form_shows_face).c_str(), &fields.shows_face);
 
     ImGui::Dummy({0, 0.5f * float(text_pixels)});
     if (facts.is_problem)
@@ -238,12 +241,14 @@ EntryAnswer EntryForm::Parts::form(const EntryFacts& facts, float width) {
     ImGui::PushStyleColor(ImGuiCol_Button, colors::main_button);
     ImGui::PushStyleColor(ImGuiCol_ButtonHovered, colors::main_button_hovered);
     ImGui::PushStyleColor(ImGuiCol_ButtonActive, colors::main_button_hovered);
-    if (ImGui::Button("Enter the room", {11 * float(text_pixels), 2.2f * float(text_pixels)}))
+    if (ImGui::Button(say(Phrase::form_enter).c_str(),
+                      {11 * float(text_pixels), 2.2f * float(text_pixels)}))
         answer = EntryAnswer::enter;
     ImGui::PopStyleColor(3);
     ImGui::EndDisabled();
     ImGui::SameLine();
-    if (ImGui::Button("Close", {5 * float(text_pixels), 2.2f * float(text_pixels)}))
+    if (ImGui::Button(say(Phrase::close).c_str(),
+                      {5 * float(text_pixels), 2.2f * float(text_pixels)}))
         answer = EntryAnswer::leave;
     if (entered && ready)
         answer = EntryAnswer::enter;
@@ -256,9 +261,11 @@ EntryAnswer EntryForm::Parts::form(const EntryFacts& facts, float width) {
 void EntryForm::Parts::recent_list(float width) {
     if (recents.empty())
         return;
-    label("Or a session that you have entered before");
+    label(Phrase::form_recent);
     ImGui::PushFont(small);
-    const float forget = ImGui::CalcTextSize("Forget").x + 2 * ImGui::GetStyle().FramePadding.x;
+    const std::string forget_text = say(Phrase::form_forget);
+    const float forget =
+        ImGui::CalcTextSize(forget_text.c_str()).x + 2 * ImGui::GetStyle().FramePadding.x;
     ImGui::PushStyleVar(ImGuiStyleVar_ButtonTextAlign, {0, 0.5f});
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding,
                         {ImGui::GetStyle().FramePadding.x, 0.2f * float(text_pixels)});
@@ -270,8 +277,8 @@ void EntryForm::Parts::recent_list(float width) {
         ImGui::SameLine();
         const bool is_asked = asked_forget && asked_forget->index == i;
         // One id, so that the second press is one on the same button.
-        const bool pressed =
-            ImGui::Button(is_asked ? "Sure?###forget" : "Forget###forget", {forget, 0});
+        const bool pressed = ImGui::Button(
+            ((is_asked ? say(Phrase::form_sure) : forget_text) + "###forget").c_str(), {forget, 0});
         if (pressed && is_asked)
             recent = RecentAnswer{i, true};
         const bool is_there =
@@ -323,7 +330,7 @@ EntryAnswer EntryForm::Parts::lay_out(const EntryFacts& facts) {
     ImGui::PushFont(large);
     ImGui::TextUnformatted("Theatron");
     ImGui::PopFont();
-    ImGui::TextDisabled("The shared operating room");
+    ImGui::TextDisabled("%s", say(Phrase::form_subtitle).c_str());
     ImGui::Dummy({0, 0.5f * em});
     const EntryAnswer answer = form(facts, form_width);
     ImGui::EndGroup();

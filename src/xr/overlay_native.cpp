@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "phrases/phrase.h"
 #include "xr/imgui_fonts_native.h"
 #include "xr/overlay_pictures_native.h"
 #include "xr/panel_colors_native.h"
@@ -174,8 +175,8 @@ void Overlay::Parts::help(float bottom) const {
     const float row = normal->FontSize + 0.9f * unit, gap = 3 * unit, padding = 2.5f * unit;
     float keys = 0, meanings = 0;
     for (const KeyHelp& line : key_help()) {
-        keys = std::max(keys, measure(normal, line.keys).x);
-        meanings = std::max(meanings, measure(normal, line.meaning).x);
+        keys = std::max(keys, measure(normal, std::string(line.keys.in(language()))).x);
+        meanings = std::max(meanings, measure(normal, std::string(line.meaning.in(language()))).x);
     }
     const float width = keys + gap + meanings;
     const float height = row * float(key_help().size()) - 0.9f * unit;
@@ -189,8 +190,9 @@ void Overlay::Parts::help(float bottom) const {
     const ImVec2 from{middle.x - scale * width / 2, middle.y - scale * height / 2};
     float y = from.y;
     for (const KeyHelp& line : key_help()) {
-        text(normal, {from.x, y}, colors::key, line.keys, 0, scale);
-        text(normal, {from.x + scale * (keys + gap), y}, colors::text, line.meaning, 0, scale);
+        text(normal, {from.x, y}, colors::key, std::string(line.keys.in(language())), 0, scale);
+        text(normal, {from.x + scale * (keys + gap), y}, colors::text,
+             std::string(line.meaning.in(language())), 0, scale);
         y += scale * row;
     }
 }
@@ -321,9 +323,8 @@ float Overlay::Parts::panels(const std::vector<Panel>& shown, const Area& free) 
         const float height_left = free.to.y - top - (is_last ? 0 : line);
         const float most = is_for_all ? shares[n] : height_left;
         if (!is_for_all && height_left < std::min(least, heights[n])) {
-            const std::string more = std::to_string(shown.size() - n) +
-                                     (is_last ? " more panel" : " more panels") +
-                                     ": close one of these";
+            const std::string more = say(is_last ? Phrase::more_panel : Phrase::more_panels,
+                                         std::to_string(shown.size() - n));
             const ImVec2 size = measure(small, more);
             list->AddRectFilled({left, top}, {left + size.x + 2 * padding, top + size.y + unit},
                                 colors::panel, unit);
@@ -391,7 +392,7 @@ float Overlay::Parts::panels(const std::vector<Panel>& shown, const Area& free) 
         }
         if (left_out > 0)
             text(small, {left + padding, y}, colors::label,
-                 std::to_string(left_out) + " more: mouse wheel");
+                 say(Phrase::more_rows, std::to_string(left_out)));
         list->PopClipRect();
         top = area.to.y + unit;
         right_edge = std::max(right_edge, area.to.x);

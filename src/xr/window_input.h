@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "phrases/language.h"
 #include "xr/navigation.h"
 
 namespace theatron::xr {
@@ -83,8 +84,7 @@ struct WindowInput {
 
 // The keys as the help shows them.
 struct KeyHelp {
-    const char* keys;
-    const char* meaning;
+    Sentence keys, meaning;
 };
 const std::vector<KeyHelp>& key_help();
 

@@ -193,8 +193,18 @@ class Web(unittest.TestCase):
         facts = page.wait_for("document.getElementById('facts').innerText")
         for word in ("Gastgeber", "Kameras", "Daten"):
             self.assertIn(word, facts)
+        # Keys of the client and its sentences, which come from the program.
+        self.assertEqual(page.evaluate("""[...document.querySelectorAll('#room_panels button')].map(b => b.textContent)
+            .filter(label => /^(Go|Call|Make|Show|Hide|Remove)/.test(label))"""), [])
         page.evaluate("document.getElementById('leave').click()")
         page.wait_for("theatron.state.phase === 'left'")
+        # A reason that the host gives as a code.
+        page = self.browser.open(self.link.replace("join=", "join=wrong"), SIZE)
+        page.call("Emulation.setUserAgentOverride", userAgent="test", acceptLanguage="de-DE")
+        page.reload()
+        page.wait_for("document.documentElement?.lang === 'de' && !!document.getElementById('invitation')?.textContent")
+        page.enter()
+        page.wait_for("document.getElementById('problem').textContent.startsWith('Der Zugangscode dieses Links ist falsch')")
 
     def test_a_link_without_a_token_or_with_a_wrong_one_is_explained(self):
         page = self.browser.open(self.link.split("#")[0], SIZE)

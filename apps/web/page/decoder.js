@@ -6,6 +6,7 @@ import { offer_h264 } from "./video_decoder.js";
 
 onmessage = async ({ data: { program, origin_ms } }) => {
     const module = await make_client(with_program(program));
+    module.cwrap("theatron_use_language", null, ["string"])(navigator.language);
     module.post_reply = bytes => postMessage(bytes.buffer, [bytes.buffer]);
     module._theatron_begin_decoder(origin_ms - performance.timeOrigin);
     onmessage = ({ data }) => {

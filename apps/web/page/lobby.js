@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // The session as the form shows it before one enters: its people, cameras and picture, by the token in a header.
-import { session_text } from "./session_texts.js";
 import { text, texts } from "./texts.js";
 
 const $ = id => document.getElementById(id);
@@ -105,7 +104,7 @@ function lines_of({ ended, held_back, asks, people, cameras, people_count }, rol
     if (role === "observer")
         lines.push(text("lobby_observer"));
     if (people)
-        lines.push(people.length ? text("lobby_people", { names: named(people, ({ name, role }) => `${name} (${session_text(role)})`) })
+        lines.push(people.length ? text("lobby_people", { names: named(people, ({ name, role }) => `${name} (${texts.roles[role] ?? role})`) })
                                  : text("lobby_nobody"));
     else if (Number.isInteger(people_count))
         lines.push(text("lobby_count", { count: people_count }));

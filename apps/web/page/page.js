@@ -13,9 +13,8 @@ import { face_problem, fill_texts, show, show_face, show_voices } from "./panels
 import { Person } from "./person.js";
 import { PicturePanel } from "./picture.js";
 import { put_bytes, with_patience, with_program } from "./program.js";
-import { session_text } from "./session_texts.js";
 import { store, stored } from "./storage.js";
-import { language, text } from "./texts.js";
+import { language, text, texts } from "./texts.js";
 import { offer_touch } from "./touch.js";
 import { by_touch, follow_touch } from "./touch_mode.js";
 import { offer_h264 } from "./video_decoder.js";
@@ -66,6 +65,8 @@ async function load_client() {
         leave_headset: [null, []],
         headset_scale: ["number", []],
         recentre: [null, []],
+        use_language: [null, ["string"]],
+        use_touch: [null, []],
         headset_wish: ["number", numbers(1)],
         reset_figures: [null, []],
         speak: [null, [...numbers(4), "array", "number"]],
@@ -79,6 +80,8 @@ async function load_client() {
     };
     const client = Object.fromEntries(Object.entries(functions).map(([name, [result, inputs]]) =>
         [name, module.cwrap(`theatron_${name}`, result, inputs)]));
+    client.use_language(language);
+    follow_touch(() => by_touch() && client.use_touch());
     const voice = new Voice((number, age_us, pauses, level_db, opus) =>
         client.speak(number, age_us, pauses, level_db, opus, opus.length), () => show_voices(voice, page.state));
     module.on_voice = (speaker, packet) => voice.hear(speaker, packet);
@@ -395,7 +398,7 @@ function leave(voice, face, problem) {
     $("lobby").hidden = false;
     page.lobby.watch();
     if (problem)
-        $("problem").textContent = session_text(problem);
+        $("problem").textContent = problem;
     $("name").focus();
 }
 
@@ -413,8 +416,8 @@ async function main() {
     $("problem").textContent = "";
     // Anybody can write into a link; only roles are shown.
     const role = link.get("role");
-    $("invitation").textContent = ["operator", "expert", "observer", "publisher"].includes(role)
-        ? text("invited_as", { host: location.host, role: session_text(role) })
+    $("invitation").textContent = Object.hasOwn(texts.roles, role)
+        ? text("invited_as", { host: location.host, role: texts.roles[role] })
         : text("invited", { host: location.host });
     if (/^[0-9a-f]{64}$/.test(link.get("cert") ?? "")) {
         $("fingerprint").textContent = link.get("cert").toUpperCase().match(/../g).join(":");

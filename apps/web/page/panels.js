@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // The panels around the picture, from the client's state. Texts of others are only ever text.
-import { session_text } from "./session_texts.js";
 import { text, texts } from "./texts.js";
 import { by_touch } from "./touch_mode.js";
 
@@ -64,23 +63,23 @@ function fill_panels(place, panels) {
         const section = element("section", "", "panel");
         const list = element("ul");
         for (const row of panel.rows) {
-            const item = element("li", session_text(row.text));
+            const item = element("li", row.text);
             if (row.detail)
-                item.append(element("div", session_text(row.detail), "detail"));
+                item.append(element("div", row.detail, "detail"));
             const buttons = element("div", "", "buttons");
             for (const { label, command } of row.buttons) {
-                const button = element("button", session_text(label));
+                const button = element("button", label);
                 button.dataset.command = command;
                 button.dataset.label = `${panel.title}/${row.text}/${label}`;
                 if (row.text)
-                    button.setAttribute("aria-label", `${session_text(label)}: ${row.text}`);
+                    button.setAttribute("aria-label", `${label}: ${row.text}`);
                 buttons.append(button);
             }
             if (row.buttons.length)
                 item.append(buttons);
             list.append(item);
         }
-        section.append(element("h2", session_text(panel.title)), list);
+        section.append(element("h2", panel.title), list);
         place.append(section);
     }
 }
@@ -90,7 +89,7 @@ function fill_facts(place, facts) {
         if (label === "Help" && by_touch())
             continue;  // it names a key
         const fact = element("span");
-        fact.append(element("span", `${session_text(label)}: `, "label"), element("span", session_text(value), warning ? "warning" : ""));
+        fact.append(element("span", `${label}: `, "label"), element("span", value, warning ? "warning" : ""));
         place.append(fact);
     }
 }
@@ -137,8 +136,8 @@ export function show_face(face, way) {
 
 export function show(state) {
     const { overlay } = state;
-    set_text($("message"), [overlay.message, overlay.detail].filter(Boolean).map(session_text).join("\n"));
-    set_text($("notice"), [overlay.warning, overlay.notice].filter(Boolean).map(session_text).join("\n"));
+    set_text($("message"), [overlay.message, overlay.detail].filter(Boolean).join("\n"));
+    set_text($("notice"), [overlay.warning, overlay.notice].filter(Boolean).join("\n"));
     update($("facts"), overlay.facts, fill_facts);
     $("cameras").hidden = state.cameras.length === 0;
     // Without a connection no camera is live, whatever the host said last.

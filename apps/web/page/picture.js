@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // The panel "Picture": the way of drawing, the codecs and the share of pixels, and what came of each choice.
-import { session_text } from "./session_texts.js";
 import { text } from "./texts.js";
 
 const $ = id => document.getElementById(id);
@@ -43,7 +42,7 @@ export class PicturePanel {
         for (const what of ["renderer", "depth", "scale"])
             $(`${what}_row`).hidden = is_flat;
         this.select("color", color?.is_chosen ? color.asked : "auto");
-        set($("color_now"), [came(cameras.map(c => c.color)), color?.is_chosen ? "" : session_text(color?.reason)].filter(Boolean).join("; "));
+        set($("color_now"), [came(cameras.map(c => c.color)), color?.is_chosen ? "" : color?.reason].filter(Boolean).join("; "));
         if (is_flat)
             return;
         this.select("renderer", chosen.renderer);
