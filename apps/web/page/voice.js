@@ -80,6 +80,7 @@ export class Voice {
     is_held = false;
     released_ms = -Infinity;
     speakers = new Map();  // participant -> Speaker
+    resume = () => this.context.resume();  // one function: visits without an act add no further listener
 
     // `send(number, age_us, pauses, level_db, opus)` sends a frame whose first sample is so old; `changed()` follows a
     // change of the microphone.
@@ -117,7 +118,7 @@ export class Voice {
         // A page that entered by itself, after its graphics were lost, is silent until somebody acts in it.
         if (this.context.state === "suspended")
             for (const act of ["pointerdown", "keydown"])
-                addEventListener(act, () => this.context.resume(), { once: true });
+                addEventListener(act, this.resume, { once: true });
         const resumed = this.context.resume();
         this.loaded ??= Promise.all([
             with_patience(() => this.context.audioWorklet.addModule(new URL("./voice_worklet.js", import.meta.url))),
