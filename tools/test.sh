@@ -50,6 +50,9 @@ if [ "$all" = --all ]; then
     step "The same for a minute under TSan" tools/test_many.sh tsan 60
     step "An hour before fixed cameras without an alarm" env MINUTES=60 \
         build/release/src/registration/registration_test --gtest_filter='Watching.NoAlarm*'
+    step "Cameras registered, four seeds" build/release/apps/theatron/theatron_bench registration \
+        --seeds 4 --json build/registration.json
+    step "Accuracy of registration as promised" tools/check_registration.py build/registration.json
 fi
 # Last, so that its closing lines are those of the whole.
 step "Tests" ctest --preset release
