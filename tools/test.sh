@@ -52,6 +52,9 @@ if [ "$all" = --all ]; then
         build/release/src/registration/registration_test --gtest_filter='Watching.NoAlarm*'
     step "Frame rate beside strangers and expensive guests" env PYTHONPATH=tests/end_to_end \
         python3 tests/end_to_end/guests_run.py
+    step "Cameras registered, four seeds" build/release/apps/theatron/theatron_bench registration \
+        --seeds 4 --json build/registration.json
+    step "Accuracy of registration as promised" tools/check_registration.py build/registration.json
 fi
 # Last, so that its closing lines are those of the whole.
 step "Tests" ctest --preset release

@@ -1,37 +1,83 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "depth_source.h"
 
-#include <set>
+#include <algorithm>
 
 #include "base/error.h"
 #include "base/log.h"
 #include "base/steady_clock.h"
 #include "client/participant.h"
+#include "geometry/screen.h"
 
 namespace theatron::app {
 namespace {
 
-void check_cameras(const std::vector<DepthSource::Camera>& cameras) {
-    std::set<std::string> names;
-    for (const DepthSource::Camera& camera : cameras)
-        if (!names.insert(camera.name).second)
-            throw Error("Two cameras are called '" + camera.name +
+// Goes through the cameras there are, and keeps those of a choice.
+class Chooser {
+public:
+    explicit Chooser(const CameraChoice& choice) : choice_(choice) {}
+
+    bool takes(const std::string& name, const Calibration& calibration, bool is_in_room) {
+        const auto& only = choice_.only;
+        there_ += (there_.empty() ? "'" : ", '") + name + "'";
+        if (!only.empty() && std::find(only.begin(), only.end(), name) == only.end())
+            return false;
+        const char* reason = nullptr;
+        if (!is_in_room || calibration.person != 0)
+            reason = "it moves with a person";
+        else if (is_screen(calibration))
+            reason = "it is a screen";
+        else if (calibration.depth.size.area() == 0)
+            reason = "it has no depth";
+        else if (choice_.known && !choice_.known->contains(name))
+            reason = "the file of places does not have it";
+        if (reason) {
+            log::say("'" + name + "' is left out: " + reason + ".");
+            return false;
+        }
+        if (!taken_.insert(name).second)
+            throw Error("Two cameras are called '" + name +
                         "'; the file of places tells cameras apart by their names.");
-    if (cameras.size() < 2)
+        return true;
+    }
+
+    // After all cameras.
+    void check() const {
+        for (const std::string& name : choice_.only)
+            if (!taken_.contains(name))
+                throw Error("No camera to be registered is called '" + name + "'; there are " +
+                            there_ + ".");
+        if (taken_.size() >= 2)
+            return;
+        if (choice_.known)
+            throw Error(
+                "Surfaces are compared between cameras, and fewer than two of these are in the "
+                "file of places; register them with the board.");
         throw Error(
             "Cameras are registered to each other: give at least two with --camera, or the link of "
             "a session that has two.");
-}
+    }
+
+private:
+    const CameraChoice& choice_;
+    std::set<std::string> taken_;
+    std::string there_;  // for people
+};
 
 class OwnCameras final : public DepthSource {
 public:
-    OwnCameras(const std::vector<std::string>& specifications, const capture::Progress& progress) {
+    OwnCameras(const std::vector<std::string>& specifications, const CameraChoice& choice,
+               const capture::Progress& progress) {
+        Chooser chooser(choice);
         for (const std::string& specification : specifications) {
-            open_.push_back({capture::open_camera(specification, progress)});
-            const capture::CameraInfo& info = open_.back().camera->info();
+            Open open{capture::open_camera(specification, progress)};
+            const capture::CameraInfo& info = open.camera->info();
+            if (!chooser.takes(info.name, info.calibration, true))
+                continue;
             cameras_.push_back({info.name, info.calibration, ""});
+            open_.push_back(std::move(open));
         }
-        check_cameras(cameras_);
+        chooser.check();
     }
 
     bool next(const Sink& sink) override {
@@ -62,7 +108,7 @@ private:
 
 class SessionCameras final : public DepthSource {
 public:
-    explicit SessionCameras(const net::Link& link) {
+    SessionCameras(const net::Link& link, const CameraChoice& choice) {
         client::Participant::Options options;
         options.link = link;
         options.name = "registration";
@@ -71,8 +117,7 @@ public:
         options.delivery = {};
         options.remark = [](const std::string& text) { log::say(text); };
         participant_ = std::make_unique<client::Participant>(options);
-        wait_for_cameras();
-        check_cameras(cameras_);
+        wait_for_cameras(choice);
     }
 
     bool next(const Sink& sink) override {
@@ -83,15 +128,20 @@ public:
             throw Error(status.problem);
         if (status.phase == Phase::ended)
             return false;
+        if (status.phase != Phase::joined)
+            return true;
         std::uint64_t generation = 0;
         const auto now = participant_->cameras(generation);
-        if (generation != generation_ && !is_same(now))
-            throw Error("The session's cameras have changed meanwhile; begin again.");
-        generation_ = generation;
         bool more = false;
-        for (std::size_t c = 0; c < now.size(); ++c) {
-            cameras_[c].filter = now[c].state.filter;
-            more = more || now[c].state.condition != wire::CameraCondition::ended;
+        for (std::size_t c = 0; c < ids_.size(); ++c) {
+            const auto found = std::find_if(now.begin(), now.end(), [&](const auto& camera) {
+                return camera.description.id == ids_[c];
+            });
+            if (found == now.end() || !is_same(*found, cameras_[c]))
+                throw Error("The camera '" + cameras_[c].name +
+                            "' has left the session or has changed meanwhile; begin again.");
+            cameras_[c].filter = found->state.filter;
+            more = more || found->state.condition != wire::CameraCondition::ended;
         }
         for (const receive::CameraFramePtr& frame : participant_->take_frames())
             for (std::size_t c = 0; c < ids_.size(); ++c)
@@ -102,7 +152,7 @@ public:
     }
 
 private:
-    void wait_for_cameras() {
+    void wait_for_cameras(const CameraChoice& choice) {
         constexpr Duration patience = std::chrono::seconds(15);
         const TimePoint begin = steady_now();
         while (true) {
@@ -110,13 +160,19 @@ private:
             const client::Participant::Status status = participant_->status();
             if (status.phase == client::Participant::Phase::refused)
                 throw Error(status.problem);
-            const auto cameras = participant_->cameras(generation_);
+            std::uint64_t generation = 0;
+            const auto cameras = participant_->cameras(generation);
             if (status.phase == client::Participant::Phase::joined && !cameras.empty()) {
+                Chooser chooser(choice);
                 for (const client::Participant::Camera& camera : cameras) {
+                    if (!chooser.takes(camera.description.name, camera.calibration,
+                                       camera.description.frame == wire::CameraFrame::room))
+                        continue;
                     ids_.push_back(camera.description.id);
                     cameras_.push_back(
                         {camera.description.name, camera.calibration, camera.state.filter});
                 }
+                chooser.check();
                 return;
             }
             if (steady_now() - begin > patience)
@@ -126,30 +182,25 @@ private:
     }
 
     // A registration is of these cameras with these lenses; their conditions may change.
-    bool is_same(const std::vector<client::Participant::Camera>& now) const {
-        if (now.size() != ids_.size())
-            return false;
-        for (std::size_t c = 0; c < ids_.size(); ++c)
-            if (now[c].description.id != ids_[c] || now[c].description.name != cameras_[c].name ||
-                !(now[c].calibration.depth == cameras_[c].calibration.depth))
-                return false;
-        return true;
+    static bool is_same(const client::Participant::Camera& now, const Camera& before) {
+        return now.description.name == before.name &&
+               now.calibration.depth == before.calibration.depth;
     }
 
     std::vector<CameraId> ids_;
-    std::uint64_t generation_ = 0;
     std::unique_ptr<client::Participant> participant_;
 };
 
 }  // namespace
 
 std::unique_ptr<DepthSource> open_cameras(const std::vector<std::string>& specifications,
+                                          const CameraChoice& choice,
                                           const capture::Progress& progress) {
-    return std::make_unique<OwnCameras>(specifications, progress);
+    return std::make_unique<OwnCameras>(specifications, choice, progress);
 }
 
-std::unique_ptr<DepthSource> join_for_depth(const net::Link& link) {
-    return std::make_unique<SessionCameras>(link);
+std::unique_ptr<DepthSource> join_for_depth(const net::Link& link, const CameraChoice& choice) {
+    return std::make_unique<SessionCameras>(link, choice);
 }
 
 }  // namespace theatron::app

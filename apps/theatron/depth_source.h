@@ -4,6 +4,8 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -28,16 +30,25 @@ public:
 
     // Waits a short time, and passes on the depth images that have come, each in its camera's size.
     // False once no more will come. Throws Error if a camera failed, or if the session was lost or
-    // has changed its cameras.
+    // one of these cameras has changed.
     virtual bool next(const Sink& sink) = 0;
 
 protected:
     std::vector<Camera> cameras_;
 };
 
-// Throw Error, also if there are fewer than two cameras or if two have one name.
+// Screens, faces and cameras that move with a person stand nowhere and are left out. So are others
+// than `only` (empty: all), which are cameras' names, and than those of `known`, if it is given.
+struct CameraChoice {
+    std::vector<std::string> only;
+    std::optional<std::set<std::string>> known;  // those with a place in the file
+};
+
+// Throw Error, also if fewer than two cameras are left, if two have one name, or if one of `only`
+// is not there. Those that are left out unasked are said on standard error.
 std::unique_ptr<DepthSource> open_cameras(const std::vector<std::string>& specifications,
+                                          const CameraChoice& choice,
                                           const capture::Progress& progress);
-std::unique_ptr<DepthSource> join_for_depth(const net::Link& link);
+std::unique_ptr<DepthSource> join_for_depth(const net::Link& link, const CameraChoice& choice);
 
 }  // namespace theatron::app

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // theatron register
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
@@ -34,7 +32,7 @@ using registration::RigSolution;
 
 struct Flags {
     std::string link;
-    std::vector<std::string> cameras;
+    std::vector<std::string> cameras, only;
     BoardFlags board;
     std::string refine;   // a file of places
     std::string touches;  // a file, or - for standard input
@@ -46,13 +44,13 @@ struct Flags {
     double seconds = 0;
 };
 
-std::unique_ptr<DepthSource> open(const Flags& flags) {
+std::unique_ptr<DepthSource> open(const Flags& flags, const CameraChoice& choice) {
     if (flags.link.empty() == flags.cameras.empty())
         throw Error(
             "Say which cameras: the link of a running session, or --camera for each that this "
             "computer opens itself.");
-    return flags.link.empty() ? open_cameras(flags.cameras, cli::show_progress())
-                              : join_for_depth(parse_link_argument(flags.link));
+    return flags.link.empty() ? open_cameras(flags.cameras, choice, cli::show_progress())
+                              : join_for_depth(parse_link_argument(flags.link), choice);
 }
 
 BoardSession make_session(const Cameras& cameras, const registration::LatticeTarget& target) {
@@ -77,9 +75,8 @@ const char* in_words(BoardSession::Sight sight) {
 }
 
 // Prints the state of the registration after a view.
-void tell(const BoardSession& session, const Cameras& cameras, std::size_t taken,
-          const Flags& flags) {
-    const RigSolution solution = session.solve();
+void tell(const BoardSession& session, const RigSolution& solution, const Cameras& cameras,
+          std::size_t taken, const Flags& flags) {
     const Vec3 span = BoardSession::span_m(solution);
     const std::string next = session.next_step(solution, flags.poses);
     nlohmann::json report{{"event", "view"},
@@ -116,20 +113,21 @@ void tell(const BoardSession& session, const Cameras& cameras, std::size_t taken
         return;
     }
     std::snprintf(text, sizeof(text), "; places span %.1f x %.1f x %.1f m", span.x, span.y, span.z);
-    std::cout << "\r\033[K" << line << text << "\n  " << next << std::endl;
+    std::cout << clear_line() << line << text << "\n  " << next << std::endl;
 }
 
 void watch(DepthSource& source, BoardSession& session, const Flags& flags) {
     const Cameras& cameras = source.cameras();
     const TimePoint begin = steady_now();
     TimePoint next_line = begin;
-    const bool live_line = !flags.output.json && isatty(STDOUT_FILENO);
+    const bool live_line = !flags.output.json && *clear_line() != 0;
     bool complete = false, filter_said = false;
     const auto look = [&](std::size_t camera, DepthView depth, TimePoint captured) {
         if (complete || !session.add(camera, depth, captured))
             return;
-        tell(session, cameras, camera, flags);
-        complete = session.is_complete(flags.poses);
+        const RigSolution solution = session.solve();
+        tell(session, solution, cameras, camera, flags);
+        complete = session.is_complete(solution, flags.poses);
         if (!cameras[camera].filter.empty() && !std::exchange(filter_said, true))
             std::fprintf(stderr,
                          "The host filters depth, which moves the board's edges a little. For the "
@@ -142,7 +140,7 @@ void watch(DepthSource& source, BoardSession& session, const Flags& flags) {
             std::string line;
             for (std::size_t c = 0; c < cameras.size(); ++c)
                 line += (c ? "  |  " : "") + cameras[c].name + ": " + in_words(session.sight(c));
-            std::cout << "\r\033[K" << line << std::flush;
+            std::cout << clear_line() << line << std::flush;
             next_line = steady_now() + 200ms;
         }
     }
@@ -164,17 +162,33 @@ std::string typed_or_file(const std::string& file, const Flags& flags, const cha
     return text;
 }
 
+// Where the tip is in the controller's frame. Throws Error with a sentence.
+Vec3 tip_of(const Flags& flags) {
+    const auto tip = capture::parse_place(flags.tip);
+    if (!tip || std::count(flags.tip.begin(), flags.tip.end(), ':') != 2)
+        throw Error("--tip " + flags.tip + " is not X:Y:Z in metres.");
+    return tip->translation;
+}
+
+// Where the board is in the controller's frame. Throws Error with a sentence.
+Pose holder_offset_of(const Flags& flags) {
+    std::string words = flags.holder_offset;
+    std::replace(words.begin(), words.end(), ':', ' ');
+    const auto offset = registration::parse_pose(registration::words_of(words, 7));
+    if (!offset)
+        throw Error("--holder-offset " + flags.holder_offset +
+                    " is not X:Y:Z or X:Y:Z:QW:QX:QY:QZ in metres.");
+    return *offset;
+}
+
 // The room by a controller's tip at the board's corners. Throws Error with a sentence.
 RoomFrame touched_room(const Flags& flags, const registration::LatticeTarget& target,
                        const RigSolution& solution) {
-    const auto tip = capture::parse_place(flags.tip);
-    if (!tip)
-        throw Error("--tip " + flags.tip + " is not X:Y:Z in metres.");
     const auto parsed = registration::parse_touches(
         typed_or_file(flags.touches, flags,
                       "Leave the board where it is and give the touches of its corners, one "
                       "'CORNER X Y Z' a line; Ctrl-D ends."),
-        tip->translation);
+        tip_of(flags));
     if (!parsed.problem.empty())
         throw Error(parsed.problem);
     const registration::TouchFit fit = registration::fit_touches(target, parsed.touches);
@@ -187,20 +201,14 @@ RoomFrame touched_room(const Flags& flags, const registration::LatticeTarget& ta
 // The room by a controller that carries the board. Throws Error with a sentence.
 RoomFrame held_room(const Flags& flags, const registration::LatticeTarget& target,
                     const RigSolution& solution) {
-    std::string words = flags.holder_offset;
-    std::replace(words.begin(), words.end(), ':', ' ');
-    const auto offset = registration::parse_pose(registration::words_of(words, 7));
-    if (!offset)
-        throw Error("--holder-offset " + flags.holder_offset +
-                    " is not X:Y:Z or X:Y:Z:QW:QX:QY:QZ in metres.");
     const auto parsed = registration::parse_holder(typed_or_file(
         flags.holder, flags,
         "Give the controller's pose at places of the board, one 'PLACE X Y Z QW QX QY QZ' a line; "
         "Ctrl-D ends."));
     if (!parsed.problem.empty())
         throw Error(parsed.problem);
-    const registration::HolderFit fit =
-        registration::fit_holder(target, solution.reference_from_board, *offset, parsed.poses);
+    const registration::HolderFit fit = registration::fit_holder(
+        target, solution.reference_from_board, holder_offset_of(flags), parsed.poses);
     if (!fit.problem.empty())
         throw Error(fit.problem);
     return {fit.room_from_reference, "the board's tracked holder"};
@@ -244,11 +252,19 @@ void check_outputs(const RigOutput& output) {
 
 void run(const Flags& flags) {
     const registration::LatticeTarget target = board_of(flags.board);
+    // Mistyped ones are told before anybody carries the board.
+    (void)tip_of(flags);
+    (void)holder_offset_of(flags);
+    CameraChoice choice{flags.only, {}};
     capture::CameraPlaces earlier;
-    if (!flags.refine.empty())
+    if (!flags.refine.empty()) {
         earlier = capture::load_places(flags.refine);
+        choice.known.emplace();
+        for (const capture::CameraPlaces::Entry& entry : earlier.cameras)
+            choice.known->insert(entry.camera);
+    }
     check_outputs(flags.output);
-    const std::unique_ptr<DepthSource> source = open(flags);
+    const std::unique_ptr<DepthSource> source = open(flags, choice);
     const Cameras& cameras = source->cameras();
     BoardSession session = make_session(cameras, target);
     cli::catch_stop_signals();
@@ -287,6 +303,11 @@ void add_register_command(CLI::App& app) {
     command->add_option("link", flags->link,
                         "The link of a running session (or @FILE with it), whose cameras are used");
     cli::add_camera_option(*command, flags->cameras);
+    command
+        ->add_option("--only", flags->only,
+                     "Of all those cameras the one with this name; repeat for more. Screens and "
+                     "cameras that move with a person are left out anyway")
+        ->allow_extra_args(false);
     command->add_option("--output", flags->output.places, "The file of places to write")
         ->required();
     command->add_option("--report", flags->output.report,
@@ -315,15 +336,20 @@ void add_register_command(CLI::App& app) {
         ->capture_default_str();
     command
         ->add_option("--tip", flags->tip,
-                     "With --touches: the tip that touches, in the controller's frame, metres")
+                     "With --touches: the tip that touches, in the controller's frame, X:Y:Z in "
+                     "metres")
+        ->needs("--touches")
         ->capture_default_str();
-    command->add_option("--refine", flags->refine,
-                        "Without a board: improve the places of this file on surfaces that two "
-                        "cameras see, for example after one was moved a little");
     add_board_options(*command, flags->board);
     command->add_option("--poses", flags->poses, "So many places of the board for each camera")
         ->capture_default_str()
         ->check(CLI::Range(1, 1000));
+    CLI::Option* refine =
+        command->add_option("--refine", flags->refine,
+                            "Without a board: improve the places of this file on surfaces that two "
+                            "cameras see, for example after one was moved a little");
+    for (const char* of_board : {"--board", "--thickness", "--poses", "--touches", "--holder"})
+        refine->excludes(of_board);
     cli::add_seconds_option(*command, flags->seconds, "End by itself after this time");
     command->add_flag("--json", flags->output.json,
                       "Print one JSON line for each view and for the result");

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "register_result.h"
 
+#include <unistd.h>
+
 #include <cmath>
 #include <cstdio>
 #include <iostream>
@@ -24,6 +26,8 @@ using registration::SurfaceCamera;
 
 // Surfaces further apart are different ones.
 constexpr double report_reach_m = 0.05;
+// Viewers subtract an offset that is saved, so others are left to their own estimates.
+constexpr double well_known_offset_m = 0.00075;
 // Heads are lower, and hands reach no further from the board's places.
 constexpr double volume_height_m = 2.2, volume_radius_m = 1.5;
 
@@ -194,8 +198,9 @@ RegisteredRig rig_of_board(const Cameras& cameras, const BoardSession& session,
     for (std::size_t c = 0; c < cameras.size(); ++c) {
         const registration::CameraPlace& found = solution.cameras[c];
         places.push_back(room * refined.reference_from_camera[c]);
-        capture::CameraPlaces::Entry entry{
-            cameras[c].name, places[c], {}, found.bias.offset_m * 1000, {}};
+        capture::CameraPlaces::Entry entry{cameras[c].name, places[c], {}, {}, {}};
+        if (found.bias_sigma.offset_m < well_known_offset_m)
+            entry.depth_offset_mm = found.bias.offset_m * 1000;
         auto& covariance = entry.covariance.emplace();
         for (int i = 0; i < 6; ++i)
             for (int j = 0; j < 6; ++j)
@@ -206,8 +211,11 @@ RegisteredRig rig_of_board(const Cameras& cameras, const BoardSession& session,
         drawn.room_from_camera = places[c];
         if (before.size() == cameras.size())
             drawn.earlier = before[c];
-        drawn.sigma_mm = std::sqrt(found.covariance.bottomRightCorner<3, 3>().trace()) * 1000;
-        drawn.sigma_deg = std::sqrt(found.covariance.topLeftCorner<3, 3>().trace()) / radians_of(1);
+        drawn.is_reference = c == 0;
+        if (c > 0)
+            drawn.sigma = {
+                std::sqrt(found.covariance.bottomRightCorner<3, 3>().trace()) * 1000,
+                std::sqrt(found.covariance.topLeftCorner<3, 3>().trace()) / radians_of(1)};
         drawn.bias = found.bias;
         drawn.bias_sigma = found.bias_sigma;
         drawn.views = session.views(c);
@@ -273,6 +281,7 @@ RegisteredRig rig_of_surfaces(const Cameras& cameras, const capture::CameraPlace
         drawn.name = cameras[c].name;
         drawn.room_from_camera = places[c];
         drawn.earlier = before[c];
+        drawn.bias.offset_m = entry.depth_offset_mm.value_or(0) / 1000;
         // Around the place that the cameras look at.
         middle = middle + places[c] * Vec3{0, 0, 2} * (1.0 / double(cameras.size()));
     }
@@ -288,6 +297,10 @@ RegisteredRig rig_of_surfaces(const Cameras& cameras, const capture::CameraPlace
     return rig;
 }
 
+const char* clear_line() {
+    return isatty(STDOUT_FILENO) ? "\r\033[K" : "";
+}
+
 void save(const RegisteredRig& rig, const RigOutput& output) {
     const auto write = [](const std::string& file, const std::string& text) {
         files::write_file(file, std::as_bytes(std::span(text)));
@@ -301,30 +314,41 @@ void save(const RegisteredRig& rig, const RigOutput& output) {
         {"event", "saved"}, {"output", output.places},       {"places", rig.report.places.size()},
         {"room", rig.room}, {"remarks", rig.report.remarks}, {"cameras", nlohmann::json::array()}};
     if (!output.json) {
-        std::cout << "\r\033[K" << output.places << ": " << rig.places.method << "\n";
+        std::cout << clear_line() << output.places << ": " << rig.places.method << "\n";
         for (const std::string& remark : rig.report.remarks)
             std::cout << remark << "\n";
     }
     for (const RegistrationReport::Camera& camera : rig.report.cameras) {
+        const capture::CameraPlaces::Entry& entry = *rig.places.find(camera.name);
         const double offset_mm = camera.bias.offset_m * 1000,
                      sigma_mm = camera.bias_sigma.offset_m * 1000;
         const double moved_mm =
             camera.earlier
                 ? length(camera.room_from_camera.translation - camera.earlier->translation) * 1000
                 : 0;
-        json["cameras"].push_back({{"camera", camera.name},
-                                   {"sigma_mm", camera.sigma_mm},
-                                   {"sigma_deg", camera.sigma_deg},
-                                   {"depth_offset_mm", offset_mm},
-                                   {"depth_offset_sigma_mm", sigma_mm}});
+        // Figures that were not estimated are left out.
+        nlohmann::json& about = json["cameras"].emplace_back(
+            nlohmann::json{{"camera", camera.name}, {"reference", camera.is_reference}});
+        if (camera.sigma) {
+            about["sigma_mm"] = camera.sigma->mm;
+            about["sigma_deg"] = camera.sigma->deg;
+        }
+        if (entry.depth_offset_mm)
+            about["depth_offset_mm"] = *entry.depth_offset_mm;
+        if (sigma_mm > 0)
+            about["depth_offset_sigma_mm"] = sigma_mm;
         if (camera.earlier)
-            json["cameras"].back()["moved_mm"] = moved_mm;
+            about["moved_mm"] = moved_mm;
         if (output.json)
             continue;
         std::printf("  %s:", camera.name.c_str());
-        if (camera.views > 0)
-            std::printf(" good to %.1f mm and %.2f degrees; measures %+.1f mm too far (+- %.1f)%s",
-                        camera.sigma_mm, camera.sigma_deg, offset_mm, sigma_mm,
+        if (camera.is_reference)
+            std::printf(" the reference;");
+        else if (camera.sigma)
+            std::printf(" good to %.1f mm and %.2f degrees;", camera.sigma->mm, camera.sigma->deg);
+        if (sigma_mm > 0)
+            std::printf(" measures %+.1f mm too far (+- %.1f)%s%s", offset_mm, sigma_mm,
+                        entry.depth_offset_mm ? "" : ", which is too uncertain to be saved",
                         camera.earlier ? ";" : "");
         if (camera.earlier)
             std::printf(" %.1f mm from its earlier place", moved_mm);

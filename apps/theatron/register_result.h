@@ -44,6 +44,10 @@ RegisteredRig rig_of_board(const Cameras& cameras, const registration::BoardSess
 RegisteredRig rig_of_surfaces(const Cameras& cameras, const capture::CameraPlaces& earlier,
                               const std::vector<registration::FrameMean>& means);
 
+// The beginning of a line on standard output that stands in place of the one that is there; empty
+// where the output is no terminal.
+const char* clear_line();
+
 // Writes the files, and a summary to standard output.
 void save(const RegisteredRig& rig, const RigOutput& output);
 

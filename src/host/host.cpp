@@ -9,6 +9,7 @@
 #include "base/log.h"
 #include "base/log_scope.h"
 #include "capture/placed_camera.h"
+#include "geometry/screen.h"
 #include "host/codec_steps.h"
 #include "host/host_identity.h"
 #include "host/host_impl.h"
@@ -273,7 +274,7 @@ std::vector<std::string> Host::camera_names() const {
 std::vector<std::string> Host::unregistered_cameras() const {
     std::vector<std::string> names;
     for (const auto& lane : impl_->lanes)
-        if (!lane->info().calibration.registered)
+        if (!lane->info().calibration.registered && !is_screen(lane->info().calibration))
             names.push_back(lane->info().name);
     return names;
 }

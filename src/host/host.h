@@ -45,7 +45,8 @@ public:
     std::string link(wire::Role role = wire::Role::expert) const;
     std::uint16_t port() const;
     std::vector<std::string> camera_names() const;
-    // The cameras without a known place in the room. They are placed side by side, 12 m apart.
+    // The cameras without a known place in the room, which are placed side by side, 12 m apart;
+    // screens are none of them.
     std::vector<std::string> unregistered_cameras() const;
 
     // The part of a camera's depth image, in its pixels, that stays exact on any link,

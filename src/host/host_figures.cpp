@@ -205,6 +205,10 @@ nlohmann::json to_json(const HostFigures& figures) {
         {"participants", participants},
         {"published", published},
         {"overlaps", overlaps},
+        {"registration",
+         {{"made", figures.registration.made},
+          {"method", figures.registration.method},
+          {"problem", figures.registration.problem}}},
         {"visitors", visitors},
         {"case_problems", figures.case_problems},
         {"past_bytes", figures.past_bytes},
@@ -326,7 +330,8 @@ std::string to_prometheus(const PortFigures& figures_of_all) {
     per_place("camera_covered", "1 while a camera is covered, so that its place is not watched.",
               &Place::has_place, [](const Place& p) { return p.is_covered ? 1.0 : 0.0; });
     out.family("overlap_apart_mm", "gauge",
-               "Median distance of the surfaces that two cameras see, depth as measured.");
+               "Median distance of the surfaces that two cameras see, depth as measured "
+               "less each camera's saved offset.");
     for (const HostFigures& figures : all)
         for (const auto& pair : figures.places.pairs)
             out.value(in_session(figures, "a=\"" + std::to_string(pair.a) + "\",b=\"" +
@@ -445,6 +450,15 @@ std::string to_table(const nlohmann::json& figures) {
             table += "    " + problem + "\n";
         if (const std::string adjusted = text(camera, "adjusted"); !adjusted.empty())
             table += "    by operators: " + adjusted + "\n";
+    }
+    if (figures.contains("registration") && figures["registration"].is_object()) {
+        const auto& registration = figures["registration"];
+        const std::string made = text(registration, "made"), method = text(registration, "method"),
+                          problem = text(registration, "problem");
+        if (!made.empty() || !method.empty())
+            table += "places of cameras: " + (made.empty() ? "" : made + ", ") + method + "\n";
+        if (!problem.empty())
+            table += problem + "\n";
     }
     if (const std::string color = text(figures, "automatic_color"); !color.empty())
         table += "automatic colour is " + color + "\n";

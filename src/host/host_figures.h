@@ -57,13 +57,19 @@ struct HostFigures {
     std::vector<Published> published;          // cameras that participants send now
     std::map<CameraId, std::string> adjusted;  // by operators, and how
     PlaceWatch::Figures places;                // whether cameras stay where they were registered
-    GainWatch::Gains gains;                    // of colours, by camera
-    bool has_ended = false;                    // the session
-    std::vector<wire::Visitor> visitors;       // who wait for admission
-    std::vector<std::string> case_problems;    // sentences on the folder of cases
-    std::size_t past_bytes = 0;                // encoded pictures that are kept for looking back
-    std::uint64_t turned_away = 0;             // strangers, since the host began
-    std::string page_problem;                  // of the browser client (host/page.h); else empty
+    // The origin of the cameras' places.
+    struct Registration {
+        std::string made, method;  // as its file says; empty: there is none
+        std::string problem;       // host/mixed_registrations.h
+    };
+    Registration registration;
+    GainWatch::Gains gains;                  // of colours, by camera
+    bool has_ended = false;                  // the session
+    std::vector<wire::Visitor> visitors;     // who wait for admission
+    std::vector<std::string> case_problems;  // sentences on the folder of cases
+    std::size_t past_bytes = 0;              // encoded pictures that are kept for looking back
+    std::uint64_t turned_away = 0;           // strangers, since the host began
+    std::string page_problem;                // of the browser client (host/page.h); else empty
     std::uint64_t faults = 0;  // that cost a connection, a picture or a camera (base/fault.h)
 
     // Sentences about what the host cannot write, and operators must know; empty: all is well.
@@ -98,7 +104,8 @@ struct PortFigures {
 // "fps","age_ms","stages":[…],"dropped":{…},"lost_pictures",…}],"participants":[{"id","name","age_ms",
 // "renderer","refused_requests","denied_messages","refused_faces","role","muted","direct",…}],"visitors":[{"id","name",
 // "person","role"}],"published":[{"id","name","publisher","state",
-// "adjusted","dropped_slow","bytes"}],"overlaps":[{"a","b","apart_mm","alarm"}],"case_problems":[…],"past_bytes","turned_away",
+// "adjusted","dropped_slow","bytes"}],"overlaps":[{"a","b","apart_mm","alarm"}],
+// "registration":{"made","method","problem"},"case_problems":[…],"past_bytes","turned_away",
 // "faults","page_problem","problems":{"audit_log","room"},
 // "certificates":[{"of","fingerprint","expires","seconds_left","problem"}]}
 nlohmann::json to_json(const HostFigures& figures);

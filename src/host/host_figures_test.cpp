@@ -55,6 +55,17 @@ TEST(HostFigures, EveryFieldIsOnThePageOfMetrics) {
         EXPECT_NE(page.find('`' + name + '`'), std::string::npos) << name;
 }
 
+TEST(HostFigures, TellWhereThePlacesOfCamerasComeFrom) {
+    HostFigures figures = full_figures();
+    EXPECT_EQ(to_table(to_json(figures)).find("places of cameras"), std::string::npos);
+    figures.registration = {"2026-05-04T10:20:30Z", "board 80x60, 10 places", "They differ."};
+    const std::string table = to_table(to_json(figures));
+    EXPECT_NE(table.find("places of cameras: 2026-05-04T10:20:30Z, board 80x60, 10 places\n"),
+              std::string::npos)
+        << table;
+    EXPECT_NE(table.find("\nThey differ.\n"), std::string::npos) << table;
+}
+
 TEST(HostFigures, TellsWhatTheHostCannotWrite) {
     HostFigures figures = full_figures();
     EXPECT_NE(to_prometheus({{figures}, {}}).find("host_problem{of=\"audit_log\"} 0\n"),

@@ -489,6 +489,7 @@ HostFigures Host::Impl::figures() const {
         figures.adjusted[camera] = text_of(adjustment);
     if (place_watch)
         figures.places = place_watch->figures();
+    figures.registration = {places.made, places.method, registration_problem};
     if (gain_watch)
         figures.gains = gain_watch->gains();
     figures.visitors = visitor_figures;

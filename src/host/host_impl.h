@@ -93,6 +93,7 @@ struct Host::Impl {
     std::map<CameraId, session::CameraAdjustment> adjusted_figures;
     std::vector<wire::Visitor> visitor_figures;
     std::vector<std::string> case_problem_figures;
+    std::string registration_problem;
     bool ended_figure = false;
     std::size_t past_figure = 0;
     std::vector<std::string> tokens_held_back;

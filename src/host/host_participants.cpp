@@ -2,8 +2,10 @@
 // The figures of the participants and their cameras.
 #include <algorithm>
 
+#include "base/log.h"
 #include "base/steady_clock.h"
 #include "host/host_impl.h"
+#include "host/mixed_registrations.h"
 
 namespace theatron::host {
 namespace {
@@ -62,8 +64,13 @@ void Host::Impl::note_participants() {
                                  dropped_slow[camera.id], camera.frame == wire::CameraFrame::face,
                                  received[camera.id]});
         }
+    std::string problem_of_places = mixed_registrations(streams.cameras());
+    if (problem_of_places != registration_problem && !problem_of_places.empty())
+        log::warning("host", "cameras of different registrations",
+                     {{"problem", problem_of_places}});
     std::vector<std::string> problems_of_cases = case_problems();
     const std::lock_guard lock(figures_mutex);
+    registration_problem = std::move(problem_of_places);
     case_problem_figures = std::move(problems_of_cases);
     participant_figures = std::move(list);
     visitor_figures = session->visitors();

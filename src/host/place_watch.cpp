@@ -11,6 +11,7 @@
 #include "base/fault.h"
 #include "base/log.h"
 #include "base/thread_name.h"
+#include "geometry/screen.h"
 
 namespace theatron::host {
 namespace {
@@ -18,11 +19,18 @@ namespace {
 using registration::RigWatch;
 
 constexpr int niceness = 15;
+// Another size of an alarm is told once so many images of each camera have shown it.
+constexpr int images_to_tell = 4;
 
-std::vector<std::size_t> with_place(const std::vector<capture::CameraInfo>& cameras) {
+// A camera in the room whose place is known. The depth of a screen shows nothing of the room.
+bool is_watchable(const Calibration& calibration) {
+    return calibration.registered && calibration.person == 0 && !is_screen(calibration);
+}
+
+std::vector<std::size_t> watchable(const std::vector<capture::CameraInfo>& cameras) {
     std::vector<std::size_t> numbers;
     for (std::size_t i = 0; i < cameras.size(); ++i)
-        if (cameras[i].calibration.registered && cameras[i].calibration.person == 0)
+        if (is_watchable(cameras[i].calibration))
             numbers.push_back(i);
     return numbers;
 }
@@ -43,7 +51,7 @@ RigWatch make_watch(const std::vector<capture::CameraInfo>& cameras,
 PlaceWatch::PlaceWatch(const std::vector<capture::CameraInfo>& cameras, Alarm alarm)
     : cameras_(cameras),
       alarm_(std::move(alarm)),
-      watched_(with_place(cameras)),
+      watched_(watchable(cameras)),
       watch_(make_watch(cameras, watched_)),
       told_(watched_.size()),
       renewals_(watched_.size()),
@@ -181,11 +189,30 @@ void PlaceWatch::tell() {
         const std::lock_guard lock(mutex_);
         figures_ = std::move(figures);
     }
-    for (std::size_t i = 0; i < watched_.size(); ++i)
-        if (wire::Text now = problem(i); now.code != told_[i].code) {
-            told_[i] = now;
-            alarm_(CameraId(watched_[i]), now);
-        }
+    for (std::size_t i = 0; i < watched_.size(); ++i) {
+        Told& told = told_[i];
+        const wire::Text now = problem(i);
+        const double now_m = size_m(i);
+        // While a camera is being moved, or put back, sizes of single images say little.
+        const bool is_another = now_m > 2 * told.size_m || 2 * now_m < told.size_m;
+        told.images_of_another = is_another ? told.images_of_another + 1 : 0;
+        if (now.code == told.problem.code &&
+            told.images_of_another < images_to_tell * int(watched_.size()))
+            continue;
+        told = {now, now_m, 0};
+        alarm_(CameraId(watched_[i]), now);
+    }
+}
+
+// The size that problem() names; 0: it names none.
+double PlaceWatch::size_m(std::size_t number) const {
+    const RigWatch::Motion& motion = watch_.motion(number);
+    if (motion.is_far)
+        return RigWatch::far_m;
+    if (motion.is_alarm)
+        return motion.moved_m;
+    const RigWatch::Pair* pair = watch_.wrong_pair(number);
+    return pair ? pair->apart_m : 0;
 }
 
 wire::Text PlaceWatch::problem(std::size_t number) const {

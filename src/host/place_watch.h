@@ -21,11 +21,11 @@ namespace theatron::host {
 
 class PlaceWatch {
 public:
-    // The problem of a camera that raised the alarm; empty: it is over. From the thread of the
-    // watch.
+    // The problem of a camera that raised the alarm, again when its size has doubled or halved;
+    // empty: it is over. From the thread of the watch.
     using Alarm = std::function<void(CameraId camera, const wire::Text& problem)>;
 
-    // Cameras without a known place are not watched.
+    // Screens and cameras without a known place are not watched.
     PlaceWatch(const std::vector<capture::CameraInfo>& cameras, Alarm alarm);
     ~PlaceWatch();
 
@@ -40,7 +40,7 @@ public:
 
     struct Figures {
         struct Camera {
-            bool has_place = false;   // is known
+            bool has_place = false;   // is known, of a camera that can be watched
             bool is_watched = false;  // enough of its picture stands still, or it has the alarm
             bool is_alarm = false;
             bool is_covered = false;              // so that it cannot be compared
@@ -63,15 +63,21 @@ private:
     void look_at(std::size_t camera, const Frame& frame);
     void tell();
     wire::Text problem(std::size_t number) const;
+    double size_m(std::size_t number) const;
     std::optional<std::size_t> number_of(std::size_t camera) const;
 
     const std::vector<capture::CameraInfo> cameras_;
     const Alarm alarm_;
     std::vector<std::size_t> watched_;  // the host's cameras, by the watch's numbers
     registration::RigWatch watch_;      // the thread's only
-    std::vector<wire::Text> told_;      // likewise; by the watch's numbers
-    std::vector<int> renewals_;         // likewise; that the log has
-    mutable std::mutex mutex_;          // guards all below
+    struct Told {
+        wire::Text problem;
+        double size_m = 0;
+        int images_of_another = 0;  // size, in a row
+    };
+    std::vector<Told> told_;     // likewise; by the watch's numbers
+    std::vector<int> renewals_;  // likewise; that the log has
+    mutable std::mutex mutex_;   // guards all below
     std::condition_variable changed_;
     std::map<std::size_t, FramePtr> waiting_;  // by the watch's numbers
     std::map<std::size_t, Pose> corrected_;    // likewise

@@ -220,11 +220,11 @@ std::vector<BoardSession::Pair> BoardSession::pairs(const RigSolution& solution)
     return pairs;
 }
 
-bool BoardSession::is_complete(int least) const {
+bool BoardSession::is_complete(const RigSolution& solution, int least) const {
     for (std::size_t c = 0; c < cameras_.size(); ++c)
         if (views(c) < least)
             return false;
-    return solve().separate.empty();
+    return solution.separate.empty();
 }
 
 double BoardSession::mean_unit_mm(std::size_t camera) const {
@@ -258,8 +258,8 @@ std::string BoardSession::problem(const RigSolution& solution) const {
     const double usual = smaller[smaller.size() / 2];
     if (std::abs(usual) > believable_scale)
         return "The board is " + percent(usual) + (usual > 0 ? " smaller" : " larger") +
-               " than was said. Measure it, and give its size with --board, or cut it at true "
-               "scale.";
+               " than was said. Measure it, and give its size with --board WIDTHxHEIGHT:BAR in "
+               "centimetres, or cut it at true scale.";
     if (!solution.converged)
         return "The views of the board fit no arrangement of the cameras. Begin again, and keep "
                "the "

@@ -57,11 +57,12 @@ public:
     // over its picture, and all cameras are joined; empty once is_complete().
     std::string next_step(const RigSolution& solution, int views) const;
     // True if all cameras are joined by shared places, and each has at least this many views.
-    bool is_complete(int views) const;
+    bool is_complete(const RigSolution& solution, int views) const;
     // The mean of the last still frames; empty before there was one.
     const DepthImage& last_mean(std::size_t camera) const { return cameras_[camera].mean; }
     double mean_unit_mm(std::size_t camera) const;
 
+    // Takes long with many views: once after each.
     RigSolution solve() const;
 
     // A sentence with the problem of `solution` and its remedy; empty if the solution may be used.

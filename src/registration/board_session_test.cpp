@@ -55,8 +55,8 @@ TEST_F(Carrying, AStillBoardIsOnePlaceAndRegistersTheCameras) {
     EXPECT_EQ(session_.views(0), 1);
     EXPECT_EQ(session_.views(1), 1);
     EXPECT_EQ(session_.sight(0), BoardSession::Sight::taken);
-    EXPECT_TRUE(session_.is_complete(1));
-    EXPECT_FALSE(session_.is_complete(2));
+    EXPECT_TRUE(session_.is_complete(session_.solve(), 1));
+    EXPECT_FALSE(session_.is_complete(session_.solve(), 2));
     const RigSolution solution = session_.solve();
     EXPECT_EQ(session_.problem(solution), "");
     const Pose truth = inverse(cameras_[0]) * cameras_[1];
@@ -88,7 +88,7 @@ TEST_F(Carrying, TheNextStepLeadsToPartsOfThePictureWithoutAView) {
 TEST_F(Carrying, ABlindCameraIsNamed) {
     hold(target_, board_, 42, 1);
     EXPECT_THAT(session_.next_step(session_.solve(), 1), HasSubstr("'right' and 'left'"));
-    EXPECT_FALSE(session_.is_complete(1));
+    EXPECT_FALSE(session_.is_complete(session_.solve(), 1));
     EXPECT_THAT(session_.problem(session_.solve()), HasSubstr("'right' never saw the board"));
 }
 

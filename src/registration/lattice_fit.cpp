@@ -38,6 +38,9 @@ constexpr double share_sigma = 0.16;
 constexpr double pixels_per_measurement = 8, edge_pixels_per_measurement = 4;
 // Errors of the edges that more pixels do not lower: the model of coverage is not exact.
 constexpr double unmodelled_pixels = 0.02;
+// The same where no computed image matches, as of a sensor that is none of time of flight: its
+// edges may all lie further out, or further in, than was expected.
+constexpr double unmatched_pixels = 0.15;
 
 constexpr int measuring_steps = 16;
 constexpr double measured_growth_m = 0.0003;  // as prior_growth_m, for a computed image
@@ -101,8 +104,10 @@ public:
             const LatticeFit found = result_;
             if (measure_edges())
                 fill_measured_covariance();
-            else
+            else {
                 result_ = found;
+                doubt_edges();
+            }
         }
         return result_;
     }
@@ -446,14 +451,32 @@ private:
         const Vector6 to_edges = (inverse_information * edge_pull_).head<6>();
         result_.camera_from_face_by_edges =
             stepped(result_.camera_from_face, to_edges - last_step_);
-        // An error of all edges on one side, over the arm that a tilt of the whole has.
+        add_edge_errors(unmodelled_pixels);
+        combine_covariances();
+    }
+
+    // An error of all edges on one side, over the arm that a tilt of the whole has.
+    void add_edge_errors(double pixels) {
         const double error_m =
-            unmodelled_pixels * pixel_pitch() * length(result_.camera_from_face.translation);
+            pixels * pixel_pitch() * length(result_.camera_from_face.translation);
         const double turn = error_m / (target_.height_m / 2);
         for (int i = 0; i < 3; ++i) {
             result_.edge_covariance(i, i) += turn * turn;
             result_.edge_covariance(i + 3, i + 3) += error_m * error_m;
         }
+    }
+
+    // A board whose edges all lie further out looks larger, which is nearer.
+    void doubt_edges() {
+        add_edge_errors(unmatched_pixels);
+        const Vec3 at = inverse(result_.camera_from_face_by_edges).translation;
+        const Eigen::Vector3d farther = Eigen::Vector3d(at.x, at.y, at.z) * unmatched_pixels *
+                                        pixel_pitch() * length(at) / (target_.height_m / 2);
+        result_.edge_covariance.bottomRightCorner<3, 3>() += farther * farther.transpose();
+        combine_covariances();
+    }
+
+    void combine_covariances() {
         const PlaneSays plane = plane_says(result_.plane, result_.plane_covariance,
                                            result_.camera_from_face, target_, trust_);
         result_.covariance = (result_.edge_covariance.inverse() + plane.information).inverse();

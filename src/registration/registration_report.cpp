@@ -145,10 +145,11 @@ std::string histogram(const RegistrationReport::Pair& pair) {
     return svg + "</svg>";
 }
 
-// A fixed error of depth in words: found, or too small to be told from none.
+// A fixed error of depth in words: found, too small to be told from none, or known from before.
 std::string error_cell(double value, double sigma, const char* unit) {
     if (sigma <= 0)
-        return "<td>not looked for</td>";
+        return value == 0 ? "<td>not looked for</td>"
+                          : text("<td>%+.1f %s, as before</td>", value, unit);
     const bool found = std::abs(value) > 2 * sigma;
     return text("<td%s>%+.1f &#177; %.1f %s</td>", found ? " class=found" : "", value, sigma, unit);
 }
@@ -160,8 +161,9 @@ std::string camera_table(const RegistrationReport& report) {
     for (const RegistrationReport::Camera& c : report.cameras) {
         const Vec3 at = c.room_from_camera.translation;
         html += "<tr><td>" + escaped(c.name) + text("<td>%d<td>%d/9", c.views, c.ninths);
-        html += c.sigma_mm > 0 ? text("<td>%.1f mm, %.2f&deg;", c.sigma_mm, c.sigma_deg)
-                               : std::string("<td>the reference");
+        html += c.is_reference ? std::string("<td>the reference")
+                : c.sigma      ? text("<td>%.1f mm, %.2f&deg;", c.sigma->mm, c.sigma->deg)
+                               : std::string("<td>not estimated");
         html += text("<td>%.3f, %.3f, %.3f m", at.x, at.y, at.z);
         if (c.earlier) {
             const Pose change = inverse(*c.earlier) * c.room_from_camera;

@@ -16,8 +16,12 @@ struct RegistrationReport {
         std::string name;
         Pose room_from_camera;
         std::optional<Pose> earlier;  // its place before
-        double sigma_mm = 0, sigma_deg = 0;
-        DepthBias bias, bias_sigma;  // zero deviations: were not looked for
+        bool is_reference = false;    // places are relative to it
+        struct Sigma {
+            double mm = 0, deg = 0;
+        };
+        std::optional<Sigma> sigma;  // of the place; empty: not estimated, or the reference
+        DepthBias bias, bias_sigma;  // zero deviations: not looked for now, but kept from before
         int views = 0, ninths = 0;
     };
     // A place where two cameras see one surface, in the room.

@@ -19,7 +19,10 @@ RegistrationReport two_cameras() {
     left.bias.offset_m = 0.0031;
     left.bias.per_m = 0.0002;
     left.bias_sigma = {0.0007, 0.001, 0.001, 0.0009};
+    left.is_reference = true;
     RegistrationReport::Camera right = left;
+    right.is_reference = false;
+    right.sigma = {1.4, 0.03};
     right.name = "<script>\"&right";
     right.earlier = Pose{{}, {0, 0.012, 0}};
     report.cameras = {left, right};
@@ -47,6 +50,26 @@ TEST(Report, IsOneFileThatNamesCannotBreakAndThatRefersToNothingOutside) {
     EXPECT_THAT(html, HasSubstr("&lt;script&gt;&quot;&amp;right"));
     for (const char* outside : {"<script>", "http", "src=", "url(", "<link"})
         EXPECT_THAT(html, Not(HasSubstr(outside)));
+}
+
+TEST(Report, ThereIsOneReferenceAndNoUncertaintyThatNobodyEstimated) {
+    RegistrationReport report = two_cameras();
+    std::string html = to_html(report);
+    EXPECT_EQ(html.find("the reference"), html.rfind("the reference"));
+    EXPECT_THAT(html, HasSubstr("1.4 mm, 0.03&deg;"));
+
+    // As after a refinement on surfaces.
+    for (RegistrationReport::Camera& camera : report.cameras) {
+        camera.is_reference = false;
+        camera.sigma.reset();
+        camera.bias = {0.0025, 0, 0, 0};
+        camera.bias_sigma = {};
+    }
+    html = to_html(report);
+    EXPECT_THAT(html, Not(HasSubstr("the reference")));
+    EXPECT_THAT(html, HasSubstr("not estimated"));
+    EXPECT_THAT(html, HasSubstr("+2.5 mm, as before"));
+    EXPECT_THAT(html, HasSubstr("not looked for"));
 }
 
 TEST(Report, CamerasWithoutACommonSurfaceAreSaidToBe) {

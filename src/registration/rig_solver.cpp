@@ -9,6 +9,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <optional>
 
 namespace theatron::registration {
@@ -239,44 +240,10 @@ public:
                                   solution.cameras[std::size_t(view.camera)].reference_from_camera *
                                       view.detection.camera_from_board,
                                   solution.reference_from_board[std::size_t(view.place)]));
-        add_covariances(solution);
         return solution;
     }
 
-private:
-    void add_parameters() {
-        using PoseManifold =
-            ceres::ProductManifold<ceres::QuaternionManifold, ceres::EuclideanManifold<3>>;
-        for (auto* blocks : {&cameras_, &boards_})
-            for (Block& block : *blocks)
-                problem_.AddParameterBlock(block.data(), 7, new PoseManifold);
-        problem_.SetParameterBlockConstant(cameras_[0].data());
-    }
-
-    void add_views(const RigOptions& options) {
-        const Bias sigma{options.offset_m, options.slope_m, options.slope_m, options.per_m};
-        for (Bias& bias : biases_) {
-            for (const double one : sigma)
-                log_roots_ -= std::log(one);
-            problem_.AddResidualBlock(
-                new ceres::AutoDiffCostFunction<BiasPrior, 4, 4>(new BiasPrior{sigma}), nullptr,
-                bias.data());
-        }
-        for (const BoardView& view : views_) {
-            auto* const depth = new DepthError(depth_error(view, target_, options));
-            log_roots_ += depth->root_information.diagonal().array().log().sum();
-            double* const camera = cameras_[std::size_t(view.camera)].data();
-            double* const board = boards_[std::size_t(view.place)].data();
-            problem_.AddResidualBlock(new ceres::AutoDiffCostFunction<EdgeError, 6, 7, 7>(
-                                          new EdgeError(edge_error(view, target_))),
-                                      new ceres::HuberLoss(options.outlier_sigmas), camera, board);
-            problem_.AddResidualBlock(
-                new ceres::AutoDiffCostFunction<DepthError, 3, 7, 7, 4>(depth),
-                new ceres::HuberLoss(options.outlier_sigmas), camera, board,
-                biases_[std::size_t(view.camera)].data());
-        }
-    }
-
+    // Adds them to the solution that solve() gave.
     void add_covariances(RigSolution& solution) {
         std::vector<std::pair<const double*, const double*>> wanted;
         for (std::size_t c = 0; c < cameras_.size(); ++c) {
@@ -311,6 +278,40 @@ private:
             change.topLeftCorner<3, 3>() = 2 * camera_from_reference;
             change.bottomRightCorner<3, 3>() = camera_from_reference;
             solution.cameras[c].covariance = change * block * change.transpose();
+        }
+    }
+
+private:
+    void add_parameters() {
+        using PoseManifold =
+            ceres::ProductManifold<ceres::QuaternionManifold, ceres::EuclideanManifold<3>>;
+        for (auto* blocks : {&cameras_, &boards_})
+            for (Block& block : *blocks)
+                problem_.AddParameterBlock(block.data(), 7, new PoseManifold);
+        problem_.SetParameterBlockConstant(cameras_[0].data());
+    }
+
+    void add_views(const RigOptions& options) {
+        const Bias sigma{options.offset_m, options.slope_m, options.slope_m, options.per_m};
+        for (Bias& bias : biases_) {
+            for (const double one : sigma)
+                log_roots_ -= std::log(one);
+            problem_.AddResidualBlock(
+                new ceres::AutoDiffCostFunction<BiasPrior, 4, 4>(new BiasPrior{sigma}), nullptr,
+                bias.data());
+        }
+        for (const BoardView& view : views_) {
+            auto* const depth = new DepthError(depth_error(view, target_, options));
+            log_roots_ += depth->root_information.diagonal().array().log().sum();
+            double* const camera = cameras_[std::size_t(view.camera)].data();
+            double* const board = boards_[std::size_t(view.place)].data();
+            problem_.AddResidualBlock(new ceres::AutoDiffCostFunction<EdgeError, 6, 7, 7>(
+                                          new EdgeError(edge_error(view, target_))),
+                                      new ceres::HuberLoss(options.outlier_sigmas), camera, board);
+            problem_.AddResidualBlock(
+                new ceres::AutoDiffCostFunction<DepthError, 3, 7, 7, 4>(depth),
+                new ceres::HuberLoss(options.outlier_sigmas), camera, board,
+                biases_[std::size_t(view.camera)].data());
         }
     }
 
@@ -350,6 +351,7 @@ RigSolution solve_rig(int cameras, int places, const std::vector<BoardView>& vie
     // How large the errors of depth are is taken from how well depth and edges of all views agree
     // (type II maximum likelihood): a camera without fixed errors is not treated as if it had some.
     double best = -std::numeric_limits<double>::infinity();
+    std::unique_ptr<Rig> chosen;
     for (const double fixed : error_scales)
         for (const double of_view : error_scales) {
             RigOptions scaled = options;
@@ -358,14 +360,18 @@ RigSolution solve_rig(int cameras, int places, const std::vector<BoardView>& vie
             scaled.per_m *= fixed;
             scaled.view_common_m *= of_view;
             scaled.view_slow_m *= of_view;
-            Rig rig(start, views, target, scaled);
-            RigSolution found = rig.solve();
-            const double evidence = rig.log_evidence();
+            auto rig = std::make_unique<Rig>(start, views, target, scaled);
+            RigSolution found = rig->solve();
+            const double evidence = rig->log_evidence();
             if (evidence > best) {
                 best = evidence;
                 solution = std::move(found);
+                chosen = std::move(rig);
             }
         }
+    // It takes longer than all else, so the other sizes go without.
+    if (chosen)
+        chosen->add_covariances(solution);
     return solution;
 }
 

@@ -116,6 +116,20 @@ TEST(RigSolver, FindsNoErrorOfDepthWhereTheEdgesAreUncertain) {
     EXPECT_LT(solution.cameras[0].bias_sigma.offset_m, 0.0005);
 }
 
+// The mean distance between where points of the working volume are and where `found` has them; the
+// same as in `theatron bench registration`.
+double mean_error_m(const Pose& found, const Pose& truth, const Pose& room_from_camera) {
+    const Pose camera_from_room = inverse(room_from_camera);
+    double sum = 0;
+    int n = 0;
+    for (int x = -7; x <= 7; ++x)
+        for (int z = -7; z <= 7; ++z)
+            for (int y = 8; y <= 18; ++y, ++n)
+                sum += apart_m(found, truth,
+                               camera_from_room * (Vec3{double(x), double(y), double(z)} * 0.1));
+    return sum / n;
+}
+
 // Two cameras a quarter circle apart see the board at two metres through the modelled sensor.
 TEST(RigSolver, TwoModelledCamerasAgreeOnTheWorkingVolume) {
     const CameraModel camera = azure_camera();
@@ -129,12 +143,12 @@ TEST(RigSolver, TwoModelledCamerasAgreeOnTheWorkingVolume) {
         BoardScene scene(camera.size, 4);
         scene.add(target, inverse(cameras[std::size_t(c)]) * board, rays);
         FrameMean mean(camera.size);
-        for (std::uint32_t frame = 0; frame < 5; ++frame) {
+        for (std::uint32_t frame = 0; frame < 10; ++frame) {
             const DepthImage depth = scene.seen_by(sensor, frame);
             mean.add(depth.view());
         }
         const DepthImage depth = mean.mean();
-        const auto detection = detector.detect(depth.view());
+        const auto detection = detector.detect(depth.view(), FitEffort::measure);
         ASSERT_TRUE(detection) << "camera " << c;
         views.push_back({c, 0, *detection});
     }
@@ -142,7 +156,8 @@ TEST(RigSolver, TwoModelledCamerasAgreeOnTheWorkingVolume) {
     ASSERT_TRUE(solution.converged);
     const CameraPlace& found = solution.cameras[1];
     const Pose truth = inverse(cameras[0]) * cameras[1];
-    EXPECT_LT(apart_m(found.reference_from_camera, truth, {0, 0, 2}), 0.004);
+    // One pose and noise alone: the mean over 20 seeds of 30 frames is below 0.5 mm.
+    EXPECT_LT(mean_error_m(found.reference_from_camera, truth, cameras[1]), 0.001);
     // The stated uncertainty is that of the error.
     const Vec3 shift = rotate(conjugate(truth.rotation),
                               found.reference_from_camera.translation - truth.translation);

@@ -17,7 +17,8 @@
 // something covers the camera. The reference stays as it is in both cases, so that a camera that is
 // put back, or uncovered, is seen to be in its place.
 //
-// Pure and without threads. About 2 ms of work for each image.
+// Pure and without threads. 1 to 3 ms of work for each image of 640 x 576 pixels; the test
+// Watching.NoAlarm* prints how much.
 #pragma once
 
 #include <deque>

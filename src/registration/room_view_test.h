@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <map>
 
 #include "registration/board_scene.h"
@@ -13,10 +12,9 @@
 
 namespace theatron::registration {
 
-// MINUTES is set for a long test, which has time for a longer loop.
+// The room of most tests, with a short loop.
 inline const synthetic::OperatingRoom& room_with_team() {
-    static const synthetic::OperatingRoom room(
-        {.seed = 3, .loop = std::getenv("MINUTES") ? Duration(60s) : Duration(4s), .detail = 0.3});
+    static const synthetic::OperatingRoom room({.seed = 3, .loop = 4s, .detail = 0.3});
     return room;
 }
 
@@ -48,25 +46,34 @@ public:
     void place_at(const Pose& moved) {
         Calibration there = calibration;
         there.room_from_camera = calibration.room_from_camera * moved;
-        view_ = room_with_team().look_from(there, {.depth = true, .surface = true, .color = false});
+        view_ = room_->look_from(there, {.depth = true, .surface = true, .color = false});
         scenes_.clear();
     }
 
-    // Moments of the loop are drawn once; noise is new each time.
+    // From its place it sees this room from now on, which must outlive it.
+    void enter(const synthetic::OperatingRoom& room) {
+        room_ = &room;
+        place_at({});
+    }
+
+    // Moments of a short loop are drawn once; noise is new each time.
     DepthImage image(Duration time) {
-        const Duration in_loop = time % room_with_team().loop_duration();
+        constexpr std::size_t most_kept = 20;
+        const Duration in_loop = time % room_->loop_duration();
         auto found = scenes_.find(in_loop);
-        if (found == scenes_.end())
+        if (found == scenes_.end()) {
+            if (scenes_.size() == most_kept)
+                scenes_.clear();
             found =
-                scenes_
-                    .emplace(in_loop, scene_of(view_->render(*room_with_team().at(in_loop)), rays_))
-                    .first;
+                scenes_.emplace(in_loop, scene_of(view_->render(*room_->at(in_loop)), rays_)).first;
+        }
         return found->second.seen_by(sensor_, frame_++);
     }
 
     const Calibration calibration;
 
 private:
+    const synthetic::OperatingRoom* room_ = &room_with_team();
     Image<Ray> rays_;
     synthetic::DepthSensor sensor_;
     std::unique_ptr<synthetic::RoomView> view_;

@@ -8,6 +8,7 @@ import struct
 import tempfile
 import unittest
 
+from screens_test import write_video
 from theatron_process import Process, host, run, write_png
 
 WIDTH, HEIGHT, FOCAL = 320, 288, 252.0
@@ -145,6 +146,32 @@ class Register(unittest.TestCase):
         at = [camera["room_from_camera"]["translation"] for camera in places["cameras"]]
         self.assertAlmostEqual(math.dist(*at), math.dist(position(-30), position(30)), delta=0.01)
 
+    def test_screens_and_cameras_that_are_not_wanted_are_left_out_of_a_session(self):
+        video, file = self.folder / "v.y4m", self.folder / "chosen.json"
+        write_video(video, 60)
+        other = make_camera(self.folder / "other", 0, board=False)
+        cameras = [f"{camera},loop=1" for camera in (self.left, self.right, other)]
+        screen = f"video:{video},loop=1,place=0:1.8:-1.5"
+        with host(self.folder / "state", *cameras, screen, options=("--filter", "off")) as h:
+            link = h.greeting["link"]
+            with Process("publish", h.greeting["publish_link"], "--share", f"{video},loop=1", "--every", "1") as cart:
+                cart.read_json()
+                register = ("register", link, "--output", file, "--poses", "1", "--json")
+                code, out, errors = run(*register, "--only", "left", "--only", "right")
+                self.assertEqual(code, 0, errors)
+                self.assertEqual([c["camera"] for c in json.loads(file.read_text())["cameras"]], ["left", "right"])
+                self.assertNotIn("left out", errors)
+                code, _, errors = run(*register, "--seconds", "6")
+                self.assertIn("'v' is left out: it is a screen.", errors)
+                self.assertEqual(code, 1)
+                self.assertRegex(errors, "'other' never saw the board|No camera saw the board held still")
+                code, _, errors = run(*register, "--only", "left", "--only", "v")
+                self.assertEqual((code, "No camera to be registered is called 'v'" in errors), (1, True), errors)
+            code, _, errors = run("register", link, "--output", self.folder / "refined.json", "--refine", file)
+            self.assertIn("'other' is left out: the file of places does not have it.", errors)
+            self.assertNotIn("register it with the board", errors)
+            self.assertFalse([line for line in h.errors if "12 m apart" in line and "'v'" in line], h.errors)
+
     def test_a_session_of_one_camera_and_a_link_that_leads_nowhere_are_refused(self):
         file = self.folder / "kept.json"
         file.write_text("{as it was")
@@ -181,7 +208,16 @@ class Register(unittest.TestCase):
         self.refused(*small, says="--board")
         self.refused(self.left, self.left, says="Two cameras are called 'left'")
         self.refused(self.left, says="give at least two")
-        self.refused(self.left, self.right, options=("--board", "a3"), says="There is no board 'a3'")
+        for bad in ("a3", "80x60:", "80x60:20", "60x80:6", "nanx60:6", "80x60:6x"):
+            self.refused(self.left, self.right, options=("--board", bad), says=f"There is no board '{bad}'")
+        file = self.folder / "kept.json"
+        for refused in (("--touches", file), ("--holder", file), ("--poses", "7"), ("--thickness", "20"), ("--board", "a2")):
+            code, _, errors = run("register", "--camera", self.left, "--camera", self.right, "--output", file,
+                                  "--refine", file, *refused)
+            self.assertEqual((code != 0, "excludes" in errors), (True, True), errors)
+        code, _, errors = self.register(self.left, self.right, output=file, options=("--tip", "0:0:0.1"))
+        self.assertEqual((code != 0, "--touches" in errors), (True, True), errors)
+        self.refused(self.left, self.right, options=("--touches", file, "--tip", "0:0:0.1:5"), says="--tip 0:0:0.1:5 is not")
         file = self.folder / "kept.json"
         for bad in ("nan", "-1", "thick"):
             code, _, errors = self.register(self.left, self.right, output=file, options=("--thickness", bad))
@@ -203,8 +239,24 @@ class Register(unittest.TestCase):
         code, _, errors = self.register(self.left, self.right, output=foreign)
         self.assertEqual((code, "is not a file of places" in errors), (1, True), errors)
         self.assertEqual(foreign.read_text(), "Dear Ann")
-        self.refused(self.left, self.right, options=("--refine", self.folder / "kept.json"), says="The file of places")
+        code, _, errors = run("register", "--camera", self.left, "--camera", self.right, "--output", file, "--refine", file)
+        self.assertEqual((code, "The file of places" in errors), (1, True), errors)
         self.assertEqual(file.read_text(), "{as it was")
+
+    def test_a_board_of_another_size_is_taken_with_its_size(self):
+        small = [make_camera(self.folder / f"true{i}", degrees, size=0.8) for i, degrees in ((0, -30), (1, 30))]
+        file = self.folder / "true.json"
+        code, out, errors = self.register(*small, output=file, options=("--board", "64x48:4.8"))
+        self.assertEqual(code, 0, errors)
+        at = [camera["room_from_camera"]["translation"] for camera in json.loads(file.read_text())["cameras"]]
+        self.assertAlmostEqual(math.dist(*at), math.dist(position(-30), position(30)), delta=0.01)
+        # Without --json, to a pipe: nothing that only a terminal understands.
+        code, out, errors = run("register", "--camera", small[0], "--camera", small[1], "--output", file, "--poses", "1",
+                                "--board", "64x48:4.8")
+        self.assertEqual(code, 0, errors)
+        self.assertNotIn("\033", out)
+        self.assertNotIn("\r", out)
+        self.assertIn("the reference;", out)
 
     def test_a_controllers_tip_at_the_boards_corners_gives_the_rooms_frame_and_a_report_is_drawn(self):
         # The board's middle is at 1.2 m in make_camera's room, turned by 9 degrees in itself.
@@ -243,15 +295,26 @@ class Register(unittest.TestCase):
         old, new = self.folder / "old.json", self.folder / "new.json"
         moved = (0.012, -0.006, 0.008)
         # Rotations of cameras that are level: about x by 180 degrees, then about y.
-        entries = [{"camera": name, "depth_offset_mm": 0, "room_from_camera": {
+        entries = [{"camera": name, "depth_offset_mm": 0.4, "room_from_camera": {
             "quaternion": [0, math.cos(math.radians(degrees) / 2), 0, -math.sin(math.radians(degrees) / 2)],
             "translation": [p + m for p, m in zip(position(degrees, 2.2), shift)]}}
             for name, degrees, shift in (("west", -30, (0, 0, 0)), ("east", 30, moved))]
         old.write_text(json.dumps({"theatron_places": 1, "made": "", "method": "by hand", "cameras": entries}))
-        code, out, errors = self.register(*cameras, output=new, options=("--refine", old))
+        report = self.folder / "refined.html"
+        code, out, errors = run("register", "--camera", cameras[0], "--camera", cameras[1], "--output", new, "--json",
+                                "--refine", old, "--report", report)
         self.assertEqual(code, 0, errors)
         saved = json.loads(new.read_text())
         self.assertIn("surfaces; before: by hand", saved["method"])
+        # Nobody estimated how well the places are known; the offset is kept, and said.
+        told = json.loads(out.splitlines()[-1])["cameras"]
+        for camera, kept in zip(told, saved["cameras"]):
+            self.assertFalse(camera["reference"])
+            self.assertNotIn("sigma_mm", camera)
+            self.assertEqual(camera["depth_offset_mm"], kept["depth_offset_mm"])
+        html = report.read_text()
+        self.assertNotIn("the reference", html)
+        self.assertIn("+0.4 mm, as before", html)
         # Places that the second camera sees, by its new pose relative to the first camera's.
         poses = [camera["room_from_camera"] for camera in saved["cameras"]]
         true = [entry["room_from_camera"] for entry in entries]
