@@ -20,20 +20,19 @@ std::string first_sentence(const std::string& text) {
     return text.substr(0, std::min(text.find(". "), text.size()));
 }
 
-// "2 live", or "1 live, 1 stale".
+// "2 live", "1 live, 1 stale", or "2 recording".
 xr::Fact cameras_fact(const std::vector<client::CameraFigures>& cameras) {
-    using Condition = wire::CameraCondition;
     std::string text;
     bool trouble = false;
-    for (const Condition condition :
-         {Condition::live, Condition::stale, Condition::ended, Condition::failed}) {
+    for (const std::string_view state :
+         {"live", "recording", "paused", "stale", "ended", "failed"}) {
         const auto count = std::count_if(cameras.begin(), cameras.end(), [&](const auto& camera) {
-            return camera.camera.state.condition == condition;
+            return client::state_text(camera) == state;
         });
         if (count == 0)
             continue;
-        text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + wire::text_of(condition);
-        trouble = trouble || condition != Condition::live;
+        text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + std::string(state);
+        trouble = trouble || state != "live";
     }
     const auto direct = std::count_if(cameras.begin(), cameras.end(),
                                       [](const auto& camera) { return camera.direct; });
@@ -44,10 +43,12 @@ xr::Fact cameras_fact(const std::vector<client::CameraFigures>& cameras) {
 
 // A live camera with a problem that its picture does not show: it was moved, or plays damage.
 void add_problems(const std::vector<client::CameraFigures>& cameras, std::vector<xr::Fact>& line) {
-    for (const auto& [camera, depth, color, direct] : cameras)
-        if (camera.state.condition == wire::CameraCondition::live && !camera.state.problem.empty())
-            line.push_back({"Camera " + camera.description.name,
-                            first_sentence(wire::english(camera.state.problem)), true});
+    for (const client::CameraFigures& one : cameras) {
+        const wire::CameraState& state = one.camera.state;
+        if (state.condition == wire::CameraCondition::live && !state.problem.empty())
+            line.push_back({"Camera " + one.camera.description.name,
+                            first_sentence(wire::english(state.problem)), true});
+    }
 }
 
 // The one text that all cameras have, "several" if they differ, "none" if there is none.
@@ -142,6 +143,8 @@ std::vector<xr::Fact> line_of(const Facts& facts, const std::string& address,
             line.push_back({"Webcam", "you are seen", true});
         if (facts.own_face == OwnFace::opening)
             line.push_back({"Webcam", "is being opened"});
+        if (!facts.played.empty() && facts.past.empty())
+            line.push_back({"Not live", facts.played, true});
         // No camera's present state beside pictures of the past.
         line.push_back(facts.past.empty() ? cameras_fact(cameras)
                                           : xr::Fact{"Cameras", facts.past, true});

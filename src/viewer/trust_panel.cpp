@@ -14,6 +14,10 @@ bool is_live(const client::CameraFigures& camera) {
     return camera.camera.state.condition == wire::CameraCondition::live && !camera.depth.past;
 }
 
+bool is_played(const client::CameraFigures& camera) {
+    return camera.played != client::CameraFigures::Played::no && is_live(camera);
+}
+
 // The older one of depth and colour counts.
 double age_ms(const client::CameraFigures& camera) {
     return std::max(camera.depth.age_now_ms, camera.color.frames > 0 ? camera.color.age_now_ms : 0);
@@ -52,7 +56,8 @@ xr::Panel trust_panel(const client::ParticipantFigures& figures,
         if (camera.depth.frames == 0) {
             row.text += ": no picture yet";
         } else {
-            row.text += ": " + seen_age(age_ms(camera), is_live(camera));
+            row.text += is_played(camera) ? std::string(": NOT LIVE, ") + client::state_text(camera)
+                                          : ": " + seen_age(age_ms(camera), is_live(camera));
             row.detail = rates(camera) + "\n" + "depth " + camera.depth.codec + ", " +
                          exactness_text(camera) + "; filters: " + filter_name(state.filter);
             if (!camera.color.codec.empty())

@@ -51,9 +51,10 @@ const tables = {
         full_screen: "Full screen", help: "Help", leave: "Leave", close: "Close", cameras: "Cameras",
         camera_line: "{fps} pictures a second, {age} old",
         no_picture: "no picture yet",
+        not_shown: "not shown here, and not sent",
         no_connection: "no connection",
         you: "you",
-        states: { live: "live", stale: "stale", ended: "ended", failed: "failed" },
+        states: { live: "live", recording: "not live: a recording", paused: "not live: a paused recording", stale: "stale", ended: "ended", failed: "failed" },
         keys: [
             ["Left mouse button, one finger", "Turn around what is under the pointer; on an object: hold it"],
             ["Right mouse button, two fingers", "Move sideways, up and down"],
@@ -125,9 +126,10 @@ const tables = {
         full_screen: "Vollbild", help: "Hilfe", leave: "Verlassen", close: "Schließen", cameras: "Kameras",
         camera_line: "{fps} Bilder pro Sekunde, {age} alt",
         no_picture: "noch kein Bild",
+        not_shown: "hier nicht gezeigt, und nicht gesendet",
         no_connection: "keine Verbindung",
         you: "Sie",
-        states: { live: "läuft", stale: "steht", ended: "beendet", failed: "ausgefallen" },
+        states: { live: "läuft", recording: "nicht live: eine Aufzeichnung", paused: "nicht live: eine angehaltene Aufzeichnung", stale: "steht", ended: "beendet", failed: "ausgefallen" },
         keys: [
             ["Linke Maustaste, ein Finger", "Um das drehen, was unter dem Zeiger ist; auf einem Objekt: es halten"],
             ["Rechte Maustaste, zwei Finger", "Seitwärts, auf- und abwärts bewegen"],
