@@ -8,7 +8,6 @@
 #include "base/utc.h"
 #include "viewer/age_text.h"
 #include "viewer/playing.h"
-#include "wire/condition_text.h"
 
 namespace theatron::app {
 namespace {
@@ -59,11 +58,11 @@ nlohmann::json position_json(const Calibration& calibration) {
 }
 
 nlohmann::json camera_json(const client::CameraFigures& figures, wire::Role reader) {
-    const auto& [camera, depth, color, direct] = figures;
+    const auto& [camera, depth, color, direct, played] = figures;
     return {{"id", int(camera.description.id)},
             {"publisher", int(camera.description.publisher)},
             {"name", camera.description.name},
-            {"state", wire::text_of(camera.state.condition)},
+            {"state", client::state_text(figures)},
             {"problem", client::problem_text(camera.state, reader)},
             {"filter", camera.state.filter},
             {"adjusted", client::adjustment_text(camera.description)},

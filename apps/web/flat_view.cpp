@@ -6,6 +6,8 @@
 
 #include "base/error.h"
 #include "page_state.h"
+#include "viewer/playing.h"
+#include "wire/no_codec.h"
 
 namespace theatron::web {
 namespace {
@@ -14,46 +16,73 @@ constexpr Duration notice_time = std::chrono::seconds(6);
 
 }  // namespace
 
+client::Participant::Options FlatView::options(client::Participant::Options join) {
+    // Nothing until a camera is known: then ask() does.
+    join.depth_codec = join.color_codec = wire::no_codec;
+    join.takes_color_alone = true;
+    join.delivery.max_kbit_per_s = most_kbit_per_s;
+    join.keeps_cases = false;  // nothing of them is drawn
+    return join;
+}
+
 void FlatView::next_camera() {
-    auto next = camera_ ? newest_.upper_bound(*camera_) : newest_.begin();
-    if (next == newest_.end())
-        next = newest_.begin();
-    if (next == newest_.end())
+    auto next = camera_ ? names_.upper_bound(*camera_) : names_.begin();
+    if (next == names_.end())
+        next = names_.begin();
+    camera_ = next == names_.end() ? std::nullopt : std::optional(next->first);
+    ask();
+}
+
+void FlatView::follow_cameras() {
+    std::uint64_t generation = 0;
+    names_.clear();
+    for (const auto& camera : participant_.cameras(generation))
+        if (camera.description.has_color)
+            names_[camera.description.id] = camera.description.name;
+    if (!camera_ || !names_.contains(*camera_)) {
+        camera_.reset();
+        next_camera();
+    }
+    if (!camera_)
+        shown_.reset();
+    ask();
+}
+
+// Each connection knows only the wish for all cameras, which is nothing.
+void FlatView::ask() {
+    const client::Participant::Status status = participant_.status();
+    if (!camera_ || status.phase != client::Participant::Phase::joined)
         return;
-    changed_ = changed_ || camera_ != next->first;
-    camera_ = next->first;
+    Asked wanted{status.joins, *camera_, color_};
+    if (asked_ == wanted)
+        return;
+    const std::string nothing(wire::no_codec);
+    participant_.choose_codecs(nothing, nothing);
+    participant_.choose_codecs(*camera_, "", color_);
+    asked_ = std::move(wanted);
 }
 
 bool FlatView::take(TimePoint now) {
     if (const auto status = participant_.status();
         status.phase == client::Participant::Phase::refused && status.joins == 0)
         throw Error(status.problem);
-    std::uint64_t generation = 0;
-    const auto cameras = participant_.cameras(generation);
-    std::erase_if(newest_, [&](const auto& known) {
-        return std::none_of(cameras.begin(), cameras.end(), [&](const auto& camera) {
-            return camera.description.id == known.first;
-        });
-    });
+    follow_cameras();
+    bool is_new = false;
     for (const receive::CameraFramePtr& frame : participant_.take_frames()) {
-        Picture& picture = newest_[frame->camera];
-        if (frame->color == picture.color)
+        if (frame->camera != camera_ || !frame->color)
             continue;
-        if (frame->color && camera_ == frame->camera)
-            changed_ = true;
-        picture = {frame->color, frame->times.captured};
+        show(*frame->color);
+        shown_ = {names_[frame->camera], frame->times.captured};
+        is_new = true;
     }
-    std::erase_if(newest_, [](const auto& known) { return !known.second.color; });
-    if (!camera_ || !newest_.contains(*camera_)) {
-        camera_.reset();
-        next_camera();
-    }
-    if (!camera_ || !std::exchange(changed_, false))
+    if (!is_new)
         return false;
+    ++pictures_;
+    drawn_.add(now);
+    return true;
+}
 
-    const Picture& picture = newest_[*camera_];
-    shown_captured_ = picture.captured;
-    const ColorImage& color = *picture.color;
+void FlatView::show(const ColorImage& color) {
     const int step = (color.size.width + most_flat_width - 1) / most_flat_width;
     size_ = {color.size.width / step, color.size.height / step};
     pixels_.resize(4 * size_.area());
@@ -67,17 +96,6 @@ bool FlatView::take(TimePoint now) {
             *to++ = std::byte(255);
         }
     }
-    ++pictures_;
-    drawn_.add(now);
-    return true;
-}
-
-std::string FlatView::camera_name() const {
-    std::uint64_t generation = 0;
-    for (const auto& camera : participant_.cameras(generation))
-        if (camera_ == camera.description.id)
-            return camera.description.name;
-    return "";
 }
 
 void FlatView::note(const std::string& text, TimePoint now) {
@@ -88,9 +106,14 @@ void FlatView::note(const std::string& text, TimePoint now) {
 viewer::Facts FlatView::facts(TimePoint now) {
     viewer::Facts facts;
     facts.received = client::figures_of(participant_);
-    facts.has_picture = camera_.has_value();
-    if (facts.has_picture && shown_captured_ && facts.received.status.clock_known)
-        facts.age_ms = std::max(to_ms(participant_.session_time(now) - *shown_captured_), 0.0);
+    // That little comes is this view's own wish.
+    facts.received.status.delivery = {};
+    facts.has_picture = shown_.has_value();
+    const TimePoint session_time = participant_.session_time(now);
+    if (shown_ && facts.received.status.clock_known)
+        facts.age_ms = std::max(to_ms(session_time - shown_->captured), 0.0);
+    if (const auto playback = participant_.playback())
+        facts.played = viewer::playback_text(*playback, session_time);
     facts.drawn_per_second = drawn_.per_second(now);
     facts.most_drawn_per_second = pictures_per_second;
     facts.way.renderer = "flat";
@@ -102,7 +125,7 @@ viewer::Facts FlatView::facts(TimePoint now) {
 nlohmann::json FlatView::state(const viewer::Facts& facts, const std::string& address) const {
     nlohmann::json state = state_of(facts, participant_, address);
     state["pictures"] = pictures_;
-    state["flat_camera"] = camera_name();
+    state["flat_camera"] = shown_ ? shown_->camera : "";
     return state;
 }
 

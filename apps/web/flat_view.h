@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The 2D view: one camera's colour as it is, for a computer that cannot draw the room. It needs no
-// GL. People are heard and seen in the panels; one's own place in the room is told to nobody.
+// The 2D view: one camera's colour as it is, for a computer that cannot draw the room. Nothing else
+// of the cameras comes: no depth, and no other camera. It needs no GL. People are heard and seen in
+// the panels; one's own place in the room is told to nobody.
 #pragma once
 
 #include <map>
@@ -21,11 +22,20 @@ public:
     static constexpr int most_flat_width = 640;
     // As often as page/graphics.js asks for a picture.
     static constexpr double pictures_per_second = 5;
+    // The host sends fewer frames, and then coarser ones, until they fit: five pictures a second of
+    // 50 kB.
+    static constexpr std::uint32_t most_kbit_per_s = 2000;
 
-    // `participant` must outlive the view.
-    explicit FlatView(client::Participant& participant) : participant_(participant) {}
+    // How the participant joins.
+    static client::Participant::Options options(client::Participant::Options join);
 
-    // The camera after the present one; the first one with colour after the last.
+    // `participant` must outlive the view. `color`: the codec to ask for.
+    FlatView(client::Participant& participant, std::string color)
+        : participant_(participant), color_(std::move(color)) {}
+
+    void set_color(const std::string& codec) { color_ = codec; }
+    // The camera after the present one; the first one with colour after the last. Its picture comes
+    // soon.
     void next_camera();
     // Takes over new frames. True if the camera's picture is another one: see pixels(). Throws
     // Error if the host refused this participant.
@@ -40,18 +50,28 @@ public:
     void note(const std::string& text, TimePoint now);
 
 private:
-    std::string camera_name() const;
+    void follow_cameras();
+    void ask();
+    void show(const ColorImage& color);
 
     client::Participant& participant_;
-    // Colour that came late is shown with the time of the depth image that brought it.
-    struct Picture {
-        std::shared_ptr<const ColorImage> color;
+    std::string color_;
+    std::map<CameraId, std::string> names_;  // of the cameras with colour
+    std::optional<CameraId> camera_;         // that is chosen
+    // The last wish to the host, and its connection.
+    struct Asked {
+        int join = 0;
+        CameraId camera{};
+        std::string color;
+        bool operator==(const Asked&) const = default;
+    };
+    std::optional<Asked> asked_;
+    // The picture; the camera that was chosen last may not have sent one yet.
+    struct Shown {
+        std::string camera;
         TimePoint captured;
     };
-    std::map<CameraId, Picture> newest_;
-    std::optional<TimePoint> shown_captured_;
-    std::optional<CameraId> camera_;
-    bool changed_ = false;
+    std::optional<Shown> shown_;
     Bytes pixels_;
     Size size_;
     std::uint64_t pictures_ = 0;

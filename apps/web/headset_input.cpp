@@ -101,4 +101,10 @@ std::optional<xr::HeadsetFrame> read_headset_frame(ByteView bytes) {
     return in.fit() ? std::optional(frame) : std::nullopt;
 }
 
+std::optional<Pose> read_headset_pose(ByteView bytes) {
+    Numbers in(bytes);
+    const Pose pose = in.pose();
+    return in.fit() ? std::optional(pose) : std::nullopt;
+}
+
 }  // namespace theatron::web

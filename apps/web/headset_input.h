@@ -19,5 +19,7 @@ namespace theatron::web {
 
 // Safe for any bytes: nothing if they are too few, too many, or not finite.
 std::optional<xr::HeadsetFrame> read_headset_frame(ByteView bytes);
+// The same for a single pose.
+std::optional<Pose> read_headset_pose(ByteView bytes);
 
 }  // namespace theatron::web

@@ -5,7 +5,6 @@
 #include "phrases/phrase.h"
 #include "session/permissions.h"
 #include "session/room_bytes.h"
-#include "wire/condition_text.h"
 
 namespace theatron::web {
 namespace {
@@ -43,18 +42,22 @@ json age_json(double age_ms) {
 }
 
 json camera_json(const client::CameraFigures& figures) {
-    const auto& [camera, depth, color, direct] = figures;
+    const auto& [camera, depth, color, direct, played] = figures;
+    const receive::StreamFigures* const seen = figures.seen();
     return {{"name", camera.description.name},
-            {"state", wire::text_of(camera.state.condition)},
+            {"state", client::state_text(figures)},
             {"depth", depth.codec},
             {"color", color.codec},
             {"depth_frames", depth.frames},
             {"color_frames", color.frames},
             {"dropped", figures.dropped()},
-            {"fps", depth.frames_per_second},
+            {"is_asked_for", seen != nullptr},
+            {"frames", seen ? seen->frames : 0},
+            {"fps", seen ? seen->frames_per_second : 0},
             {"mbit_per_second", figures.mbit_per_second()},
-            {"age_ms", age_json(depth.age_now_ms)},
+            {"age_ms", seen ? age_json(seen->age_now_ms) : json()},
             {"age_p50_ms", age_json(depth.age_p50_ms)},
+            {"age_p95_ms", age_json(depth.age_p95_ms)},
             {"age_p99_ms", age_json(depth.age_p99_ms)},
             {"color_fps", color.frames_per_second},
             {"color_age_p50_ms", age_json(color.age_p50_ms)},
@@ -142,7 +145,9 @@ json state_of(const viewer::Facts& facts, const client::Participant& participant
             // Null where the host does not ask.
             {"voice_may_record", asks_consent ? json(participant.voice_may_record()) : json()},
             {"is_recorded", !participant.recordings().empty()},
-            {"bricks", bricks}};
+            {"bricks", bricks},
+            // Equal for all who see the same room.
+            {"room_hash", session::hash_text(room.objects)}};
 }
 
 }  // namespace theatron::web

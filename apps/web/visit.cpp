@@ -144,7 +144,7 @@ void follow_color(Visit& visit, const client::ParticipantFigures& figures, TimeP
 
 void follow_color(FlatVisit& visit, const client::ParticipantFigures& figures, TimePoint now) {
     if (visit.color.observe(figures, now))
-        visit.participant.choose_codecs("", visit.color.codec());
+        visit.view.set_color(visit.color.codec());
 }
 
 bool finish_drawing(Visit& visit) {

@@ -41,8 +41,8 @@ struct FlatVisit {
     FlatVisit(client::Participant::Options join, std::string host_address, PageColor asked)
         : address(std::move(host_address)),
           color(std::move(asked)),
-          participant(std::move(join)),
-          view(participant) {}
+          participant(FlatView::options(std::move(join))),
+          view(participant, color.codec()) {}
 
     std::string address;
     PageColor color;

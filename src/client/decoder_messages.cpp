@@ -21,6 +21,7 @@ void figure_fields(auto& m, auto&& field) {
     field(m.age_now_ms);
     field(m.exact);
     field(m.age_p50_ms);
+    field(m.age_p95_ms);
     field(m.age_p99_ms);
     field(m.age_max_ms);
     field(m.past);

@@ -77,6 +77,8 @@ void Participant::give_up() {
 Decoders::Events Participant::decoded_events() {
     Decoders::Events events;
     events.frame = [this](receive::CameraFramePtr frame, std::uint64_t generation) {
+        if (frame->depth.size.area() == 0 && !options_.takes_color_alone)
+            return;
         {
             const std::lock_guard lock(shared_->mutex);
             if (generation != shared_->decoder_generation)

@@ -90,6 +90,9 @@ public:
         // Takes pictures directly from their publishers, and sends its own directly, where the host
         // allows it. Not in a browser.
         bool direct = false;
+        // Frames without depth, of cameras whose depth is not asked for (wire/no_codec.h), can be
+        // taken, too.
+        bool takes_color_alone = false;
         // An object of the room or its pose has changed. Called from the participant's thread.
         std::function<void()> room_changed;
     };

@@ -4,9 +4,17 @@
 #include <algorithm>
 
 #include "session/permissions.h"
+#include "wire/condition_text.h"
+#include "wire/no_codec.h"
 #include "wire/sentence.h"
 
 namespace theatron::client {
+
+const receive::StreamFigures* CameraFigures::seen() const {
+    if (depth.codec != wire::no_codec)
+        return &depth;
+    return color.codec.empty() || color.codec == wire::no_codec ? nullptr : &color;
+}
 
 const char* text_of(Participant::Phase phase) {
     switch (phase) {
@@ -29,17 +37,17 @@ const char* text_of(Participant::Phase phase) {
 double ParticipantFigures::frames_per_second() const {
     std::optional<double> least;
     for (const CameraFigures& camera : cameras)
-        least = std::min(least.value_or(camera.depth.frames_per_second),
-                         camera.depth.frames_per_second);
+        if (const receive::StreamFigures* seen = camera.seen())
+            least = std::min(least.value_or(seen->frames_per_second), seen->frames_per_second);
     return least.value_or(0);
 }
 
 double ParticipantFigures::live_frames_per_second() const {
     std::optional<double> least;
     for (const CameraFigures& camera : cameras)
-        if (camera.camera.state.condition == wire::CameraCondition::live)
-            least = std::min(least.value_or(camera.depth.frames_per_second),
-                             camera.depth.frames_per_second);
+        if (const receive::StreamFigures* seen = camera.seen();
+            seen && camera.camera.state.condition == wire::CameraCondition::live)
+            least = std::min(least.value_or(seen->frames_per_second), seen->frames_per_second);
     return least.value_or(0);
 }
 
@@ -55,6 +63,13 @@ std::uint64_t ParticipantFigures::dropped() const {
     for (const CameraFigures& camera : cameras)
         sum += camera.dropped();
     return sum;
+}
+
+const char* state_text(const CameraFigures& camera) {
+    const wire::CameraCondition condition = camera.camera.state.condition;
+    if (camera.played == CameraFigures::Played::no || condition != wire::CameraCondition::live)
+        return wire::text_of(condition);
+    return camera.played == CameraFigures::Played::paused ? "paused" : "recording";
 }
 
 std::string problem_text(const wire::CameraState& state, wire::Role reader) {
@@ -83,16 +98,16 @@ std::string recorded_text(const ParticipantFigures& figures) {
 
 std::vector<receive::StreamFigures> without_ages(std::vector<receive::StreamFigures> figures) {
     for (receive::StreamFigures& stream : figures)
-        stream.age_ms = stream.age_now_ms = stream.age_p50_ms = stream.age_p99_ms =
-            stream.age_max_ms = 0;
+        stream.age_ms = stream.age_now_ms = stream.age_p50_ms = stream.age_p95_ms =
+            stream.age_p99_ms = stream.age_max_ms = 0;
     return figures;
 }
 
-wire::CameraState state_here(const wire::CameraState& said, const receive::StreamFigures& depth,
+wire::CameraState state_here(const wire::CameraState& said, const receive::StreamFigures& seen,
                              bool is_thinned) {
     constexpr double silent_ms = 2000, silent_ms_thinned = 5000;
-    const bool is_silent = !depth.past && depth.frames > 0 &&
-                           depth.age_now_ms > (is_thinned ? silent_ms_thinned : silent_ms);
+    const bool is_silent = !seen.past && seen.frames > 0 &&
+                           seen.age_now_ms > (is_thinned ? silent_ms_thinned : silent_ms);
     if (said.condition != wire::CameraCondition::live || !is_silent)
         return said;
     wire::CameraState state = said;
@@ -107,9 +122,13 @@ ParticipantFigures figures_of(const Participant& participant) {
     std::uint64_t generation = 0;
     const auto streams = participant.figures();
     const std::set<StreamId> direct = participant.direct_streams();
+    const auto playback = participant.playback();
     for (auto& camera : participant.cameras(generation)) {
         CameraFigures of_camera{std::move(camera), {}, {}};
         const wire::Camera& description = of_camera.camera.description;
+        if (playback && description.publisher == ParticipantId{})
+            of_camera.played =
+                playback->paused ? CameraFigures::Played::paused : CameraFigures::Played::goes_on;
         of_camera.direct = direct.contains(description.depth_stream);
         for (const auto& stream : streams) {
             if (stream.stream == description.depth_stream)
@@ -117,8 +136,9 @@ ParticipantFigures figures_of(const Participant& participant) {
             else if (description.has_color && stream.stream == description.color_stream)
                 of_camera.color = stream;
         }
-        of_camera.camera.state =
-            state_here(of_camera.camera.state, of_camera.depth, figures.status.delivery.level > 0);
+        if (const receive::StreamFigures* seen = of_camera.seen())
+            of_camera.camera.state =
+                state_here(of_camera.camera.state, *seen, figures.status.delivery.level > 0);
         figures.cameras.push_back(std::move(of_camera));
     }
     for (const Participant::Recording& one : participant.recordings())

@@ -18,7 +18,13 @@ struct CameraFigures {
     receive::StreamFigures depth;
     receive::StreamFigures color;  // without frames where the camera has no colour
     bool direct = false;           // its pictures come directly from their publisher
+    // It shows the recording that the host plays, which is never live, however young its frames
+    // are. The host does not say which of its cameras do: all of its own count as such.
+    enum class Played { no, goes_on, paused } played = Played::no;
 
+    // The stream whose pictures tell that the camera lives: depth, or colour where this participant
+    // asked for no depth. Null: it asked for neither.
+    const receive::StreamFigures* seen() const;
     double mbit_per_second() const { return depth.mbit_per_second + color.mbit_per_second; }
     std::uint64_t dropped() const { return depth.dropped + color.dropped; }
 };
@@ -40,6 +46,10 @@ struct ParticipantFigures {
     std::uint64_t dropped() const;
 };
 
+// "recording" or "paused" for a camera of the recording that the host plays, else its condition:
+// "live", "stale", "ended" or "failed".
+const char* state_text(const CameraFigures& camera);
+
 // A camera's problem in English; empty: none. Only those who may adjust cameras are told what to do
 // about a place.
 std::string problem_text(const wire::CameraState& state, wire::Role reader);
@@ -58,7 +68,7 @@ std::vector<receive::StreamFigures> without_ages(std::vector<receive::StreamFigu
 // do not arrive, because its publisher or the host has stopped or the link is cut. `is_thinned`:
 // the host leaves out frames for this participant. Without any frame so far, and while this
 // participant looks back, as it was said.
-wire::CameraState state_here(const wire::CameraState& said, const receive::StreamFigures& depth,
+wire::CameraState state_here(const wire::CameraState& said, const receive::StreamFigures& seen,
                              bool is_thinned);
 
 // With the cameras' states as they show here.

@@ -19,9 +19,14 @@ std::uint64_t next_number() {
     return ++last;
 }
 
-// Copies rows without padding. False if they are not of this size.
+// Copies rows without padding; an image without pixels is one, too. False if they are not of this
+// size.
 template <class T>
 bool copy_rows(ByteView rows, Size size, Image<T>& image) {
+    if (size == Size{} && rows.empty()) {
+        image.resize(size);
+        return true;
+    }
     if (size.width <= 0 || size.height <= 0 || rows.size() != size.area() * sizeof(T))
         return false;
     image.resize(size);

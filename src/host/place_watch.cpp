@@ -140,12 +140,14 @@ void PlaceWatch::run() {
                 const auto corrected = std::exchange(corrected_, {});
                 const auto accepted = std::exchange(accepted_, {});
                 lock.unlock();
-                for (const auto& [camera, pose] : corrected)
-                    watch_.correct_place(camera, pose);
-                for (const std::size_t camera : accepted)
-                    if (watch_.motion(camera).is_alarm)
-                        watch_.accept_place(camera);
-                tell();
+                (void)contain("place watch", [&] {
+                    for (const auto& [camera, pose] : corrected)
+                        watch_.correct_place(camera, pose);
+                    for (const std::size_t camera : accepted)
+                        if (watch_.motion(camera).is_alarm)
+                            watch_.accept_place(camera);
+                    tell();
+                });
                 continue;
             }
             const auto first = waiting_.begin();

@@ -9,6 +9,7 @@
 #include "geometry/calibration.h"
 #include "phrases/phrase.h"
 #include "video/depth_codecs.h"
+#include "wire/no_codec.h"
 
 namespace theatron::receive {
 namespace {
@@ -74,8 +75,14 @@ void Receiver::set_settings(const std::vector<wire::StreamSetting>& settings) {
         const bool changes_time = s.past || stream.past;
         if (changes_time)
             set_past(stream, s.past);
+        if (s.codec == wire::no_codec) {
+            stop(stream);
+            continue;
+        }
         const std::string unknown = set_codec(stream, s);
         if (unknown.empty()) {
+            if (stream.is_depth)
+                cameras_[stream.camera].has_depth = true;
             stream.setting = s.setting;
             stream.codec = s.codec;
             stream.asked_for_key = false;
@@ -107,6 +114,22 @@ std::string Receiver::set_codec(Stream& stream, const wire::StreamSetting& setti
     if (parsed.problem.empty())
         set_color_codec(stream, parsed.setting.id);
     return parsed.problem;
+}
+
+void Receiver::stop(Stream& stream) {
+    stream.setting.reset();
+    stream.codec = wire::no_codec;
+    stream.depth.reset();
+    stream.color.reset();
+    stream.submitted.clear();
+    stream.color_reference.reset();
+    stream.counting = false;
+    CameraState& camera = cameras_[stream.camera];
+    camera.depth.reset();
+    if (stream.is_depth)
+        camera.has_depth = false;
+    else
+        camera.color.reset();
 }
 
 // Between the past and the present frame numbers jump, and an image that waits has no partner.
@@ -311,6 +334,8 @@ void Receiver::take_pictures(StreamId id, Stream& stream, TimePoint now) {
         camera.color_number = decoded->frame;
         if (camera.depth && frames_after(camera.color_number, camera.depth->number) >= 0)
             hand_on(camera);
+        else if (!camera.has_depth)
+            hand_on_color(stream, submitted, done);
     }
     const std::size_t failures = stream.color->take_failures();
     if (failures == 0)
@@ -341,6 +366,22 @@ void Receiver::hand_on(CameraState& camera) {
     events_.frame(std::exchange(camera.depth, nullptr));
 }
 
+void Receiver::hand_on_color(const Stream& stream, const Stream::Submitted& submitted,
+                             TimePoint done) {
+    const std::shared_ptr<CameraFrame> frame = frames_.take();
+    frame->camera = stream.camera;
+    frame->number = submitted.frame;
+    frame->moment = submitted.captured;
+    frame->past = stream.past;
+    frame->times = {};
+    frame->times.captured = submitted.captured;
+    frame->times.received = submitted.arrived;
+    frame->times.decoded = done;
+    frame->depth.resize({});
+    frame->color = cameras_[stream.camera].color;
+    events_.frame(frame);
+}
+
 void Receiver::ask_for_key(StreamId id, Stream& stream, TimePoint now) {
     if (stream.asked_for_key && now - stream.asked_at < key_patience)
         return;
@@ -356,8 +397,8 @@ std::vector<StreamFigures> Receiver::figures(TimePoint now) {
         sort_ages(s);
         result.push_back({id, s.codec, s.frame_rate.per_second(now), s.bit_rate.per_second(now),
                           s.frames, s.bytes, s.dropped, s.newest, s.age_ms, age_now, s.exact,
-                          s.age_p50_ms, s.age_p99_ms, s.age_max_ms, s.past, s.decode_ms,
-                          s.decoder_failures});
+                          s.age_p50_ms, s.age_p95_ms, s.age_p99_ms, s.age_max_ms, s.past,
+                          s.decode_ms, s.decoder_failures});
     }
     return result;
 }
@@ -370,6 +411,7 @@ void Receiver::sort_ages(Stream& stream) {
         return;
     stream.sorted_at = stream.frames;
     stream.age_p50_ms = stream.ages.percentile(0.5);
+    stream.age_p95_ms = stream.ages.percentile(0.95);
     stream.age_p99_ms = stream.ages.percentile(0.99);
     stream.age_max_ms = stream.ages.max();
 }
@@ -377,7 +419,7 @@ void Receiver::sort_ages(Stream& stream) {
 void Receiver::forget_ages() {
     for (auto& [id, s] : streams_) {
         s.sorted_at = 0;
-        s.age_ms = s.age_p50_ms = s.age_p99_ms = s.age_max_ms = 0;
+        s.age_ms = s.age_p50_ms = s.age_p95_ms = s.age_p99_ms = s.age_max_ms = 0;
         s.ages.clear();
     }
 }
@@ -385,7 +427,7 @@ void Receiver::forget_ages() {
 void Receiver::reset_figures() {
     for (auto& [id, s] : streams_) {
         s.frames = s.bytes = s.dropped = s.sorted_at = s.decoder_failures = 0;
-        s.decode_ms = s.age_p50_ms = s.age_p99_ms = s.age_max_ms = 0;
+        s.decode_ms = s.age_p50_ms = s.age_p95_ms = s.age_p99_ms = s.age_max_ms = 0;
         s.ages.clear();
         s.counting = false;
     }

@@ -26,6 +26,8 @@ namespace theatron::receive {
 
 // The newest images of one camera, decoded. Depth and colour are of the same moment
 // if both have arrived. Late colour is of an earlier one; it is empty before the first.
+// Where the host sends no depth (wire/no_codec.h), each colour image makes a frame whose
+// depth image has no pixels.
 struct CameraFrame {
     CameraId camera{};
     FrameNumber number = 0;
@@ -57,7 +59,7 @@ struct StreamFigures {
     double age_ms = 0;                     // of the newest frame, when it was decoded
     double age_now_ms = 0;                 // of the newest frame, now
     Exactness exact = Exactness::nowhere;  // of the newest depth frame
-    double age_p50_ms = 0, age_p99_ms = 0, age_max_ms = 0;  // of the last minutes
+    double age_p50_ms = 0, age_p95_ms = 0, age_p99_ms = 0, age_max_ms = 0;  // of the last minutes
     bool past = false;     // as in wire::StreamSetting; no ages but age_now_ms are of such frames
     double decode_ms = 0;  // from a frame's arrival to its image, of the last ones
     std::uint64_t decoder_failures = 0;  // frames that a decoder took and gave up later
@@ -117,8 +119,8 @@ private:
         // By the calibration. Pictures of other sizes are refused.
         Size size;
         std::size_t max_message = 0;
-        // Empty before the first set_settings(), and where this build does not know the codec; else
-        // a decoder exists.
+        // Empty before the first set_settings(), where nothing is sent, and where this build does
+        // not know the codec; else a decoder exists.
         std::optional<SettingId> setting;
         std::string codec;
         codec::DepthSetting depth_setting;
@@ -141,7 +143,7 @@ private:
         RateWindow frame_rate, bit_rate;
         SampleWindow ages{4000};
         // Sorting them takes long, so that is done once for many frames.
-        double age_p50_ms = 0, age_p99_ms = 0, age_max_ms = 0;
+        double age_p50_ms = 0, age_p95_ms = 0, age_p99_ms = 0, age_max_ms = 0;
         std::uint64_t sorted_at = 0;
         double age_ms = 0, decode_ms = 0;
         std::uint64_t decoder_failures = 0;
@@ -158,11 +160,13 @@ private:
         std::shared_ptr<const ColorImage> color;
         FrameNumber color_number = 0;
         bool has_color = false;
+        bool has_depth = true;  // the host sends it
     };
 
     // One sentence if this build does not know the codec.
     std::string set_codec(Stream& stream, const wire::StreamSetting& setting) const;
     void set_past(Stream& stream, bool past);
+    void stop(Stream& stream);
     static void add_age(Stream& stream, double ms);
     static void add_decode_time(Stream& stream, Duration time);
     Status decode_depth(Stream& stream, const wire::MediaHeader& header, ByteView payload,
@@ -176,6 +180,7 @@ private:
     static Exactness exactness(const Stream& stream, ByteView payload);
     void ask_for_key(StreamId id, Stream& stream, TimePoint now);
     void hand_on(CameraState& camera);
+    void hand_on_color(const Stream& stream, const Stream::Submitted& submitted, TimePoint done);
     static void sort_ages(Stream& stream);
 
     Events events_;

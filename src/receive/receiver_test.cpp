@@ -174,6 +174,35 @@ TEST_F(ReceiverTest, PutsNoPictureTogetherOfThePastAndThePresent) {
     EXPECT_EQ(receiver.figures(at(94)).at(0).dropped, 0u);
 }
 
+TEST_F(ReceiverTest, WithoutDepthEachColorImageIsAFrame) {
+    Source source;
+    (void)receiver.on_media(source.depth(0), at(0));  // waits for its colour
+    receiver.set_settings({{depth_stream(camera), SettingId{9}, "none"}});
+    ASSERT_EQ(receiver.on_media(source.color(1), at(1)), Status::ok);
+    ASSERT_EQ(receiver.on_media(source.color(2), at(2)), Status::ok);
+    ASSERT_EQ(frames.size(), 2u);
+    EXPECT_EQ(frames[1]->depth.size, Size{});
+    EXPECT_EQ(frames[1]->color->pixels[0].r, 2);
+    EXPECT_EQ(frames[1]->times.captured, from_us(2 * 33'333));
+    // Depth that a host sends all the same is passed over.
+    EXPECT_EQ(receiver.on_media(Source("trvl", SettingId{9}).depth(3, true), at(3)), Status::ok);
+    EXPECT_EQ(frames.size(), 2u);
+    for (const StreamFigures& figures : receiver.figures(at(3)))
+        if (is_depth(figures.stream))
+            EXPECT_EQ(figures.codec, "none");
+
+    set_depth("trvl", SettingId{10});
+    EXPECT_EQ(receiver.on_media(Source("trvl", SettingId{10}).depth(4, true), at(4)), Status::ok);
+    EXPECT_EQ(frames.size(), 2u) << "it waits for its colour again";
+    EXPECT_EQ(receiver.on_media(source.color(4), at(4)), Status::ok);
+    ASSERT_EQ(frames.size(), 3u);
+    EXPECT_EQ(frames[2]->depth.size, picture);
+
+    receiver.set_settings({{color_stream(camera), SettingId{11}, "none"}});
+    EXPECT_EQ(receiver.on_media(source.color(5), at(5)), Status::ok);
+    EXPECT_EQ(frames.size(), 3u);
+}
+
 TEST_F(ReceiverTest, AnUnknownCodecOfOneStreamLeavesTheOthers) {
     const std::vector<wire::StreamSetting> settings{
         {depth_stream(camera), SettingId{9}, "newer", true},

@@ -34,5 +34,24 @@ TEST(Delivery, NamesTheCeilingAsItWasGiven) {
     EXPECT_EQ(reason_with_ceiling_of(1000), "your ceiling is 1 Mbit/s");
 }
 
+// A ceiling holds also for those who get no depth.
+TEST(Delivery, ColorAloneHasFewerFramesAndIsThenCoarser) {
+    CodecSteps codecs;
+    codecs.layered = [](const std::string& codec) { return CodecSteps::Layered{codec}; };
+    codecs.coarser = [](const std::string& codec) {
+        return std::vector{CodecSteps::Coarser{codec + ":quality=20", 0.25}};
+    };
+    codecs.lossy_outside_region = [](const std::string& codec) { return codec + ":lossy"; };
+    const Ladder ladder = make_ladder("none", "jpeg", codecs, true);
+    ASSERT_EQ(ladder.size(), 4u);
+    EXPECT_EQ(ladder[2].frames, 0.25);
+    EXPECT_EQ(ladder[2].color_codec, "jpeg");
+    EXPECT_EQ(ladder[3].color_codec, "jpeg:quality=20");
+    for (const LadderStep& step : make_ladder("none", "none", codecs, true)) {
+        EXPECT_EQ(step.depth_codec, "none");
+        EXPECT_EQ(step.color_codec, "none");
+    }
+}
+
 }  // namespace
 }  // namespace theatron::session

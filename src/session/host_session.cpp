@@ -4,12 +4,18 @@
 #include <algorithm>
 #include <utility>
 
+#include "wire/no_codec.h"
+
 namespace theatron::session {
 namespace {
 
 constexpr Duration renderer_interval = std::chrono::seconds(1);
 using Kind = RequestBudget::Kind;
 using wire::TextCode;
+
+HostSession::CheckedCodec checked(const HostSession::CheckCodec& check, const std::string& codec) {
+    return codec == wire::no_codec ? HostSession::CheckedCodec{codec, ""} : check(codec);
+}
 
 Kind kind_of(const wire::Join&) {
     return Kind::other;
@@ -149,8 +155,8 @@ void HostSession::join(ParticipantId id, const wire::Join& hello, TimePoint now)
     const Admission::Verdict verdict = admission_.judge(hello, now);
     if (!verdict.refusal.empty())
         return refuse(id, verdict.refusal);
-    const CheckedCodec depth = config_.check_depth(hello.depth_codec);
-    const CheckedCodec color = config_.check_color(hello.color_codec);
+    const CheckedCodec depth = checked(config_.check_depth, hello.depth_codec);
+    const CheckedCodec color = checked(config_.check_color, hello.color_codec);
     for (const std::string& problem : {depth.problem, color.problem})
         if (!problem.empty())
             return refuse(id, wire::as_written(problem));
@@ -196,8 +202,8 @@ void HostSession::enter(ParticipantId id, const wire::Join& hello) {
         actions_.push_back(action::KeepEverything{id});
     if (!participant.has(wire::Feature::sends_only)) {
         streams_.join(id,
-                      {config_.check_depth(hello.depth_codec).codec,
-                       config_.check_color(hello.color_codec).codec},
+                      {checked(config_.check_depth, hello.depth_codec).codec,
+                       checked(config_.check_color, hello.color_codec).codec},
                       hello.records, participant.has(wire::Feature::webcam));
         streams_.set_goal(id, {hello.target_latency_ms, hello.max_kbit_per_s});
     }
@@ -234,9 +240,9 @@ void HostSession::carry_out(ParticipantId, const wire::Join&, TimePoint) {}
 void HostSession::carry_out(ParticipantId id, const wire::ChooseCodecs& wish, TimePoint) {
     CheckedCodec depth, color;
     if (!wish.depth_codec.empty())
-        depth = config_.check_depth(wish.depth_codec);
+        depth = checked(config_.check_depth, wish.depth_codec);
     if (!wish.color_codec.empty())
-        color = config_.check_color(wish.color_codec);
+        color = checked(config_.check_color, wish.color_codec);
     for (const std::string& problem : {depth.problem, color.problem})
         if (!problem.empty())  // the old codecs stay
             return send(id, wire::Settings{{}, wire::as_written(problem)});

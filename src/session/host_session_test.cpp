@@ -74,6 +74,33 @@ TEST_F(Host, ParticipantsShareAnEncoderAndChangeItAlone) {
     EXPECT_EQ(session.depth_settings()[0].codec, "rvl");
 }
 
+TEST_F(Host, AParticipantThatAsksForNoDepthGetsColorAlone) {
+    join(alice);
+    session.take_actions();
+    say(alice, wire::ChooseCodecs{"none", "", {CameraId{0}}});
+    auto actions = session.take_actions();
+    const auto settings = sent<wire::Settings>(alice, actions);
+    ASSERT_EQ(settings.size(), 1u);
+    EXPECT_EQ(settings[0].settings[0].codec, "none");
+    EXPECT_TRUE(settings[0].note.empty());
+    EXPECT_TRUE(session.depth_settings().empty()) << "it is not even encoded";
+    ASSERT_EQ(session.color_settings().size(), 1u);
+    now += 1s;
+    session.on_tick(now);
+    actions = session.take_actions();
+    for (const action::RequestKey& wanted : all<action::RequestKey>(actions))
+        EXPECT_EQ(wanted.key.stream, StreamId{1});
+
+    join(bob);
+    wire::MediaHeader color;
+    color.stream = StreamId{1};
+    color.setting = session.color_settings()[0].id;
+    EXPECT_EQ(session.on_media(color, 100, now), (std::vector{alice, bob}));
+    wire::MediaHeader depth;
+    depth.setting = session.depth_settings()[0].id;
+    EXPECT_EQ(session.on_media(depth, 100, now), std::vector{bob});
+}
+
 TEST_F(Host, ABadWishKeepsTheOldCodecAndSaysSo) {
     join(alice);
     session.take_actions();

@@ -2,6 +2,7 @@
 #include "session/ladder.h"
 
 #include "session/stream_rates.h"
+#include "wire/no_codec.h"
 
 namespace theatron::session {
 
@@ -20,8 +21,11 @@ Ladder make_ladder(const std::string& depth, const std::string& color, const Cod
     step.color_codec = color;
     Ladder ladder{step};
 
-    const CodecSteps::Layered layered =
-        codecs.layered ? codecs.layered(depth) : CodecSteps::Layered{};
+    // Colour alone thins by the numbers of its frames.
+    const bool has_depth = depth != wire::no_codec;
+    const CodecSteps::Layered layered = !has_depth       ? CodecSteps::Layered{depth, true, false}
+                                        : codecs.layered ? codecs.layered(depth)
+                                                         : CodecSteps::Layered{};
     if (layered.layered || layered.independent) {
         step.depth_codec = layered.codec;
         while (step.highest_layer > 0) {
@@ -30,13 +34,13 @@ Ladder make_ladder(const std::string& depth, const std::string& color, const Cod
             ladder.push_back(step);
         }
     }
-    if (codecs.coarser)
+    if (codecs.coarser && color != wire::no_codec)
         for (const CodecSteps::Coarser& coarser : codecs.coarser(color)) {
             step.color_codec = coarser.codec;
             step.color_size = coarser.size;
             ladder.push_back(step);
         }
-    if (region_is_drawn && codecs.lossy_outside_region)
+    if (region_is_drawn && has_depth && codecs.lossy_outside_region)
         if (std::string lossy = codecs.lossy_outside_region(step.depth_codec); !lossy.empty()) {
             step.depth_codec = std::move(lossy);
             step.lossy_outside_region = true;

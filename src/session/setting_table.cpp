@@ -5,6 +5,8 @@
 #include <cassert>
 #include <iterator>
 
+#include "wire/no_codec.h"
+
 namespace theatron::session {
 namespace {
 
@@ -17,6 +19,8 @@ std::string_view kind_of(std::string_view codec) {
 SettingTable::~SettingTable() {
     for (const ActiveSetting& setting : active_)
         numbers_.give_back(setting.id);
+    if (nothing_)
+        numbers_.give_back(nothing_->id);
 }
 
 void SettingTable::wish(ParticipantId participant, std::string codec) {
@@ -87,7 +91,20 @@ void SettingTable::remove(Active::iterator setting) {
     active_.erase(setting);
 }
 
+void SettingTable::update_nothing() {
+    const bool is_wished = std::any_of(entries_.begin(), entries_.end(), [](const auto& entry) {
+        return entry.second.wish == wire::no_codec;
+    });
+    if (is_wished && !nothing_) {
+        nothing_ = ActiveSetting{numbers_.take(), std::string(wire::no_codec), {}};
+    } else if (!is_wished && nothing_) {
+        numbers_.give_back(nothing_->id);
+        nothing_.reset();
+    }
+}
+
 void SettingTable::update() {
+    update_nothing();
     const auto used = [&](const std::string& codec, bool by_wish_only) {
         return std::any_of(entries_.begin(), entries_.end(), [&](const auto& entry) {
             return entry.second.now() == codec && (!by_wish_only || entry.second.stopgap.empty());
@@ -100,7 +117,7 @@ void SettingTable::update() {
 
     // Participants are numbered as they join, so the longest present come first.
     for (const auto& [participant, entry] : entries_) {
-        if (!entry.stopgap.empty() || is_active(entry.wish))
+        if (!entry.stopgap.empty() || entry.wish == wire::no_codec || is_active(entry.wish))
             continue;
         if (!has_place(entry.wish)) {
             const auto stopgap = std::find_if(
@@ -132,6 +149,8 @@ void SettingTable::update() {
 
 // Null for the usual setting while it is not active.
 const ActiveSetting* SettingTable::nearest(const Entry& entry) const {
+    if (entry.wish == wire::no_codec)
+        return &*nothing_;
     const std::string& codec = entry.now();
     if (const ActiveSetting* exact = find(codec))
         return exact;

@@ -3,11 +3,13 @@
 // has a wish, and each distinct wish is encoded once. At most three are encoded at a
 // time, besides the usual one, whose place is reserved. A participant with a slow link
 // may get another encoding for a while; such stopgaps only take places that no wish
-// needs.
+// needs. Those who wish for nothing (wire/no_codec.h) get a setting that is never active, and take
+// no place.
 #pragma once
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -76,6 +78,7 @@ private:
     using Active = std::vector<ActiveSetting>;
 
     void update();
+    void update_nothing();
     void add(const std::string& codec);
     void remove(Active::iterator setting);
     bool is_active(const std::string& codec) const;
@@ -89,6 +92,7 @@ private:
     const ReadTraits traits_;
     std::map<ParticipantId, Entry> entries_;
     Active active_;
+    std::optional<ActiveSetting> nothing_;  // of those who wish for it; else none
     std::set<SettingId> slow_;
 };
 

@@ -24,6 +24,25 @@ TEST(SettingTable, OneSettingPerDistinctWish) {
     EXPECT_EQ(table.given(bob).codec, "rvl");
 }
 
+TEST(SettingTable, NothingIsNotEncodedAndTakesNoPlace) {
+    SettingNumbers numbers;
+    SettingTable table(numbers, "strata");
+    table.wish(alice, "none");
+    EXPECT_TRUE(table.active().empty());
+    EXPECT_EQ(table.given(alice).codec, "none");
+    table.wish(bob, "trvl");
+    table.wish(carol, "zstd");
+    table.wish(dave, "raw");
+    EXPECT_EQ(table.active().size(), SettingTable::max_active);
+    for (const ActiveSetting& setting : table.active())
+        EXPECT_NE(setting.id, table.given(alice).id);
+    // Nor does anybody get it in place of another.
+    table.wish(ParticipantId{5}, "lz4");
+    EXPECT_EQ(table.given(ParticipantId{5}).codec, "strata");
+    table.wish(alice, "trvl");
+    EXPECT_EQ(table.given(alice), table.given(bob));
+}
+
 TEST(SettingTable, BeyondThreeTheNearestIsGivenUntilAPlaceIsFree) {
     SettingNumbers numbers;
     SettingTable table(numbers);

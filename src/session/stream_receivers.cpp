@@ -6,6 +6,7 @@
 
 #include "session/face_limits.h"
 #include "session/streams.h"
+#include "wire/no_codec.h"
 
 namespace theatron::session {
 
@@ -259,7 +260,7 @@ void Streams::tell_receiver(ParticipantId id, Receiver& receiver) {
                 continue;
             const ActiveSetting& setting = is_depth ? depth : color;
             message.settings.push_back({camera.stream(is_depth), setting.id, setting.codec});
-            if (setting.id != before.of(is_depth))
+            if (setting.id != before.of(is_depth) && setting.codec != wire::no_codec)
                 key_requests_.request({camera.stream(is_depth), setting.id});
         }
         if (message.note.empty())

@@ -27,10 +27,17 @@ std::string first_sentence(const std::string& text) {
     return text.substr(0, std::min(text.find(". "), text.size()));
 }
 
-Phrase count_of(wire::CameraCondition condition) {
-    switch (condition) {
+Phrase count_of(const client::CameraFigures& camera) {
+    switch (camera.camera.state.condition) {
         case wire::CameraCondition::live:
-            return Phrase::live_count;
+            switch (camera.played) {
+                case client::CameraFigures::Played::no:
+                    return Phrase::live_count;
+                case client::CameraFigures::Played::paused:
+                    return Phrase::paused_count;
+                default:
+                    return Phrase::recording_count;
+            }
         case wire::CameraCondition::stale:
             return Phrase::stale_count;
         case wire::CameraCondition::ended:
@@ -41,20 +48,19 @@ Phrase count_of(wire::CameraCondition condition) {
     return Phrase::failed_count;
 }
 
-// "2 live", or "1 live, 1 stale".
+// "2 live", "1 live, 1 stale", or "2 recording".
 xr::Fact cameras_fact(const std::vector<client::CameraFigures>& cameras) {
-    using Condition = wire::CameraCondition;
     std::string text;
     bool trouble = false;
-    for (const Condition condition :
-         {Condition::live, Condition::stale, Condition::ended, Condition::failed}) {
+    for (const Phrase state : {Phrase::live_count, Phrase::recording_count, Phrase::paused_count,
+                               Phrase::stale_count, Phrase::ended_count, Phrase::failed_count}) {
         const auto count = std::count_if(cameras.begin(), cameras.end(), [&](const auto& camera) {
-            return camera.camera.state.condition == condition;
+            return count_of(camera) == state;
         });
         if (count == 0)
             continue;
-        text += (text.empty() ? "" : ", ") + say(count_of(condition), std::to_string(count));
-        trouble = trouble || condition != Condition::live;
+        text += (text.empty() ? "" : ", ") + say(state, std::to_string(count));
+        trouble = trouble || state != Phrase::live_count;
     }
     const auto direct = std::count_if(cameras.begin(), cameras.end(),
                                       [](const auto& camera) { return camera.direct; });
@@ -65,10 +71,12 @@ xr::Fact cameras_fact(const std::vector<client::CameraFigures>& cameras) {
 
 // A live camera with a problem that its picture does not show: it was moved, or plays damage.
 void add_problems(const std::vector<client::CameraFigures>& cameras, std::vector<xr::Fact>& line) {
-    for (const auto& [camera, depth, color, direct] : cameras)
-        if (camera.state.condition == wire::CameraCondition::live && !camera.state.problem.empty())
-            line.push_back({say(Phrase::camera_named, camera.description.name),
-                            first_sentence(wire::sentence(camera.state.problem)), true});
+    for (const client::CameraFigures& one : cameras) {
+        const wire::CameraState& state = one.camera.state;
+        if (state.condition == wire::CameraCondition::live && !state.problem.empty())
+            line.push_back({say(Phrase::camera_named, one.camera.description.name),
+                            first_sentence(wire::sentence(state.problem)), true});
+    }
 }
 
 // The one text that all cameras have, "several" if they differ, "none" if there is none.
@@ -167,6 +175,8 @@ std::vector<xr::Fact> line_of(const Facts& facts, const std::string& address,
             line.push_back({say(Phrase::webcam), say(Phrase::webcam_is_seen), true});
         if (facts.own_face == OwnFace::opening)
             line.push_back({say(Phrase::webcam), say(Phrase::webcam_opens)});
+        if (!facts.played.empty() && facts.past.empty())
+            line.push_back({say(Phrase::not_live), facts.played, true});
         // No camera's present state beside pictures of the past.
         line.push_back(facts.past.empty() ? cameras_fact(cameras)
                                           : xr::Fact{say(Phrase::cameras), facts.past, true});

@@ -38,6 +38,8 @@ struct Facts {
     OwnFace own_face = OwnFace::none;
     // The moment that is shown, while it is not the present (looking_back.h); else empty.
     std::string past = {};
+    // The recording that the host plays and where it is (playing.h); else empty.
+    std::string played = {};
     bool trust = false;  // the panel of trust_panel.h is shown, too
 };
 

@@ -75,6 +75,22 @@ TEST(Overlay, SaysAboveAllThatThePictureIsOfThePast) {
     EXPECT_THAT(overlay(facts).warning, HasSubstr("NOT LIVE: 23 s ago, frozen"));
 }
 
+TEST(Overlay, ARecordingThatTheHostPlaysIsNeverLive) {
+    Facts facts = healthy();
+    facts.received.cameras[0].played = client::CameraFigures::Played::goes_on;
+    facts.played = "RECORDING 0:02 / 0:03";
+    EXPECT_EQ(fact(overlay(facts), "Cameras").value, "1 recording");
+    EXPECT_TRUE(fact(overlay(facts), "Cameras").warning);
+    EXPECT_EQ(fact(overlay(facts), "Not live").value, "RECORDING 0:02 / 0:03");
+    facts.received.cameras[0].played = client::CameraFigures::Played::paused;
+    facts.played = "RECORDING 0:02 / 0:03, paused by Anna";
+    facts.line = false;
+    EXPECT_EQ(fact(overlay(facts), "Cameras").value, "1 paused");
+    EXPECT_EQ(fact(overlay(facts), "Not live").value, facts.played) << "also in a hidden line";
+    facts.trust = true;
+    EXPECT_THAT(overlay(facts).panels.at(0).rows.at(0).text, HasSubstr("NOT LIVE, paused"));
+}
+
 TEST(Overlay, ShowsTheMicrophoneOfAWindowThatHasOne) {
     Facts facts = healthy();
     EXPECT_EQ(fact(overlay(facts), "Microphone").value, "");

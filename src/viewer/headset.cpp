@@ -53,9 +53,36 @@ void Headset::go_to(const Pose& room_from_eye) {
     has_begun_ = false;
 }
 
-void Headset::recentre() {
-    if (has_begun_ && !real_room_)
-        stand(stood_, heading_);
+void Headset::on_space_moved(const std::optional<Pose>& before_from_now) {
+    // Several moves between two frames are one.
+    if (!space_moved_)
+        before_from_now_ = before_from_now;
+    else if (before_from_now_ && before_from_now)
+        before_from_now_ = *before_from_now_ * *before_from_now;
+    else
+        before_from_now_.reset();
+    space_moved_ = true;
+}
+
+// With the first frame in the moved space: only that says where the head is in it.
+void Headset::follow_space(LiveScene& scene, client::Participant& participant) {
+    if (std::exchange(space_moved_, false)) {
+        const auto moved =
+            before_from_now_ ? xr::moved_space(room_from_floor_, *before_from_now_) : std::nullopt;
+        if (!real_room_)
+            stand(stood_, heading_);
+        else if (moved)
+            room_from_floor_ = *moved;
+        else if (!places_table_) {
+            places_again_ = true;
+            note_ = say(Phrase::table_is_lost);
+        }
+    }
+    if (!std::exchange(places_again_, false))
+        return;
+    // It would move with the room.
+    let_all_go(scene, participant);
+    places_table_ = true;
 }
 
 void Headset::on_frame(const xr::HeadsetFrame& frame, const MenuFacts& facts, LiveScene& scene,
@@ -70,6 +97,7 @@ void Headset::on_frame(const xr::HeadsetFrame& frame, const MenuFacts& facts, Li
         const Pose head = begin_ * half_turn;
         stand({head.translation.x, 0, head.translation.z}, xr::heading_of(head));
     }
+    follow_space(scene, participant);
     const xr::Intents intents =
         input_.update(frame, {hands_[0].held.has_value(), hands_[1].held.has_value()});
     if (places_table_)
@@ -113,13 +141,17 @@ void Headset::stand(Vec3 place, double heading) {
 void Headset::leave(LiveScene& scene, client::Participant& participant) {
     arc_.reset();
     menu_.show(false);
+    let_all_go(scene, participant);
+    tell(scene);
+    scene.set_menu(nullptr, std::nullopt);
+}
+
+void Headset::let_all_go(LiveScene& scene, client::Participant& participant) {
     for (Hand& hand : hands_) {
         if (hand.held && hand.room_from_aim)
             let_go(hand, scene.meeting(), participant);
         hand = {};
     }
-    tell(scene);
-    scene.set_menu(nullptr, std::nullopt);
 }
 
 void Headset::turn(double degrees) {
@@ -191,7 +223,7 @@ void Headset::show_menu(const xr::Intents& intents, const MenuFacts& facts) {
 void Headset::choose(const MenuRow& row) {
     switch (row.action) {
         case MenuAction::recentre:
-            return recentre();
+            return stand(stood_, heading_);
         case MenuAction::seat:
             seated_ = !seated_;
             return stand(room_from_floor_ * floor_from_head_.translation,
@@ -201,7 +233,7 @@ void Headset::choose(const MenuRow& row) {
         case MenuAction::turn_right:
             return turn(-xr::XrInput::snap_degrees);
         case MenuAction::place_table:
-            places_table_ = true;
+            places_again_ = true;
             return;
         case MenuAction::microphone:
         case MenuAction::leave:

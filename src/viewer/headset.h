@@ -38,9 +38,11 @@ public:
     // microphone, leave, drawing, new_brick, go_to_person.
     std::optional<MenuRow> take_wish() { return std::exchange(wish_, std::nullopt); }
 
-    // Brings the head back to the place where the person was last brought, at that heading: after
-    // the runtime has moved its tracking space, or by the menu.
-    void recentre();
+    // The runtime has moved its tracking space, and its next frame is in the new one;
+    // `before_from_now` has the new origin as seen from the old one, if the runtime says it. The
+    // person then stands where they were last brought, at that heading. In a real room the table
+    // keeps its real place, or, where nobody knows the way, is placed again.
+    void on_space_moved(const std::optional<Pose>& before_from_now);
     bool is_seated() const { return seated_; }
     bool places_table() const { return places_table_; }
     // 0 to 1: how much of the picture's sides is dark, while the person is moved.
@@ -77,6 +79,8 @@ private:
         bool points = false;
     };
     void stand(Vec3 place, double heading);
+    void follow_space(LiveScene& scene, client::Participant& participant);
+    void let_all_go(LiveScene& scene, client::Participant& participant);
     void move(const xr::Intents& intents, const LiveScene& scene, double seconds);
     void turn(double degrees);
     void place_table(const xr::Intents& intents);
@@ -95,6 +99,10 @@ private:
 
     Pose begin_;
     bool real_room_ = false, places_table_ = false;
+    bool places_again_ = false;  // from the next frame on
+    // The runtime has moved its space since the last frame, and how; no pose: nobody knows.
+    bool space_moved_ = false;
+    std::optional<Pose> before_from_now_;
     bool has_begun_ = false;
     Vec3 stood_;          // where the person was brought last, on the floor,
     double heading_ = 0;  // and the direction of the head then

@@ -16,6 +16,10 @@ bool is_live(const client::CameraFigures& camera) {
     return camera.camera.state.condition == wire::CameraCondition::live && !camera.depth.past;
 }
 
+bool is_played(const client::CameraFigures& camera) {
+    return camera.played != client::CameraFigures::Played::no && is_live(camera);
+}
+
 // The older one of depth and colour counts.
 double age_ms(const client::CameraFigures& camera) {
     return std::max(camera.depth.age_now_ms, camera.color.frames > 0 ? camera.color.age_now_ms : 0);
@@ -54,7 +58,11 @@ xr::Panel trust_panel(const client::ParticipantFigures& figures,
         if (camera.depth.frames == 0) {
             row.text = say(Phrase::row_waits, row.text);
         } else {
-            row.text += ": " + seen_age(age_ms(camera), is_live(camera));
+            row.text += ": " + (is_played(camera)
+                                    ? say(camera.played == client::CameraFigures::Played::paused
+                                              ? Phrase::row_paused
+                                              : Phrase::row_recording)
+                                    : seen_age(age_ms(camera), is_live(camera)));
             row.detail = rates(camera) + "\n" +
                          say(Phrase::depth_and_filters, camera.depth.codec, exactness_text(camera),
                              filter_name(state.filter));

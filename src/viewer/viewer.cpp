@@ -325,7 +325,13 @@ void Viewer::choose_pace() {
                     : xr::ways_of(choice_.renderer(), options_.scale);
     if (ways == pace_.ways())
         return;
-    const std::size_t begin = options_.has_gpu ? 0 : xr::begin_without_gpu(ways);
+    begin_pace(std::move(ways));
+}
+
+void Viewer::begin_pace(std::vector<xr::DrawingWay> ways) {
+    const std::size_t begin = headset_           ? xr::begin_with_headset(ways, way())
+                              : options_.has_gpu ? 0
+                                                 : xr::begin_without_gpu(ways);
     pace_ = xr::DrawingPace(std::move(ways), begin, pace_limits_);
     scene_changed_ = true;
 }
@@ -489,6 +495,7 @@ Facts Viewer::facts(TimePoint now) {
     facts.frozen = frozen_;
     RoomPanel panel;
     facts.past = past(now);
+    facts.played = played(now);
     // The way back to the present comes first. Panels that others bring about come below people and
     // places, which stay where they are.
     if (!facts.past.empty())

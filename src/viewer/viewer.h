@@ -87,8 +87,8 @@ public:
     // The view goes on where the person stood.
     void leave_headset();
     bool has_headset() const { return headset_.has_value(); }
-    // The runtime has moved its tracking space.
-    void recentre_headset();
+    // As Headset::on_space_moved().
+    void on_headset_space_moved(const std::optional<Pose>& before_from_now);
     // For the menu.
     void set_microphone_open(bool open) { microphone_open_ = open; }
     // The choice of the person in the menu since the last call that the program carries out:
@@ -174,6 +174,7 @@ private:
     void decide_on_visitor(wire::ManageAction action, TimePoint now);
     void follow_host(TimePoint now);
     void choose_pace();
+    void begin_pace(std::vector<xr::DrawingWay> ways);
     void send_own_pose(Size picture, TimePoint now);
     void follow_wish(const MenuRow& wish, TimePoint now);
     void draw_eyes(const render::CameraView& head, std::vector<render::EyePicture> eyes,
@@ -203,6 +204,7 @@ private:
     void keep_present(xr::WindowInput& input, TimePoint now);
     void look_back(Duration ago, TimePoint now);
     std::string past(TimePoint now) const;
+    std::string played(TimePoint now) const;
     bool may(session::Right right) const;
     void show_slice_at(const xr::WindowInput& input, Size picture, TimePoint now);
     void add_case(RoomPanel& panel) const;
@@ -242,7 +244,8 @@ private:
     xr::DrawingPace pace_;
     xr::DrawingRest rest_;
     TimePoint receiving_noted_;
-    std::uint64_t dropped_ = 0;  // then
+    std::uint64_t dropped_ = 0;                   // then
+    std::optional<xr::DrawingPace> window_pace_;  // before the headset
     bool fading_ = false, moving_ = false;
     bool scene_changed_ = true;
     std::optional<ParticipantId> followed_;  // the person through whose eyes the user sees

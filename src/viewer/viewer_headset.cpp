@@ -14,8 +14,10 @@ void Viewer::enter_headset(bool real_room, double pictures_per_s, TimePoint now)
     headset_.emplace(eye_.view(any).room_from_eye, real_room);
     headset_wish_.reset();
     pace_limits_ = xr::limits_of_display(pictures_per_s);
-    pace_ = xr::DrawingPace(pace_.ways(), 0, pace_limits_);
-    note(say(real_room ? Phrase::how_to_place_table : Phrase::how_to_menu), now);
+    window_pace_ = pace_;
+    begin_pace(pace_.ways());
+    if (!real_room)
+        note(say(Phrase::how_to_menu), now);
 }
 
 void Viewer::leave_headset() {
@@ -30,7 +32,12 @@ void Viewer::leave_headset() {
     scene_.set_headset_text("");
     scene_.set_real_room(false);
     pace_limits_ = {};
-    pace_ = xr::DrawingPace(pace_.ways(), 0, pace_limits_);
+    // The window goes on as it was measured to carry.
+    if (window_pace_ && window_pace_->ways() == pace_.ways())
+        pace_ = *window_pace_;
+    else
+        begin_pace(pace_.ways());
+    window_pace_.reset();
     scene_changed_ = true;
 }
 
@@ -54,15 +61,20 @@ void Viewer::on_headset(const xr::HeadsetFrame& frame, TimePoint now) {
         note(text, now);
     const auto status = participant_.status();
     const bool is_joined = status.phase == client::Participant::Phase::joined;
-    const std::string notice = now < notice_until_ ? notice_ : "";
-    const char* const between = facts.past.empty() || notice.empty() ? "" : ". ";
-    scene_.set_headset_text(is_joined ? facts.past + between + notice
-                                      : say(Phrase::headset_lost_connection));
+    // First the warnings, then how to place the table as long as that is to be done, then the news.
+    std::string text;
+    for (const std::string& part :
+         {facts.past, played(now),
+          headset_->places_table() ? say(Phrase::how_to_place_table) : std::string(),
+          now < notice_until_ ? notice_ : std::string()})
+        if (!part.empty())
+            text += (text.empty() ? "" : ". ") + part;
+    scene_.set_headset_text(is_joined ? text : say(Phrase::headset_lost_connection));
 }
 
-void Viewer::recentre_headset() {
+void Viewer::on_headset_space_moved(const std::optional<Pose>& before_from_now) {
     if (headset_)
-        headset_->recentre();
+        headset_->on_space_moved(before_from_now);
 }
 
 void Viewer::follow_wish(const MenuRow& wish, TimePoint now) {

@@ -162,6 +162,12 @@ std::string Viewer::past(TimePoint now) const {
     return past_text(shown, looking, names, participant_.session_time(now));
 }
 
+// While this person looks back, it is past() that says what is shown.
+std::string Viewer::played(TimePoint now) const {
+    const auto playback = participant_.looks_back() ? std::nullopt : participant_.playback();
+    return playback ? playback_text(*playback, participant_.session_time(now)) : "";
+}
+
 ShownMoment Viewer::shown_moment(TimePoint now) const {
     const client::ParticipantFigures figures = client::figures_of(participant_);
     std::set<CameraId> stale;

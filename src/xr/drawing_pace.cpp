@@ -42,6 +42,12 @@ std::size_t begin_without_gpu(const std::vector<DrawingWay>& ways) {
     return mesh == ways.end() ? 0 : std::size_t(mesh - ways.begin());
 }
 
+std::size_t begin_with_headset(const std::vector<DrawingWay>& ways, const DrawingWay& now) {
+    const auto found = std::find(ways.begin(), ways.end(), now);
+    const std::size_t measured = found == ways.end() ? 0 : std::size_t(found - ways.begin());
+    return std::max(measured, begin_without_gpu(ways));
+}
+
 std::vector<DrawingWay> ways_of(const std::string& renderer, double scale) {
     if (scale > 0)
         return {{renderer, 1, scale}};

@@ -33,6 +33,9 @@ struct DrawingWay {
 std::vector<DrawingWay> automatic_ways(std::size_t cameras, double scale);
 // The place in automatic_ways() where a machine without a graphics card begins: the first "mesh".
 std::size_t begin_without_gpu(const std::vector<DrawingWay>& ways);
+// The same for a headset, for which each picture must be there in time: the first "mesh", or `now`,
+// in which the window was drawn, if that is a cheaper one.
+std::size_t begin_with_headset(const std::vector<DrawingWay>& ways, const DrawingWay& now);
 // For a renderer that the viewer chose: fewer pixels, nothing else.
 std::vector<DrawingWay> ways_of(const std::string& renderer, double scale);
 

@@ -174,6 +174,14 @@ TEST(DrawingPace, WithoutAGraphicsCardItBeginsSimplyAndGoesUpWhereThereIsTime) {
     EXPECT_EQ(begin_without_gpu(ways_of("blend", 0)), 0u);
 }
 
+TEST(DrawingPace, AHeadsetBeginsSimplyOrAsTheWindowWasMeasuredToCarry) {
+    const auto ways = automatic_ways(2, 0);
+    EXPECT_EQ(ways[begin_with_headset(ways, ways.front())], (DrawingWay{"mesh", 1, 1}));
+    EXPECT_EQ(ways[begin_with_headset(ways, ways.back())], ways.back());
+    EXPECT_EQ(begin_with_headset(ways, {"disc", 1, 1}), begin_without_gpu(ways));
+    EXPECT_EQ(begin_with_headset(ways_of("blend", 0), {"mesh", 1, 1}), 0u);
+}
+
 TEST(DrawingPace, OneSlowPictureChangesNothing) {
     Viewer viewer(automatic_ways(2, 0));
     int i = 0;

@@ -42,5 +42,20 @@ TEST(TrackingSpace, ATurnLeavesTheHeadAtItsPlaceAndTheFloorLevel) {
     EXPECT_NEAR(after.translation.y, before.translation.y, exactly);
 }
 
+TEST(TrackingSpace, AMoveOfItLeavesTheRoomAtItsRealPlace) {
+    const Pose before = standing_space(some_head(), {2, 0, 3}, 1.1);
+    const Pose before_from_now{rotation_about(upwards, -0.6), {1, 0, -2}};
+    const auto now = moved_space(before, before_from_now);
+    ASSERT_TRUE(now);
+    const Vec3 there{0.3, 1.2, 0.8};  // in the old space
+    expect_place(*now * (inverse(before_from_now) * there), before * there);
+}
+
+TEST(TrackingSpace, AMoveThatTiltsTheFloorIsNotBelieved) {
+    EXPECT_TRUE(moved_space({}, {rotation_about({0, 0, 1}, radians_of(3)), {}}));
+    EXPECT_FALSE(moved_space({}, {rotation_about({0, 0, 1}, radians_of(8)), {}}));
+    EXPECT_FALSE(moved_space({}, {{}, {std::nan(""), 0, 0}}));
+}
+
 }  // namespace
 }  // namespace theatron::xr

@@ -89,6 +89,7 @@ class Page:
         self.problems = []  # exceptions, warnings and errors of its console
         self.requests = []  # addresses
         self.bytes = 0      # that came, without those of WebSockets
+        self.socket_bytes = 0
         target = browser.call("Target.createTarget", url="about:blank", newWindow=True)["targetId"]
         self.session = browser.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
         browser.pages[self.session] = self
@@ -112,6 +113,9 @@ class Page:
             self.problems.append(event["entry"]["text"] + " " + event["entry"].get("url", ""))
         elif method == "Network.requestWillBeSent":
             self.requests.append(event["request"]["url"])
+        elif method == "Network.webSocketFrameReceived":
+            data = event["response"]["payloadData"]
+            self.socket_bytes += len(data) * 3 // 4 if event["response"]["opcode"] == 2 else len(data)
         elif method == "Network.loadingFinished":
             self.bytes += event["encodedDataLength"]
 

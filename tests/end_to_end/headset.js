@@ -56,6 +56,38 @@ XRSession.prototype.requestAnimationFrame = function (callback) {
     });
 };
 
+// The runtime moves its space: the head is over its origin then, and looks along -z. `is_known`: the event says how.
+const make_space = XRSession.prototype.requestReferenceSpace;
+XRSession.prototype.requestReferenceSpace = async function (type) {
+    const space = await make_space.call(this, type);
+    space.addEventListener("reset", event => event.transform = headset.space_moved);  // before the page's listener
+    return space;
+};
+headset.recentre = is_known => {
+    const { position, quaternion } = device;
+    const yaw = 2 * Math.atan2(quaternion.y, quaternion.w);
+    headset.space_moved = is_known ? new XRRigidTransform({ x: position.x, y: 0, z: position.z },
+                                                          { x: 0, y: Math.sin(yaw / 2), z: 0, w: Math.cos(yaw / 2) }) : undefined;
+    device.recenter();
+};
+headset.look = (x, y, z, yaw) => {
+    device.position.set(x, y, z);
+    device.quaternion.set(0, Math.sin(yaw / 2), 0, Math.cos(yaw / 2));
+};
+
+// The page's wishes to the display.
+headset.asked = { rates: [], scales: [] };
+const set_rate = XRSession.prototype.updateTargetFrameRate;
+XRSession.prototype.updateTargetFrameRate = function (rate) {
+    headset.asked.rates.push(rate);
+    return set_rate.call(this, rate);
+};
+const set_scale = XRView.prototype.requestViewportScale;
+XRView.prototype.requestViewportScale = function (scale) {
+    headset.asked.scales.push([this.eye, scale]);
+    return set_scale?.call(this, scale);
+};
+
 // Share of the pixels that hide the real world, of each half of the picture.
 headset.opaque = async () => {
     headset.wants_pixels = true;

@@ -45,7 +45,8 @@ class Playback(unittest.TestCase):
                 # Those who come meanwhile see the still scene, and nobody sees a stale camera.
                 early = self.box_at(link)
                 self.assertAlmostEqual(early, 20 + 3 * 10, delta=4)
-                self.assertEqual(anna.newest_json()["cameras"][0]["state"], "live")
+                # It is not live, however young its frames are.
+                self.assertEqual(anna.newest_json()["cameras"][0]["state"], "paused")
                 ben.say("seek +0.5")
                 anna.wait_for(lambda f: f["playback"]["position_s"] == 1 and f["playback"]["by"] == "Ben", 10)
                 self.assertAlmostEqual(self.box_at(link), 20 + 3 * 20, delta=4)
@@ -57,7 +58,8 @@ class Playback(unittest.TestCase):
                     self.assertEqual((view["age"], view["warning"]), ("", ""))
                 h.say("play")
                 ben.wait_for(lambda f: not f["playback"]["paused"] and f["playback"]["by"] == "host", 10)
-                ben.wait_for(lambda f: f["playback"]["position_s"] > 1.5, 10)
+                f = ben.wait_for(lambda f: f["playback"]["position_s"] > 1.5, 10)
+                self.assertEqual(f["cameras"][0]["state"], "recording")
                 ben.say("seek soon")
                 wait_until(lambda: any("seek SECONDS" in line for line in list(ben.errors)))
                 with Process("join", h.greeting["links"]["observer"], "--no-window") as guest:
@@ -75,7 +77,7 @@ class Playback(unittest.TestCase):
                 f = late.wait_for(lambda f: f["cameras"] and f["cameras"][0]["frames"] > 0, 20)
                 self.assertEqual(f["cameras"][0]["state"], "ended")
             viewer.say("play")
-            viewer.wait_for(lambda f: f["cameras"][0]["state"] == "live" and f["playback"]["position_s"] < 2, 10)
+            viewer.wait_for(lambda f: f["cameras"][0]["state"] == "recording" and f["playback"]["position_s"] < 2, 10)
             viewer.wait_for(lambda f: f["cameras"][0]["state"] == "ended", 20)
 
     def test_without_a_recording_is_told_so(self):

@@ -8,7 +8,7 @@ import unittest
 
 import theatron_process
 from browser import CHROMIUM, Browser
-from theatron_process import Process, host, read_png, wait_until
+from theatron_process import Process, host, read_png, run, wait_until
 
 PAGE = pathlib.Path(theatron_process.PROGRAM).parent / "web/files.txt"
 PICTURES = os.environ.get("THEATRON_PICTURES")  # a folder where pictures of the page stay
@@ -120,6 +120,13 @@ class WebHeadset(unittest.TestCase):
                      for y in range(40, height - 60, 5) for x in range(left + half // 3, left + half - 5, 3)})
                 for left in (0, half)]
 
+    def light_of_corners(self, name):
+        """The mean of all colours in the lower outer corner of each eye, where no text is."""
+        width, height, channels, rows = self.picture(name)
+        values = [value for y in range(height - 20, height, 3) for left in (0, width - 20) for x in range(left, left + 20, 3)
+                  for value in rows[y][channels * x:channels * x + 3]]
+        return sum(values) / len(values)
+
     def test_both_eyes_see_the_room_and_the_view_goes_on_at_the_window(self):
         self.enter()
         # The sides of the room are painted one after the other.
@@ -175,14 +182,137 @@ class WebHeadset(unittest.TestCase):
         there = self.ada_when(lambda ada: distance(ada["head"], start["head"]) > 0.8)
         self.assertAlmostEqual(there["head"][1], start["head"][1], delta=0.02)
         # Walking darkens the sides; seated people are lifted.
+        standing = self.light_of_corners("headset_standing")
         self.headset("device.controllers.left.updateAxes('thumbstick', 0, -1)")
         self.frames(4)
-        self.picture("headset_vignette")
+        self.assertLess(self.light_of_corners("headset_vignette"), standing / 2)
         self.headset("device.controllers.left.updateAxes('thumbstick', 0, 0)")
+        self.frames(4)
+        self.assertGreater(self.light_of_corners("headset_stopped"), standing / 2)
         self.headset("device.position.set(0, 1.2, 0)")
         self.choose(2, 9)
         self.ada_when(lambda ada: abs(ada["head"][1] - 1.65) < 0.02)
         self.headset("device.position.set(0, 1.6, 0)")
+
+    def test_after_a_recentre_one_stands_where_one_stood(self):
+        self.enter()
+        start = self.ada_when(lambda ada: "right_hand" in ada)["head"]
+        self.headset("look(0.6, 1.6, -0.5, 0.7)")
+        self.ada_when(lambda ada: distance(ada["head"], start) > 0.7)
+        self.headset("recentre(false)")
+        self.ada_when(lambda ada: distance(ada["head"], start) < 0.02)
+        self.headset("look(0, 1.6, 0, 0)")
+
+    def test_in_ar_the_table_keeps_its_place_after_a_recentre_or_is_placed_again(self):
+        self.enter("ar")
+        self.headset("aim('right', [0.3, 1.0, -1.2], [1.3, 1.0, -1.2])")
+        self.headset("grip('right', true)")
+        self.headset("grip('right', false)")
+        self.headset("look(0.6, 1.6, -0.5, 0.7)")
+        # Over the table, where the other hand was: the place of the room's origin.
+        over = self.ada_when(lambda ada: "right_hand" in ada and (ada["right_hand"][0] ** 2 + ada["right_hand"][2] ** 2) ** 0.5 < 0.02)
+        self.headset("recentre(true)")
+        self.frames(2)
+        kept = self.ada_when(lambda ada: "right_hand" in ada)
+        for part in ("head", "right_hand"):
+            self.assertLess(distance(kept[part], over[part]), 0.02)
+        # Nobody knows how the space moved: the place is asked for again, and until then the person is told so.
+        self.headset("look(-0.4, 1.6, 0.3, -0.5)")
+        self.headset("recentre(false)")
+        self.page.wait_for("theatron.state.overlay.notice.includes('lost the table')")
+        self.frames(3)
+        self.picture("headset_ar_lost")
+        self.headset("aim('right', [0.2, 1.0, -0.7], [1.2, 1.0, -0.7])")
+        self.headset("grip('right', true)")
+        self.headset("grip('right', false)")
+        self.page.wait_for("theatron.state.overlay.notice.includes('table is placed')")
+        self.ada_when(lambda ada: (ada["right_hand"][0] ** 2 + ada["right_hand"][2] ** 2) ** 0.5 < 0.02)
+        self.headset("look(0, 1.6, 0, 0)")
+
+    def test_the_display_is_asked_for_its_usual_rate_fewer_pixels_at_the_sides_and_those_that_can_be_drawn(self):
+        self.page.evaluate("simulated_headset.asked = { rates: [], scales: [] }")
+        self.enter()
+        self.assertEqual(self.page.evaluate("simulated_headset.asked.rates"), [72])
+        self.assertEqual(self.page.evaluate("theatron.headset.layer.fixedFoveation"), 0.5)
+        self.page.evaluate("globalThis.kept_client = theatron.headset.client")
+        self.addCleanup(self.page.evaluate, "theatron.headset.client = kept_client; true")
+        self.page.evaluate("theatron.headset.client = { ...theatron.headset.client, headset_scale: () => 0.625 };"
+                           "simulated_headset.asked.scales = []")
+        self.frames(2)
+        scales = self.page.evaluate("simulated_headset.asked.scales")
+        self.assertEqual({tuple(scale) for scale in scales[-2:]}, {("left", 0.625), ("right", 0.625)})
+
+    def test_three_people_of_three_kinds_hand_a_brick_round_and_see_the_same(self):
+        cleo = self.browser.open(self.link, SIZE)
+        cleo.enter("Cleo", way="room")
+        cleo.wait_for("theatron.state.pictures > 0 && theatron.state.people.length === 3")
+        self.enter()
+        number = self.make_brick()
+        x, y, z = self.brick(number)["position"]
+        self.ben.say(f"stand {x + 0.3} {y} {z} {x} {y} {z}")
+        self.ben.wait_for(lambda f: distance(self.person(f, "Ben").get("head", (9, 9, 9)), (x + 0.3, y, z)) < 0.01, 60)
+
+        pages = [self.page, cleo]
+        hashes = ()
+
+        def same():
+            """All know the same room, within some tries."""
+            def agree():
+                nonlocal hashes
+                hashes = (self.ben.newest_json()["room"]["hash"], *(page.evaluate("theatron.state.room_hash") for page in pages))
+                return len(set(hashes)) == 1
+            try:
+                wait_until(agree)
+            except AssertionError:
+                self.fail(hashes)
+
+        def seen(step):
+            same()
+            self.picture(f"three_headset_{step}")
+            folder = pathlib.Path(PICTURES or self.folder)
+            cleo.screenshot(folder / f"three_page_{step}.png")
+            # As a native participant sees it; who leaves is no longer in the room.
+            code, _, errors = run("join", self.link, "--name", "Dora", "--offscreen", folder / f"three_native_{step}.png",
+                                  "--size", "640x360", "--seconds", "2")
+            self.assertEqual(code, 0, errors)
+            cleo.wait_for("theatron.state.people.length === 3")
+
+        self.headset("aim('right', [0.2, 1.3, -0.2], [0, 1.6, -0.8])")
+        self.headset("grip('right', true)")
+        self.wait_for_holder(number, "Ada")
+        seen("ada")
+        # To the nearest person, who is Ben.
+        self.headset("device.controllers.right.updateButtonValue('a-button', 1)")
+        self.wait_for_holder(number, "Ben")
+        self.headset("device.controllers.right.updateButtonValue('a-button', 0)")
+        self.headset("grip('right', false)")
+        seen("ben")
+        # Before her eye.
+        ear = cleo.evaluate("theatron.state.ear")
+        x, y, z = (at + 0.8 * way for at, way in zip(ear["position"], ear["ahead"]))
+        self.ben.say(f"move {x} {y} {z}")
+        self.ben.say("give Cleo")
+        self.wait_for_holder(number, "Cleo")
+        self.ben.say("stand 6 1.6 6 0 1.6 0")
+        drawn = cleo.evaluate("theatron.state.pictures")
+        cleo.wait_for(f"theatron.state.pictures > {drawn + 2}")
+        seen("cleo")
+        middle = (SIZE[0] / 2, SIZE[1] / 2)
+        cleo.evaluate("document.getElementById('view').focus()")
+        cleo.mouse("mouseMoved", *middle, "none")
+        cleo.mouse("mousePressed", *middle)
+        drawn = cleo.evaluate("theatron.state.pictures")
+        cleo.wait_for(f"theatron.state.pictures > {drawn + 2}")
+        cleo.press("g", "KeyG")
+        self.wait_for_holder(number, "Ada")
+        cleo.mouse("mouseReleased", *middle)
+        seen("ada_again")
+        cleo.evaluate("document.getElementById('leave').click()")
+        cleo.wait_for("theatron.state.phase === 'left'")
+        self.page.wait_for("theatron.state.people.length === 2")
+        pages.remove(cleo)
+        same()
+        self.assertEqual(cleo.problems, [])
 
     def test_a_pinch_takes_a_brick_and_lets_it_go(self):
         self.enter()

@@ -4,10 +4,11 @@ import contextlib
 import os
 import pathlib
 import tempfile
+import time
 import unittest
 
 from browser import CHROMIUM, Browser
-from theatron_process import PROGRAM, Process, host
+from theatron_process import PROGRAM, Process, host, wait_until
 
 PAGE = pathlib.Path(PROGRAM).parent / "web/files.txt"
 PICTURES = os.environ.get("THEATRON_PICTURES")  # a folder where pictures of the page stay
@@ -105,6 +106,37 @@ class WebSmall(unittest.TestCase):
             page.wait_for(f"theatron.state.pictures > {pictures + 2}")
             page.evaluate("document.getElementById('leave').click()")
             page.wait_for("theatron.state.phase === 'left'")
+
+    def test_the_2d_view_gets_the_colour_of_its_camera_alone_and_not_much_of_it(self):
+        def came(page, seconds=3):
+            """Frames of each camera's depth and colour, and bytes, a second."""
+            counts = "theatron.state.cameras.map(({ depth_frames, color_frames }) => [depth_frames, color_frames])"
+            before, size, begin = page.evaluate(counts), page.socket_bytes, time.monotonic()
+            time.sleep(seconds)
+            after, seconds = page.evaluate(counts), time.monotonic() - begin
+            return ([[(b - a) / seconds for a, b in zip(*both)] for both in zip(before, after)], (page.socket_bytes - size) / seconds)
+
+        with Browser() as browser:
+            page = self.open(browser)
+            self.enter(page, "flat")
+            shown = page.wait_for("theatron.state.flat_camera")
+            wait_until(lambda: [bool(sum(frames)) for frames in came(page)[0]] == [True, False])
+            (first, second), size = came(page)
+            self.assertEqual((first[0], second), (0, [0, 0]))
+            self.assertGreater(first[1], 0)
+            self.assertLess(size, 1.5 * 2e6 / 8, "the ceiling of 2 Mbit/s")
+            # The other camera instead.
+            page.evaluate("document.getElementById('next_camera').click()")
+            page.wait_for(f"theatron.state.flat_camera && theatron.state.flat_camera !== '{shown}'")
+            wait_until(lambda: [bool(sum(frames)) for frames in came(page)[0]] == [False, True])
+            self.assertIn("not sent", page.evaluate("document.getElementById('camera_list').innerText"))
+            page.evaluate("document.getElementById('other_way').click()")
+            page.wait_for("theatron.state.renderer !== 'flat' && theatron.state.cameras.every(c => c.depth_frames > 0 && c.color_frames > 0)")
+            room, whole = came(page)
+            self.assertLess(size, whole)
+            if PICTURES:
+                print(f"2D view: {first} frames/s, {size * 8e-6:.2f} Mbit/s; room: {room} frames/s, {whole * 8e-6:.2f} Mbit/s")
+            self.assertEqual(page.problems, [])
 
     def test_300_pixels_are_enough(self):
         with Browser() as browser:

@@ -29,9 +29,12 @@ EMSCRIPTEN_KEEPALIVE void theatron_draw_headset(int real_room) {
 EMSCRIPTEN_KEEPALIVE double theatron_headset_scale() {
     return page().visit ? page().visit->viewer.way().scale : 1;
 }
-EMSCRIPTEN_KEEPALIVE void theatron_recentre() {
+// The tracking space was moved, before the first frame that is in the new one. `is_known`:
+// theatron_memory() has a pose, as headset_input.h writes it, of the new origin in the old space.
+EMSCRIPTEN_KEEPALIVE void theatron_space_moved(int is_known) {
+    const auto moved = is_known != 0 ? web::read_headset_pose(page().bytes) : std::nullopt;
     if (page().visit)
-        web::guarded([] { page().visit->viewer.recentre_headset(); });
+        web::guarded([&] { page().visit->viewer.on_headset_space_moved(moved); });
 }
 // The person's choice in the headset's menu since the last call: 1: the microphone, 2: to leave
 // the headset, 0: nothing.

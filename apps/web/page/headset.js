@@ -91,7 +91,7 @@ export class Headset {
             this.layer = new XRWebGLLayer(session, gl, { antialias: false, alpha: kind === "ar" });
             await session.updateRenderState({ baseLayer: this.layer, depthNear: near_m, depthFar: far_m });
             this.space = await session.requestReferenceSpace("local-floor");
-            this.space.addEventListener("reset", () => this.client.recentre());
+            this.space.addEventListener("reset", ({ transform }) => this.move_space(transform));
             // Fewer pixels at the sides, where the headset can do that.
             if (typeof this.layer.fixedFoveation === "number")
                 this.layer.fixedFoveation = foveation;
@@ -107,6 +107,15 @@ export class Headset {
         session.addEventListener("end", () => this.leave_session());
         this.client.enter_headset(kind === "ar" ? 1 : 0, session.frameRate ?? usual_rate);
         session.requestAnimationFrame((time, frame) => this.draw(time, frame));
+    }
+
+    // The space has another origin from the next frame on; `transform` may be missing.
+    move_space(transform) {
+        const numbers = new Numbers();
+        if (transform)
+            numbers.pose(transform);
+        put_bytes(this.module, Float32Array.from(numbers.all).buffer);
+        this.client.space_moved(transform ? 1 : 0);
     }
 
     async leave() {

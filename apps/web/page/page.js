@@ -64,9 +64,9 @@ async function load_client() {
         draw_headset: [null, numbers(1)],
         leave_headset: [null, []],
         headset_scale: ["number", []],
-        recentre: [null, []],
         use_language: [null, ["string"]],
         use_touch: [null, []],
+        space_moved: [null, numbers(1)],
         headset_wish: ["number", numbers(1)],
         reset_figures: [null, []],
         speak: [null, [...numbers(4), "array", "number"]],
@@ -108,7 +108,8 @@ const page = globalThis.theatron = { state: { phase: "left" }, first_picture_ms:
     graphics: "card", way: "room", visit: 0, headset_kinds: {}, voice_may_record: false, Patience };
 
 function is_complete({ cameras, has_picture }) {
-    return has_picture && cameras.every(camera => camera.depth_frames && (camera.color_frames || !camera.color));
+    return has_picture && cameras.every(camera => !camera.is_asked_for ||
+        (camera.depth === "none" || camera.depth_frames) && (camera.color_frames || !camera.color));
 }
 
 function run({ client, voice, face, module, flat }) {

@@ -142,9 +142,9 @@ export function show(state) {
     $("cameras").hidden = state.cameras.length === 0;
     // Without a connection no camera is live, whatever the host said last.
     const is_connected = state.phase === "joined";
-    update($("camera_list"), state.cameras.map(({ name, state, depth_frames, fps, age_ms }) => ({
+    update($("camera_list"), state.cameras.map(({ name, state, is_asked_for, frames, fps, age_ms }) => ({
         name, state: is_connected || state !== "live" ? state : "stale",
-        line: !is_connected ? text("no_connection") : depth_frames ? text("camera_line", { fps: Math.round(fps), age: age(age_ms) }) : text("no_picture"),
+        line: !is_connected ? text("no_connection") : !is_asked_for ? text("not_shown") : frames ? text("camera_line", { fps: Math.round(fps), age: age(age_ms) }) : text("no_picture"),
     })), fill_cameras);
     update($("room_panels"), overlay.panels, fill_panels);
 }
