@@ -4,6 +4,7 @@
 #include "client/decoder_pool_web.h"
 #include "session/permissions.h"
 #include "session/room_bytes.h"
+#include "session/room_text.h"
 
 namespace theatron::web {
 namespace {
