@@ -5,6 +5,7 @@
 #include "phrases/phrase.h"
 #include "session/permissions.h"
 #include "session/room_bytes.h"
+#include "session/room_text.h"
 
 namespace theatron::web {
 namespace {
