@@ -15,6 +15,7 @@
 #include "page_input.h"
 #include "page_state.h"
 #include "phrases/language.h"
+#include "phrases/phrase.h"
 #include "render/font_atlas_web.h"
 #include "visit.h"
 
