@@ -75,7 +75,16 @@ headset.look = (x, y, z, yaw) => {
     device.quaternion.set(0, Math.sin(yaw / 2), 0, Math.cos(yaw / 2));
 };
 
-// The page's wishes to the display.
+// Head, controllers and hands as they are at first.
+const inputs = ["left", "right"].flatMap(side => [device.controllers[side], device.hands[side]]);
+const first = [device, ...inputs].map(({ position: p, quaternion: q }) => [[p.x, p.y, p.z], [q.x, q.y, q.z, q.w]]);
+headset.rest = () => [device, ...inputs].forEach(({ position, quaternion }, i) => {
+    position.set(...first[i][0]);
+    quaternion.set(...first[i][1]);
+});
+
+// The page's wishes to the display, and what it sets of a layer that can have fewer pixels at the sides.
+XRWebGLLayer.prototype.fixedFoveation = 0;
 headset.asked = { rates: [], scales: [] };
 const set_rate = XRSession.prototype.updateTargetFrameRate;
 XRSession.prototype.updateTargetFrameRate = function (rate) {

@@ -4,6 +4,7 @@ import contextlib
 import os
 import pathlib
 import tempfile
+import time
 import unittest
 
 import theatron_process
@@ -53,10 +54,12 @@ class WebHeadset(unittest.TestCase):
         self.assertEqual(self.page.problems, [])
 
     def enter(self, kind="vr"):
+        self.page.evaluate("simulated_headset.rest()")
         self.page.wait_for(f"!document.getElementById('enter_{kind}').hidden")
         self.page.evaluate(f"document.getElementById('enter_{kind}').click()")
         self.page.wait_for("theatron.headset.is_on")
         self.frames(1)
+        self.ben.newest_json()  # the ones before it are of another session
 
     def frames(self, count):
         seen = self.page.evaluate("simulated_headset.frames")
@@ -201,18 +204,22 @@ class WebHeadset(unittest.TestCase):
         self.ada_when(lambda ada: distance(ada["head"], start) > 0.7)
         self.headset("recentre(false)")
         self.ada_when(lambda ada: distance(ada["head"], start) < 0.02)
-        self.headset("look(0, 1.6, 0, 0)")
 
     def test_in_ar_the_table_keeps_its_place_after_a_recentre_or_is_placed_again(self):
         self.enter("ar")
+        self.headset("look(0.6, 1.6, -0.5, 0.7)")
         self.headset("aim('right', [0.3, 1.0, -1.2], [1.3, 1.0, -1.2])")
         self.headset("grip('right', true)")
         self.headset("grip('right', false)")
-        self.headset("look(0.6, 1.6, -0.5, 0.7)")
+        self.frames(2)
+        time.sleep(0.5)
+        self.ben.newest_json()
         # Over the table, where the other hand was: the place of the room's origin.
-        over = self.ada_when(lambda ada: "right_hand" in ada and (ada["right_hand"][0] ** 2 + ada["right_hand"][2] ** 2) ** 0.5 < 0.02)
+        over = self.ada_when(lambda ada: "right_hand" in ada and (ada["right_hand"][0] ** 2 + ada["right_hand"][2] ** 2) ** 0.5 < 0.15)
         self.headset("recentre(true)")
         self.frames(2)
+        time.sleep(0.5)
+        self.ben.newest_json()
         kept = self.ada_when(lambda ada: "right_hand" in ada)
         for part in ("head", "right_hand"):
             self.assertLess(distance(kept[part], over[part]), 0.02)
@@ -221,13 +228,14 @@ class WebHeadset(unittest.TestCase):
         self.headset("recentre(false)")
         self.page.wait_for("theatron.state.overlay.notice.includes('lost the table')")
         self.frames(3)
+        # The way to do it is written before the eyes.
+        wait_until(lambda: min(self.page.evaluate("simulated_headset.opaque()")) > 0)
         self.picture("headset_ar_lost")
         self.headset("aim('right', [0.2, 1.0, -0.7], [1.2, 1.0, -0.7])")
         self.headset("grip('right', true)")
         self.headset("grip('right', false)")
         self.page.wait_for("theatron.state.overlay.notice.includes('table is placed')")
-        self.ada_when(lambda ada: (ada["right_hand"][0] ** 2 + ada["right_hand"][2] ** 2) ** 0.5 < 0.02)
-        self.headset("look(0, 1.6, 0, 0)")
+        self.ada_when(lambda ada: (ada["right_hand"][0] ** 2 + ada["right_hand"][2] ** 2) ** 0.5 < 0.15)
 
     def test_the_display_is_asked_for_its_usual_rate_fewer_pixels_at_the_sides_and_those_that_can_be_drawn(self):
         self.page.evaluate("simulated_headset.asked = { rates: [], scales: [] }")
@@ -243,14 +251,15 @@ class WebHeadset(unittest.TestCase):
         self.assertEqual({tuple(scale) for scale in scales[-2:]}, {("left", 0.625), ("right", 0.625)})
 
     def test_three_people_of_three_kinds_hand_a_brick_round_and_see_the_same(self):
-        cleo = self.browser.open(self.link, SIZE)
-        cleo.enter("Cleo", way="room")
-        cleo.wait_for("theatron.state.pictures > 0 && theatron.state.people.length === 3")
         self.enter()
         number = self.make_brick()
+        size = (960, 540)
+        cleo = self.browser.open(self.link, size)
+        cleo.enter("Cleo", way="room")
+        cleo.wait_for("theatron.state.pictures > 0 && theatron.state.people.length === 3")
         x, y, z = self.brick(number)["position"]
         self.ben.say(f"stand {x + 0.3} {y} {z} {x} {y} {z}")
-        self.ben.wait_for(lambda f: distance(self.person(f, "Ben").get("head", (9, 9, 9)), (x + 0.3, y, z)) < 0.01, 60)
+        self.page.wait_for(f"Math.abs(theatron.state.people.find(p => p.name === 'Ben')?.head?.[0] - {x + 0.3}) < 0.01")
 
         pages = [self.page, cleo]
         hashes = ()
@@ -291,13 +300,14 @@ class WebHeadset(unittest.TestCase):
         ear = cleo.evaluate("theatron.state.ear")
         x, y, z = (at + 0.8 * way for at, way in zip(ear["position"], ear["ahead"]))
         self.ben.say(f"move {x} {y} {z}")
+        self.ben.wait_for(lambda f: any(o["id"] == number and distance(o["position"], (x, y, z)) < 0.01 for o in self.bricks(f)), 60)
         self.ben.say("give Cleo")
         self.wait_for_holder(number, "Cleo")
         self.ben.say("stand 6 1.6 6 0 1.6 0")
         drawn = cleo.evaluate("theatron.state.pictures")
         cleo.wait_for(f"theatron.state.pictures > {drawn + 2}")
         seen("cleo")
-        middle = (SIZE[0] / 2, SIZE[1] / 2)
+        middle = (size[0] / 2, size[1] * 0.57)  # the camera's axis
         cleo.evaluate("document.getElementById('view').focus()")
         cleo.mouse("mouseMoved", *middle, "none")
         cleo.mouse("mousePressed", *middle)
