@@ -14,9 +14,9 @@ namespace {
 
 // Until SIGINT or SIGTERM, which are blocked, or until the session refuses or ends.
 void send_camera(const char* link, const char* camera, const sigset_t& stop) {
-    publish::CameraPublisher publisher({camera}, "", {});
     client::Participant::Options options;
     options.link = net::parse_link(link);
+    publish::CameraPublisher publisher({camera}, "", {});
     options.name = "example";
     options.sends_only = true;
     options.publishing = publisher.events();

@@ -116,7 +116,7 @@ class Person(unittest.TestCase):
                 return screen.pixels(180, 200, 1, 1)[0][2] > 180
 
             def next_pixels():
-                time.sleep(0.2)
+                time.sleep(0.5)
                 return screen.pixels(10, 20, 60, 60)
 
             def shown(*options):

@@ -97,7 +97,7 @@ class Process:
     def __enter__(self):
         return self
 
-    def __exit__(self, kind, *_):
+    def __exit__(self, kind=None, *_):
         code = self.process.poll()
         if code is None:
             self.process.send_signal(signal.SIGCONT)
