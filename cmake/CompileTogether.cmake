@@ -51,6 +51,7 @@ set(THEATRON_COMPILED_ALONE
   src/cases/share_case.cpp
   src/cases/synth_test.cpp
   src/client/settings.cpp
+  src/codec/byte_decompressors.cpp
   src/codec/depth_stream_test.cpp
   src/codec/strata.cpp
   src/filter/chain_settings_test.cpp
@@ -111,6 +112,7 @@ set(THEATRON_COMPILED_ALONE
   src/viewer/meeting.cpp
   src/viewer/monitor.cpp
   src/wire/control.cpp
+  src/xr/drawing_rest_test.cpp
   src/xr/overlay_native.cpp
 )
 
