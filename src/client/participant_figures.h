@@ -50,8 +50,8 @@ struct ParticipantFigures {
 // "live", "stale", "ended" or "failed".
 const char* state_text(const CameraFigures& camera);
 
-// A camera's problem in English; empty: none. Only those who may adjust cameras are told what to do
-// about a place.
+// A camera's problem in the program's language; empty: none. Only those who may adjust cameras are
+// told what to do about a place.
 std::string problem_text(const wire::CameraState& state, wire::Role reader);
 
 // A camera's adjustment: "moved by 12.0, 0.0, 0.0 mm"; empty: it is as registered.
