@@ -293,6 +293,9 @@ SendingFigures Outbox::take_figures(TimePoint now) {
     figures.delay = flight_.take_delay(now);
     figures.dropped = std::exchange(dropped_, 0);
     figures.bytes_on_the_way = std::size_t(flight_.bytes_on_the_way());
+    const std::uint64_t taken = flight_.bytes_taken();
+    figures.stands_still = figures.bytes_on_the_way > 0 && taken == taken_before_;
+    taken_before_ = taken;
     return figures;
 }
 

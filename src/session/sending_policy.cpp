@@ -19,6 +19,10 @@ constexpr double clearly_better = 1.3;
 // A single late frame may be chance, and BBR's probing (for a fifth of a second, every ten
 // seconds) is not a slow link.
 constexpr int late_measures = 3;
+// A browser's page that loads takes nothing for up to half a second, whatever its link carries: it
+// compiles its shaders when the first frames arrive.
+constexpr Duration at_first = std::chrono::seconds(2);
+constexpr int forgiven_at_first = 6;  // measures in a row without an answer
 constexpr Duration shortest_settling = std::chrono::milliseconds(400);
 constexpr Duration calm_to_go_up = std::chrono::milliseconds(600);
 // Before trials of a receiver with which none has failed. Nothing shows the rate of a link that
@@ -66,7 +70,12 @@ bool SendingPolicy::fail_trial(const LinkMeasure& link) {
     return true;
 }
 
-bool SendingPolicy::is_late(const LinkMeasure& link, Duration goal) {
+bool SendingPolicy::is_late(const LinkMeasure& link, Duration goal, TimePoint now) {
+    if (!began_)
+        began_ = now;
+    forgiven_ = link.stands_still ? forgiven_ + 1 : 0;
+    if (link.stands_still && now - *began_ < at_first && forgiven_ <= forgiven_at_first)
+        return false;
     // A step that is only tried and loses frames is too much, even if those that get through are
     // in time.
     const bool late = link.delay > goal || (trying_ && link.dropped > 0);
@@ -113,7 +122,7 @@ bool SendingPolicy::update(const LinkMeasure& link, std::span<const StepNeed> ne
 
     const bool wanted = goal.latency > Duration(0);
     const Duration reachable = reachable_goal(link, needs, goal.latency);
-    const bool late = wanted && is_late(link, reachable);
+    const bool late = wanted && is_late(link, reachable, now);
     if (link.delay > reachable || link.dropped > 0)
         calm_since_ = now;
     if (late && now >= settled_ && step_ < last) {

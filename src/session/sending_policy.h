@@ -11,6 +11,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,6 +25,7 @@ struct LinkMeasure {
     Duration round_trip{};        // of the link without queues
     Duration delay{};             // the longest of a frame, from encoded to arrived
     int dropped = 0;              // frames that were dropped because the link was too slow
+    bool stands_still = false;    // frames wait for the receiver, and it has taken nothing
 };
 
 // The rate that a step of the ladder needs.
@@ -62,17 +64,19 @@ private:
     void go(int step, SendingReason reason, TimePoint now);
     bool fail_trial(const LinkMeasure& link);
     int step_for(const LinkMeasure& link, std::span<const StepNeed> needs, Duration goal) const;
-    bool is_late(const LinkMeasure& link, Duration goal);
+    bool is_late(const LinkMeasure& link, Duration goal, TimePoint now);
     bool step_up(const LinkMeasure& link, std::span<const StepNeed> needs, const SendingGoal& goal,
                  Duration reachable, TimePoint now);
 
     int step_ = 0;
     SendingReason reason_ = SendingReason::none;
     int late_in_a_row_ = 0;
-    TimePoint settled_;        // no other step down before
-    TimePoint calm_since_;     // nothing late and nothing dropped
-    bool trying_ = false;      // the last step up is still a trial
-    bool has_failed_ = false;  // any trial yet
+    std::optional<TimePoint> began_;  // the first measure
+    int forgiven_ = 0;                // measures in a row in which the receiver took nothing
+    TimePoint settled_;               // no other step down before
+    TimePoint calm_since_;            // nothing late and nothing dropped
+    bool trying_ = false;             // the last step up is still a trial
+    bool has_failed_ = false;         // any trial yet
     TimePoint went_up_;
 
     static constexpr Duration first_patience = std::chrono::seconds(3);

@@ -141,6 +141,33 @@ TEST(SendingPolicy, OneLateFrameIsAnAccident) {
     EXPECT_EQ(r.policy.step(), 0);
 }
 
+TEST(SendingPolicy, APageThatLoadsIsNoSlowLink) {
+    Trial r;
+    r.run(0.3);
+    LinkMeasure pause = r.link.measure(r.needs[0]);
+    pause.stands_still = true;
+    for (int i = 1; i <= 5; ++i) {
+        pause.delay = i * std::chrono::milliseconds(100);
+        r.policy.update(pause, r.needs, r.goal, r.now += std::chrono::milliseconds(100));
+    }
+    EXPECT_EQ(r.policy.step(), 0);
+    r.run(3);
+    EXPECT_EQ(r.policy.step(), 0);
+    // Later the same pause is the link's.
+    for (int i = 1; i <= 5; ++i) {
+        pause.delay = i * std::chrono::milliseconds(100);
+        r.policy.update(pause, r.needs, r.goal, r.now += std::chrono::milliseconds(100));
+    }
+    EXPECT_GT(r.policy.step(), 0);
+}
+
+TEST(SendingPolicy, ASlowLinkIsSeenWithinASecondOfTheBeginning) {
+    Trial r;
+    r.link.carries = 10 * mbit;
+    r.run(1.2);
+    EXPECT_LE(r.needs[std::size_t(r.policy.step())].bytes_per_second, 10 * mbit);
+}
+
 TEST(SendingPolicy, TrialsThatFailBecomeRare) {
     // The link is believed to carry more than it does, so that only trying tells.
     Trial r;

@@ -68,9 +68,8 @@ public:
     bool step(Size picture, TimePoint now);
 
     // With RoomChoice::in_steps: a step of the work on the room, some milliseconds. See LiveScene.
-    void prepare(bool gpu_is_idle) {
-        scene_changed_ = scene_.prepare(gpu_is_idle) || scene_changed_;
-    }
+    // Does nothing in two calls of three while drawing rests for decoding.
+    void prepare(bool gpu_is_idle);
 
     // Needs facts().has_picture. Draws into a cleared target that has way().scale of `picture` on
     // each side. If the driver cannot run a renderer, the previous one is used again; Error if
@@ -243,6 +242,7 @@ private:
     xr::PaceLimits pace_limits_;
     xr::DrawingPace pace_;
     xr::DrawingRest rest_;
+    unsigned preparations_ = 0;  // calls of prepare()
     TimePoint receiving_noted_;
     std::uint64_t dropped_ = 0;                   // then
     std::optional<xr::DrawingPace> window_pace_;  // before the headset

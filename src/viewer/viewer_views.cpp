@@ -59,6 +59,12 @@ void Viewer::go_home(const xr::KeyPress& key, Size picture, TimePoint now) {
     }
 }
 
+void Viewer::prepare(bool gpu_is_idle) {
+    constexpr unsigned calls_while_resting = 3;
+    if (rest_.step() == 0 || ++preparations_ % calls_while_resting == 0)
+        scene_changed_ = scene_.prepare(gpu_is_idle) || scene_changed_;
+}
+
 void Viewer::view_from_above(TimePoint now) {
     auto place = from_above(cameras());
     if (!place || !eye_.is_placed())

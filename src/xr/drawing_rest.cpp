@@ -7,7 +7,7 @@ namespace theatron::xr {
 
 void DrawingRest::add(TimePoint begun, Duration processor) {
     constexpr double newest_share = 0.2;
-    constexpr Duration longest(1'000'000 / fewest_per_second);
+    constexpr Duration longest(std::int64_t(1e6 / fewest_per_second));
     if (begun_ && begun > *begun_) {
         // As if the next picture had begun without rest.
         const Duration rest = std::max(next_ - *begun_ - took_, Duration{});

@@ -30,7 +30,7 @@ public:
     // Shares of the time that drawing may take, by step.
     static constexpr std::array<double, 3> shares{1, 0.5, 0.25};
     // Rest alone never leads to fewer pictures a second.
-    static constexpr int fewest_per_second = 4;
+    static constexpr double fewest_per_second = 2.5;
     // Drawing that takes a smaller share of the time costs no frames.
     static constexpr double small_share = 0.15;
     // Time without a lost frame before more is drawn: twice as long after each time that this was

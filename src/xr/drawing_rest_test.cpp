@@ -99,7 +99,7 @@ TEST(DrawingRest, FewerPicturesBringTheFramesBack) {
     EXPECT_GE(viewer.pictures_per_s(), DrawingRest::fewest_per_second - 0.5);
 }
 
-TEST(DrawingRest, RestAloneLeavesFourPicturesASecond) {
+TEST(DrawingRest, RestAloneLeavesTwoPicturesASecond) {
     for (const Duration drawing : {20ms, 60ms, 120ms, 240ms}) {
         Viewer viewer({25, drawing, 1000, 39, false}, true);
         viewer.watch(2s);

@@ -339,7 +339,7 @@ class WebHeadset(unittest.TestCase):
         pages.remove(cleo)
         same()
         self.assertEqual(cleo.problems, [])
-        # What she was given hangs where it was; she takes it by her ray, and lets it go.
+        # A given object hangs where it was; the ray takes it, and lets it go.
         head = self.ada_when(lambda ada: True)["head"]
         ahead = [(made[axis] - head[axis]) / 0.8 for axis in (0, 2)]
         way = [at - from_ for at, from_ in zip(self.brick(number)["position"], head)]

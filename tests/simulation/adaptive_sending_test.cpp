@@ -197,7 +197,8 @@ private:
 
     void tick() {
         const auto f = outbox_.take_figures(now);
-        host_.on_link(viewer_id, {f.bytes_per_second, f.round_trip, f.delay, f.dropped}, now);
+        host_.on_link(viewer_id,
+                      {f.bytes_per_second, f.round_trip, f.delay, f.dropped, f.stands_still}, now);
         host_.on_tick(now);
     }
 
