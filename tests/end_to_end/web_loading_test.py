@@ -87,8 +87,8 @@ class WebLoading(unittest.TestCase):
             return sum(request.split("#")[0].endswith(f":{door.own_port}/") for request in page.requests)
 
     def test_files_that_did_not_come_are_asked_for_again(self):
-        # The first ones are the page and its script; a browser asks a second time for some of the others.
-        self.assertGreater(self.enter_behind(range(8, 50)), 1)
+        # The first ones are the page and its script; a browser asks again for the others by itself, some times.
+        self.assertTrue(any(self.enter_behind(range(8, end)) > 1 for end in (50, 100, 150)))
 
     def test_lost_graphics_bring_the_person_back_once(self):
         lose = """(document.getElementById('view').getContext('webgl2').getExtension('WEBGL_lose_context').loseContext(),
