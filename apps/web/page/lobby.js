@@ -38,7 +38,9 @@ export class Lobby {
             if (!document.hidden)
                 again = await this.show();
         } catch {
-            // A host that is away now may be back the next time; entering says what is wrong.
+            // It may be back the next time.
+            if (this.is_watching && turn === this.turn)
+                this.be_silent();
         }
         if (turn !== this.turn)
             return;
@@ -55,8 +57,10 @@ export class Lobby {
             this.tell([text("lobby_unknown")]);
             return false;
         }
-        if (!answer.ok)
+        if (!answer.ok) {
+            this.be_silent();
             return true;
+        }
         const lobby = await answer.json();
         const session = lobby?.sessions?.[0];
         if (!session || !this.is_watching)
@@ -65,6 +69,12 @@ export class Lobby {
         this.tell(lines_of(session, lobby.role));
         await this.show_picture(session);
         return !session.ended;
+    }
+
+    // What was shown of the session may no longer be so.
+    be_silent() {
+        this.tell([text("lobby_silent")]);
+        $("session_picture").hidden = true;
     }
 
     tell(lines) {

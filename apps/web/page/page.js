@@ -9,7 +9,7 @@ import { FlatView, Patience, find_graphics, note_lost_graphics, take_lost_graphi
 import { Headset, headset_kinds } from "./headset.js";
 import { listen } from "./input.js";
 import { Lobby } from "./lobby.js";
-import { face_problem, fill_texts, show, show_face, show_voices } from "./panels.js";
+import { command_of, face_problem, fill_texts, show, show_face, show_voices } from "./panels.js";
 import { Person } from "./person.js";
 import { PicturePanel } from "./picture.js";
 import { put_bytes, with_patience, with_program } from "./program.js";
@@ -121,9 +121,9 @@ function run({ client, voice, face, module, flat }) {
     const picture_panel = new PicturePanel(client, () => next_texts = 0);
     follow_touch(() => picture_panel.name());
     $("room_panels").addEventListener("click", event => {
-        const { command } = event.target.dataset;
-        if (command !== undefined)
-            client.command(Number(command));
+        const command = event.target.dataset.command === undefined ? null : command_of(event.target, page.state.overlay.panels);
+        if (command !== null)
+            client.command(command);
         next_texts = 0;
     });
     $("tools").addEventListener("click", event => {
@@ -140,12 +140,22 @@ function run({ client, voice, face, module, flat }) {
     };
     $("voice_recording").addEventListener("click", change_voice_recording);
     hold_to_talk($("talk"), voice);
-    hold_to_talk(canvas, voice);
+    for (const picture of [canvas, $("flat")])
+        hold_to_talk(picture, voice);
     // After a click on a button the keys go on to act in the room; a button reached by Tab keeps the focus.
-    $("side").addEventListener("click", event => event.detail > 0 && event.target.closest("button") && canvas.focus({ preventScroll: true }));
-    canvas.addEventListener("keydown", event => {
-        if (event.key === "Escape" && page.state.phase !== "joined")
+    $("side").addEventListener("click", event => event.detail > 0 && event.target.closest("button") &&
+        $(page.way === "flat" ? "flat" : "view").focus({ preventScroll: true }));
+    document.addEventListener("keydown", event => {
+        if (event.key === "Escape" && !["joined", "left"].includes(page.state.phase) && !$("help").open)
             client.leave();
+    });
+    $("flat").addEventListener("keydown", event => {
+        if (["h", "H", "F1"].includes(event.key) && !event.ctrlKey && !event.altKey && !event.metaKey) {
+            event.preventDefault();
+            help();
+        }
+    });
+    const on_voice_key = event => {
         if (event.key.toLowerCase() === "l" && !event.repeat && !event.ctrlKey && !event.metaKey && !event.altKey)
             voice.toggle_microphone();
         if (!["F7", "F8"].includes(event.key))
@@ -157,7 +167,9 @@ function run({ client, voice, face, module, flat }) {
             change_push_to_talk(voice);
         else if (page.state.voice_may_record !== null)
             change_voice_recording();
-    });
+    };
+    for (const picture of [canvas, $("flat")])
+        picture.addEventListener("keydown", on_voice_key);
     $("show_help").addEventListener("click", help);
     // Only narrow pages and touch have this button; narrow ones begin with the room alone.
     const fold = is_folded => {
@@ -165,7 +177,7 @@ function run({ client, voice, face, module, flat }) {
         $("menu").setAttribute("aria-expanded", String(!is_folded));
     };
     $("menu").addEventListener("click", () => fold(!$("side").classList.contains("folded")));
-    fold(matchMedia("(max-width: 30rem)").matches);
+    fold(matchMedia("(max-width: 30rem)").matches || (by_touch() && matchMedia("(max-height: 30rem)").matches));
     $("leave").addEventListener("click", () => client.leave());
     canvas.addEventListener("webglcontextlost", () => {
         if (page.state.phase !== "left")
@@ -348,11 +360,11 @@ function place_voices(voice, { ear, people }) {
                                  : others.map(({ id }) => [id, [0, 0, -1]])));
 }
 
-function show_way({ has_picture, flat_camera }) {
+function show_way({ has_picture, flat_camera, cameras }) {
     const is_flat = page.way === "flat";
     $("drawing").hidden = !is_flat && page.graphics === "card";
     const sentence = !is_flat ? text("drawn_by_processor")
-        : !has_picture ? text("flat_waits")
+        : !has_picture ? text(cameras.length ? "flat_waits" : "lobby_no_cameras")
         : (page.why ? text(page.why) + " " : "") + text("flat_is_shown", { camera: flat_camera });
     if ($("drawing_text").textContent !== sentence)
         $("drawing_text").textContent = sentence;
@@ -448,7 +460,9 @@ async function main() {
     let begin;
     $("join").addEventListener("submit", async event => {
         event.preventDefault();
-        const name = $("name").value.trim();
+        const name = $("name").value = $("name").value.trim();
+        if (!$("name").reportValidity())
+            return;
         $("enter").disabled = true;
         $("problem").textContent = text("loading");
         try {

@@ -30,11 +30,46 @@ function update(place, content, fill) {
     if (shown.get(place.id) === key)
         return;
     shown.set(place.id, key);
-    const focus = document.activeElement?.dataset?.label;
+    const focus = document.activeElement?.dataset?.place;
     place.replaceChildren();
     fill(place, content);
     if (focus)
-        [...place.querySelectorAll("button")].find(button => button.dataset.label === focus)?.focus();
+        [...place.querySelectorAll("button")].find(button => button.dataset.place === focus)?.focus();
+}
+
+// The room's panels are not rebuilt while one of their buttons is pressed: the click would be lost.
+let is_pressed = false;
+$("room_panels").addEventListener("pointerdown", () => is_pressed = true);
+for (const end of ["pointerup", "pointercancel"])
+    addEventListener(end, () => setTimeout(() => is_pressed = false), true);  // behind the click
+
+// Rows without buttons, such as those with the cameras' ages, change in place.
+function update_panels(place, panels) {
+    if (is_pressed)
+        return;
+    update(place, panels.map(panel => ({ ...panel, rows: panel.rows.map(row => row.buttons.length ? row : { buttons: [] }) })),
+           () => fill_panels(place, panels));
+    for (const [i, panel] of panels.entries())
+        for (const [j, row] of panel.rows.entries()) {
+            const { firstElementChild: line, lastElementChild: detail } = place.children[i].lastElementChild.children[j];
+            set_text(line, row.text);
+            set_text(detail.className === "detail" ? detail : detail.previousElementSibling, row.detail);
+        }
+}
+
+// The command of a button as the newest state has it. Null if it is gone, so that no click meets another row.
+export function command_of(button, panels) {
+    const all = panels.flatMap(panel => panel.rows.flatMap((row, i) => row.buttons.map(({ label, command }) => ({
+        name: `${place_of(panel, i)}/${label}`, command }))));
+    const same = all.filter(({ name }) => name === button.dataset.label);
+    const chosen = same.length === 1 ? same[0] : same.find(({ command }) => command === Number(button.dataset.command));
+    return chosen?.command ?? null;
+}
+
+// A row of buttons alone belongs to the text above it.
+function place_of(panel, i) {
+    const named = panel.rows.slice(0, i + 1).findLast(({ text }) => text);
+    return `${panel.title}/${named?.text ?? ""}`;
 }
 
 function set_text(place, content) {
@@ -62,15 +97,15 @@ function fill_panels(place, panels) {
     for (const panel of panels) {
         const section = element("section", "", "panel");
         const list = element("ul");
-        for (const row of panel.rows) {
-            const item = element("li", row.text);
-            if (row.detail)
-                item.append(element("div", row.detail, "detail"));
+        for (const [at, row] of panel.rows.entries()) {
+            const item = element("li");
+            item.append(element("div", row.text), element("div", row.detail, "detail"));
             const buttons = element("div", "", "buttons");
-            for (const { label, command } of row.buttons) {
+            for (const [i, { label, command }] of row.buttons.entries()) {
                 const button = element("button", label);
                 button.dataset.command = command;
-                button.dataset.label = `${panel.title}/${row.text}/${label}`;
+                button.dataset.label = `${place_of(panel, at)}/${label}`;
+                button.dataset.place = `${place_of(panel, at).split(/[:,] /)[0]}/${i}`;
                 if (row.text)
                     button.setAttribute("aria-label", `${label}: ${row.text}`);
                 buttons.append(button);
@@ -146,5 +181,5 @@ export function show(state) {
         name, state: is_connected || state !== "live" ? state : "stale",
         line: !is_connected ? text("no_connection") : !is_asked_for ? text("not_shown") : frames ? text("camera_line", { fps: Math.round(fps), age: age(age_ms) }) : text("no_picture"),
     })), fill_cameras);
-    update($("room_panels"), overlay.panels, fill_panels);
+    update_panels($("room_panels"), overlay.panels);
 }
