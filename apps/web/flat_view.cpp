@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "page_state.h"
+#include "viewer/meeting.h"
 #include "viewer/playing.h"
 #include "wire/no_codec.h"
 
@@ -13,6 +14,7 @@ namespace theatron::web {
 namespace {
 
 constexpr Duration notice_time = std::chrono::seconds(6);
+constexpr Duration time_to_confirm = std::chrono::seconds(5);
 
 }  // namespace
 
@@ -119,7 +121,48 @@ viewer::Facts FlatView::facts(TimePoint now) {
     facts.way.renderer = "flat";
     if (now < notice_until_)
         facts.notice = notice_;
+    facts.visitors = participant_.visitors();
+    add_people(facts, now);
     return facts;
+}
+
+std::optional<ParticipantId> FlatView::asked_removal(TimePoint now) const {
+    return removal_ && now - removal_->asked < time_to_confirm ? std::optional(removal_->person)
+                                                               : std::nullopt;
+}
+
+void FlatView::add_people(viewer::Facts& facts, TimePoint now) {
+    const auto room = participant_.room();
+    const wire::Role role = facts.received.status.standing.role;
+    viewer::RoomPanel panel = viewer::room_panel(
+        {.room = room,
+         .people = viewer::people_of(room, participant_.poses(), participant_.session_time(now)),
+         .places = {},
+         .followed = {},
+         .is_operator = role == wire::Role::operator_,
+         .visitors = facts.visitors,
+         .asked_removal = asked_removal(now)});
+    // Ways to people need the room's view.
+    for (xr::Panel& one : panel.panels)
+        for (xr::PanelRow& row : one.rows)
+            std::erase_if(row.buttons, [&](const xr::PanelButton& button) {
+                return !std::holds_alternative<viewer::Decide>(
+                    panel.commands[std::size_t(button.command)]);
+            });
+    facts.panels = std::move(panel.panels);
+    commands_ = std::move(panel.commands);
+}
+
+void FlatView::press(int command, TimePoint now) {
+    if (command < 0 || command >= int(commands_.size()))
+        return;
+    const auto* decision = std::get_if<viewer::Decide>(&commands_[std::size_t(command)]);
+    if (!decision)
+        return;
+    if (decision->action == wire::ManageAction::remove && asked_removal(now) != decision->person)
+        removal_ = {decision->person, now};
+    else
+        participant_.manage(decision->action, decision->person, decision->role);
 }
 
 nlohmann::json FlatView::state(const viewer::Facts& facts, const std::string& address) const {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The 2D view: one camera's colour as it is, for a computer that cannot draw the room. Nothing else
-// of the cameras comes: no depth, and no other camera. It needs no GL. People are heard and seen in
-// the panels; one's own place in the room is told to nobody.
+// of the cameras comes: no depth, and no other camera. It needs no GL. People are heard and listed in
+// a panel, where operators let in, mute and remove; one's own place in the room is told to nobody.
 #pragma once
 
 #include <map>
@@ -12,6 +12,7 @@
 #include "base/statistics.h"
 #include "client/participant.h"
 #include "viewer/facts.h"
+#include "viewer/room_panel.h"
 
 namespace theatron::web {
 
@@ -46,6 +47,8 @@ public:
 
     // Facts for the user, and the content of the panels without what only the room shows.
     viewer::Facts facts(TimePoint now);
+    // A button of the panel of people that facts() gave last.
+    void press(int command, TimePoint now);
     nlohmann::json state(const viewer::Facts& facts, const std::string& address) const;
     void note(const std::string& text, TimePoint now);
 
@@ -53,6 +56,8 @@ private:
     void follow_cameras();
     void ask();
     void show(const ColorImage& color);
+    void add_people(viewer::Facts& facts, TimePoint now);
+    std::optional<ParticipantId> asked_removal(TimePoint now) const;
 
     client::Participant& participant_;
     std::string color_;
@@ -76,6 +81,12 @@ private:
     Size size_;
     std::uint64_t pictures_ = 0;
     RateWindow drawn_;
+    std::vector<viewer::RoomCommand> commands_;  // of the panel's buttons
+    struct Removal {
+        ParticipantId person{};
+        TimePoint asked;
+    };
+    std::optional<Removal> removal_;  // "Remove" was pressed once
     std::string notice_;
     TimePoint notice_until_;
 };

@@ -155,6 +155,8 @@ EMSCRIPTEN_KEEPALIVE void theatron_reset_figures() {
 EMSCRIPTEN_KEEPALIVE void theatron_command(int command) {
     if (page().visit)
         web::guarded([&] { page().visit->viewer.press(command, steady_now()); });
+    if (page().flat)
+        web::guarded([&] { page().flat->view.press(command, steady_now()); });
 }
 
 // Input. Places are shares of the canvas from its upper left corner, ways are shares of its height.

@@ -100,6 +100,21 @@ class WebPanels(unittest.TestCase):
         page.evaluate("document.getElementById('help').close()")
         self.leave(page)
 
+    def test_in_the_2d_view_an_operator_decides_on_people(self):
+        with Process("join", self.link, "--no-window", "--name", "Ben", "--every", "0.5", "--json") as ben:
+            page = self.enter("flat")
+            page.wait_for(f"!!document.querySelector('{MUTE}')")
+            self.assertFalse(page.evaluate("[...document.querySelectorAll('#room_panels button')].some(b => ['Go', 'See'].includes(b.textContent.split(' ')[0]))"))
+            page.evaluate(f"document.querySelector('{MUTE}').click()")
+            ben.wait_for(lambda f: f["muted"], 30)
+            remove = "[...document.querySelectorAll('#room_panels button')].find(b => b.textContent.includes('{}'))"
+            page.evaluate(remove.format("Remove") + ".click()")
+            page.wait_for("!!" + remove.format("Really"))
+            page.evaluate(remove.format("Really") + ".click()")
+            ben.end()
+            page.wait_for("document.getElementById('room_panels').textContent.includes('Ben') === false")
+            self.leave(page)
+
     def test_a_name_of_blanks_is_no_name(self):
         page = self.browser.open(self.link, (640, 480))
         page.wait_for("document.getElementById('invitation')?.textContent && !document.getElementById('enter').disabled")

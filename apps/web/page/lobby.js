@@ -71,7 +71,7 @@ export class Lobby {
         return !session.ended;
     }
 
-    // What was shown of the session may no longer be so.
+    // The lines that were shown of the session may be out of date.
     be_silent() {
         this.tell([text("lobby_silent")]);
         $("session_picture").hidden = true;
