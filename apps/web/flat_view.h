@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The 2D view: one camera's colour as it is, for a computer that cannot draw the room. Nothing else
-// of the cameras comes: no depth, and no other camera. It needs no GL. People are heard and listed in
-// a panel, where operators let in, mute and remove; one's own place in the room is told to nobody.
+// of the cameras comes: no depth, and no other camera. It needs no GL. People are heard and listed
+// in a panel, where operators let in, mute and remove; one's own place in the room is told to
+// nobody.
 #pragma once
 
 #include <map>

@@ -115,6 +115,27 @@ class WebPanels(unittest.TestCase):
             page.wait_for("document.getElementById('room_panels').textContent.includes('Ben') === false")
             self.leave(page)
 
+    def test_a_phone_in_landscape_begins_with_the_room_and_has_its_buttons_whole(self):
+        page = self.browser.open("about:blank", (640, 360))
+        page.call("Emulation.setTouchEmulationEnabled", enabled=True)
+        page.call("Emulation.setEmulatedMedia", features=[{"name": "pointer", "value": "coarse"}, {"name": "hover", "value": "none"}])
+        page.call("Page.navigate", url=self.link)
+        page.enter("Ada", way="room")
+        page.wait_for("theatron.state.pictures > 0")
+        self.assertTrue(page.evaluate("document.getElementById('side').classList.contains('folded')"))
+        boxes = page.evaluate("""[...document.querySelectorAll('#touch button, #menu')].filter(b => b.checkVisibility()).map(b => {
+            const { left, top, right, bottom } = b.getBoundingClientRect();
+            return [left, top, right, bottom];
+        })""")
+        self.assertGreater(len(boxes), 8)
+        for i, (left, top, right, bottom) in enumerate(boxes):
+            self.assertTrue(0 <= left and 0 <= top and right <= 640 and bottom <= 360, boxes[i])
+            for other in boxes[:i]:
+                self.assertFalse(left < other[2] and other[0] < right and top < other[3] and other[1] < bottom, (boxes[i], other))
+        page.evaluate("document.getElementById('menu').click()")
+        page.wait_for("!document.getElementById('touch').checkVisibility()")
+        self.leave(page)
+
     def test_a_name_of_blanks_is_no_name(self):
         page = self.browser.open(self.link, (640, 480))
         page.wait_for("document.getElementById('invitation')?.textContent && !document.getElementById('enter').disabled")
