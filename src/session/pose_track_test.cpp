@@ -52,8 +52,8 @@ TEST(PoseTrack, MotionIsSmoothAlthoughPosesArriveUnevenly) {
     PoseTrack track;
     std::deque<std::pair<double, wire::PersonPose>> arriving;
     double arrived = 0, previous_x = NAN, worst_step = 0, worst_error = 0;
-    for (double ms = 0; ms < 4000; ms += 1) {
-        if (std::fmod(ms, 11) == 0) {
+    for (int ms = 0; ms < 4000; ++ms) {
+        if (ms % 11 == 0) {
             arrived = std::max(arrived, ms + late(random));
             arriving.emplace_back(arrived, head_at(ms, swaying(ms)));
         }
@@ -93,7 +93,7 @@ TEST(PoseTrack, ATeleportIsNotInterpolated) {
     track.add(head_at(0, {0, 1.6, 0}), at_ms(0));
     track.add(head_at(20, {0, 1.6, 0}), at_ms(20));
     track.add(head_at(40, {3, 1.6, 1}), at_ms(40));
-    for (double ms = 20; ms < 120; ms += 1) {
+    for (int ms = 20; ms < 120; ++ms) {
         const double x = track.at(at_ms(ms))->head->position[0];
         EXPECT_TRUE(std::abs(x) < 1e-6 || std::abs(x - 3) < 1e-6) << x;
     }

@@ -145,9 +145,9 @@ std::optional<Pose> free_screen_place(double width_m, double height_m,
     const double height = std::min(
         usual_height_m, ceiling_m - height_m / 2 - rim_m - caption_in_width * width_m - 0.01);
     for (const Side& side : sides)
-        for (double along = 0; along < farthest_along_m; along += step_m)
+        for (int step = 0; step * step_m < farthest_along_m; ++step)
             for (const double sign : {1.0, -1.0})
-                if (const Pose pose = place_at(side, sign * along, height); is_free(pose))
+                if (const Pose pose = place_at(side, sign * step * step_m, height); is_free(pose))
                     return pose;
     return std::nullopt;
 }

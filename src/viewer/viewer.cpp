@@ -172,7 +172,6 @@ void Viewer::on_key(const xr::KeyPress& key, Size picture, TimePoint now) {
         case xr::Action::new_brick:
         case xr::Action::give:
         case xr::Action::remove:
-            break;  // of objects: handling.h
         case xr::Action::leave:
         case xr::Action::full_screen:
         case xr::Action::microphone:
@@ -181,7 +180,7 @@ void Viewer::on_key(const xr::KeyPress& key, Size picture, TimePoint now) {
         case xr::Action::own_face:
         case xr::Action::save_picture:
         case xr::Action::save_points:
-            break;  // of the window, not of the scene
+            break;  // the first three are of objects (handling.h), the others of the window
     }
 }
 

@@ -331,8 +331,6 @@ FormInput DesktopWindow::poll_form() {
             parts_->woken = false;
         } else if (event.type == SDL_QUIT) {
             input.close = true;
-        } else if (event.type == SDL_WINDOWEVENT) {
-            input.redraw = true;
         } else if (event.type == SDL_TEXTINPUT) {
             input.text += event.text.text;
         } else if (event.type == SDL_KEYDOWN) {
@@ -342,7 +340,8 @@ FormInput DesktopWindow::poll_form() {
                     {*key, (pressed.mod & KMOD_CTRL) != 0, (pressed.mod & KMOD_SHIFT) != 0});
         } else if (event.type == SDL_MOUSEBUTTONDOWN) {
             input.clicked = input.clicked || event.button.button == SDL_BUTTON_LEFT;
-        } else if (event.type == SDL_MOUSEMOTION || event.type == SDL_MOUSEBUTTONUP) {
+        } else if (event.type == SDL_MOUSEMOTION || event.type == SDL_MOUSEBUTTONUP ||
+                   event.type == SDL_WINDOWEVENT) {
             input.redraw = true;
         } else if (event.type == SDL_MOUSEWHEEL) {
             input.wheel += event.wheel.preciseY;
