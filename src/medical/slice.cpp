@@ -274,7 +274,7 @@ EdgeLetters edge_letters(const SlicePlane& plane) {
 
 ScaleBar scale_bar(double mm_per_pixel, double max_pixels) {
     double best = 1;
-    for (double decade = 1; decade <= 1000; decade *= 10)
+    for (const double decade : {1.0, 10.0, 100.0, 1000.0})
         for (const double digit : {1.0, 2.0, 5.0})
             if (digit * decade <= max_pixels * mm_per_pixel)
                 best = digit * decade;

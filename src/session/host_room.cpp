@@ -100,9 +100,7 @@ std::optional<CameraId> HostRoom::on_request(ParticipantId id, const wire::RoomR
     const std::optional<CameraId> camera = request ? camera_of_removed(*request) : std::nullopt;
     if (request && names_recorded(*request))
         decision.refusal = Refusal::recorded;
-    else if (request && gives_to_observer(*request))
-        decision.refusal = Refusal::role;
-    else if (request && !may(member->second.role, Right::handle))
+    else if (request && (gives_to_observer(*request) || !may(member->second.role, Right::handle)))
         decision.refusal = Refusal::role;
     else if (auto on_screen = request ? decide_on_screen(id, *request) : std::nullopt)
         decision = std::move(*on_screen);
