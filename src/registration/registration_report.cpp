@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 
 namespace theatron::registration {
@@ -73,10 +74,12 @@ std::string map_of(const RegistrationReport& report, const Box& box, bool after)
     const auto y = [&](double v) { return margin + (v - box.near) * scale; };
     std::string svg =
         text("<svg viewBox=\"0 0 %.0f %.0f\" width=\"%.0f\" role=\"img\">", width, height, width);
-    for (double m = std::ceil(box.left); m <= box.right; ++m)
-        svg += text("<line class=grid x1=%.1f y1=0 x2=%.1f y2=%.0f />", x(m), x(m), height);
-    for (double m = std::ceil(box.near); m <= box.far; ++m)
-        svg += text("<line class=grid x1=0 y1=%.1f x2=%.0f y2=%.1f />", y(m), width, y(m));
+    for (auto m = std::int64_t(std::ceil(box.left)); double(m) <= box.right; ++m)
+        svg += text("<line class=grid x1=%.1f y1=0 x2=%.1f y2=%.0f />", x(double(m)), x(double(m)),
+                    height);
+    for (auto m = std::int64_t(std::ceil(box.near)); double(m) <= box.far; ++m)
+        svg += text("<line class=grid x1=0 y1=%.1f x2=%.0f y2=%.1f />", y(double(m)), width,
+                    y(double(m)));
     for (const RegistrationReport::Pair& pair : report.pairs)
         for (const RegistrationReport::Surface& s : after ? pair.after : pair.before)
             svg += text("<circle cx=%.1f cy=%.1f r=2.6 fill=\"%s\" />", x(s.at.x), y(s.at.z),
