@@ -14,7 +14,6 @@ namespace theatron::web {
 namespace {
 
 constexpr Duration notice_time = std::chrono::seconds(6);
-constexpr Duration time_to_confirm = std::chrono::seconds(5);
 
 }  // namespace
 
@@ -126,11 +125,6 @@ viewer::Facts FlatView::facts(TimePoint now) {
     return facts;
 }
 
-std::optional<ParticipantId> FlatView::asked_removal(TimePoint now) const {
-    return removal_ && now - removal_->asked < time_to_confirm ? std::optional(removal_->person)
-                                                               : std::nullopt;
-}
-
 void FlatView::add_people(viewer::Facts& facts, TimePoint now) {
     const auto room = participant_.room();
     const wire::Role role = facts.received.status.standing.role;
@@ -141,7 +135,7 @@ void FlatView::add_people(viewer::Facts& facts, TimePoint now) {
          .followed = {},
          .is_operator = role == wire::Role::operator_,
          .visitors = facts.visitors,
-         .asked_removal = asked_removal(now)});
+         .asked_removal = removal_.asked(now)});
     // Ways to people need the room's view.
     for (xr::Panel& one : panel.panels)
         for (xr::PanelRow& row : one.rows)
@@ -157,11 +151,7 @@ void FlatView::press(int command, TimePoint now) {
     if (command < 0 || command >= int(commands_.size()))
         return;
     const auto* decision = std::get_if<viewer::Decide>(&commands_[std::size_t(command)]);
-    if (!decision)
-        return;
-    if (decision->action == wire::ManageAction::remove && asked_removal(now) != decision->person)
-        removal_ = {decision->person, now};
-    else
+    if (decision && removal_.is_meant(*decision, now))
         participant_.manage(decision->action, decision->person, decision->role);
 }
 

@@ -13,7 +13,7 @@
 #include "base/statistics.h"
 #include "client/participant.h"
 #include "viewer/facts.h"
-#include "viewer/room_panel.h"
+#include "viewer/removal_question.h"
 
 namespace theatron::web {
 
@@ -58,7 +58,6 @@ private:
     void ask();
     void show(const ColorImage& color);
     void add_people(viewer::Facts& facts, TimePoint now);
-    std::optional<ParticipantId> asked_removal(TimePoint now) const;
 
     client::Participant& participant_;
     std::string color_;
@@ -83,11 +82,7 @@ private:
     std::uint64_t pictures_ = 0;
     RateWindow drawn_;
     std::vector<viewer::RoomCommand> commands_;  // of the panel's buttons
-    struct Removal {
-        ParticipantId person{};
-        TimePoint asked;
-    };
-    std::optional<Removal> removal_;  // "Remove" was pressed once
+    viewer::RemovalQuestion removal_;
     std::string notice_;
     TimePoint notice_until_;
 };

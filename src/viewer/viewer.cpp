@@ -209,23 +209,13 @@ void Viewer::aim_teleport(const xr::WindowInput& input, Size picture) {
     }
 }
 
-std::optional<ParticipantId> Viewer::asked_removal(TimePoint now) const {
-    constexpr Duration time_to_confirm = std::chrono::seconds(5);
-    return removal_ && now - removal_->asked < time_to_confirm ? std::optional(removal_->person)
-                                                               : std::nullopt;
-}
-
 void Viewer::press(int command, TimePoint now) {
     if (command < 0 || command >= int(commands_.size()) || !eye_.is_placed())
         return;
     const RoomCommand chosen = commands_[std::size_t(command)];
     if (const auto* decision = std::get_if<Decide>(&chosen)) {
-        if (decision->action == wire::ManageAction::remove &&
-            asked_removal(now) != decision->person) {
-            removal_ = {decision->person, now};
-            return;
-        }
-        participant_.manage(decision->action, decision->person, decision->role);
+        if (removal_.is_meant(*decision, now))
+            participant_.manage(decision->action, decision->person, decision->role);
         return;
     }
     if (const auto* change = std::get_if<ChangeCase>(&chosen)) {
@@ -511,7 +501,7 @@ Facts Viewer::facts(TimePoint now) {
                    room_panel({scene_.meeting().room(), scene_.meeting().people(),
                                places_of(cameras()), followed_, role == wire::Role::operator_,
                                facts.visitors, session::may(role, session::Right::point),
-                               is_calling(now), voices_.speaking, own_face_, asked_removal(now)}));
+                               is_calling(now), voices_.speaking, own_face_, removal_.asked(now)}));
         add_screen_panel(screens, panel);
         add_sound_panel(sound_choices_, panel);
         if (facts.past.empty() && participant_.can_look_back())

@@ -26,8 +26,8 @@
 #include "viewer/looking_back.h"
 #include "viewer/marking.h"
 #include "viewer/playing.h"
+#include "viewer/removal_question.h"
 #include "viewer/renderer_text.h"
-#include "viewer/room_panel.h"
 #include "viewer/shown_moment.h"
 #include "viewer/sound_panel.h"
 #include "xr/drawing_pace.h"
@@ -141,7 +141,6 @@ public:
     // Shows a line of text for some seconds.
     void note(const std::string& text, TimePoint now);
     // The person of whom "Remove" was pressed a moment ago.
-    std::optional<ParticipantId> asked_removal(TimePoint now) const;
     // The panel of people, places and sound is open.
     bool shows_panels() const { return shows_panels_; }
     // `before` with this person's newest choices.
@@ -255,11 +254,7 @@ private:
     bool sent_call_ = false;
     bool sent_pointing_ = false;
     bool sits_ = false;
-    struct Removal {
-        ParticipantId person{};
-        TimePoint asked;
-    };
-    std::optional<Removal> removal_;
+    RemovalQuestion removal_;
     Voices voices_;
     OwnFace own_face_ = OwnFace::none;
     std::optional<bool> face_wish_;

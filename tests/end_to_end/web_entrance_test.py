@@ -1,15 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """The form of the page before a session: the session itself, a check of the devices, and what is remembered of a person."""
-import contextlib
 import os
 import pathlib
-import tempfile
 import unittest
 
-from browser import CHROMIUM, Browser
-from theatron_process import PROGRAM, Process, host
+from page_case import PageCase
+from theatron_process import Process, host
 
-PAGE = pathlib.Path(PROGRAM).parent / "web/files.txt"
 PICTURES = os.environ.get("THEATRON_PICTURES")  # a folder where pictures of the page stay
 CAMERA = "synthetic:seconds=2,fps=5,quality=quick,loop=1"
 SIZE = (800, 900)
@@ -31,20 +28,10 @@ MediaDevices.prototype.getUserMedia = async function (wish) {
 NUMBERS = "Object.keys(localStorage).filter(key => key.startsWith('person'))"
 
 
-@unittest.skipUnless(CHROMIUM, "chromium is not installed: apt-get install chromium")
-@unittest.skipUnless(PAGE.exists(), "there is no browser client: make build")
-class WebEntrance(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.stack = contextlib.ExitStack()
-        cls.folder = pathlib.Path(cls.stack.enter_context(tempfile.TemporaryDirectory()))
-        cls.host = cls.stack.enter_context(host(cls.folder / "host", CAMERA, options=("--admit", "ask")))
-        cls.links = cls.host.greeting["links"]
-        cls.browser = cls.stack.enter_context(Browser(*FAKE))
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.stack.close()
+class WebEntrance(PageCase):
+    cameras = (CAMERA,)
+    options = ("--admit", "ask")
+    flags = FAKE
 
     def open(self, role="operator", script=None):
         page = self.browser.open("about:blank", SIZE)
@@ -58,10 +45,6 @@ class WebEntrance(unittest.TestCase):
         page.evaluate(f"document.getElementById('remember').checked = {str(remembers).lower()}")
         page.enter(name, way="room")
         page.wait_for("theatron.state.phase !== 'left' && theatron.state.phase !== 'connecting'")
-
-    def leave(self, page):
-        page.evaluate("document.getElementById('leave').click()")
-        page.wait_for("theatron.state.phase === 'left'")
 
     def test_the_form_shows_people_cameras_and_picture_by_a_token_in_no_address(self):
         with Process("join", self.links["operator"], "--name", "Ben", "--every", "0.5") as ben:

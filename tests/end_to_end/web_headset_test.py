@@ -1,17 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """The browser client with a simulated headset (iwer): controllers, hands and AR among native participants."""
-import contextlib
 import os
 import pathlib
-import tempfile
 import time
 import unittest
 
-import theatron_process
-from browser import CHROMIUM, Browser
-from theatron_process import Process, host, read_png, run, wait_until
+from page_case import PageCase
+from theatron_process import Process, read_png, run, wait_until
 
-PAGE = pathlib.Path(theatron_process.PROGRAM).parent / "web/files.txt"
 PICTURES = os.environ.get("THEATRON_PICTURES")  # a folder where pictures of the page stay
 HERE = pathlib.Path(__file__).parent
 IWER = HERE / "node_modules/iwer/build/iwer.min.js"
@@ -23,17 +19,13 @@ def distance(a, b):
     return sum((x - y) ** 2 for x, y in zip(a, b)) ** 0.5
 
 
-@unittest.skipUnless(CHROMIUM, "chromium is not installed: apt-get install chromium")
-@unittest.skipUnless(PAGE.exists(), "there is no browser client: make build")
 @unittest.skipUnless(IWER.exists(), "iwer is not installed: npm ci --prefix tests/end_to_end")
-class WebHeadset(unittest.TestCase):
+class WebHeadset(PageCase):
+    cameras = CAMERAS
+
     @classmethod
     def setUpClass(cls):
-        cls.stack = contextlib.ExitStack()
-        cls.folder = pathlib.Path(cls.stack.enter_context(tempfile.TemporaryDirectory()))
-        cls.host = cls.stack.enter_context(host(cls.folder / "host", *CAMERAS))
-        cls.link = cls.host.greeting["link"]
-        cls.browser = cls.stack.enter_context(Browser())
+        super().setUpClass()
         cls.ben = cls.stack.enter_context(Process("join", cls.link, "--name", "Ben", "--every", "0.1"))
         cls.page = cls.browser.open("about:blank", SIZE)
         for file in (IWER, HERE / "headset.js"):
@@ -42,10 +34,6 @@ class WebHeadset(unittest.TestCase):
         # A machine without a graphics card would go over to the 2D view.
         cls.page.enter(way="room")
         cls.page.wait_for("theatron.state.pictures > 0 && theatron.state.people.length === 2")
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.stack.close()
 
     def tearDown(self):
         if self.page.evaluate("theatron.headset.is_on"):

@@ -1,17 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """The page behind a door that closes connections without an answer, as the host's does with silent ones."""
 import contextlib
-import pathlib
 import re
 import socket
-import tempfile
 import threading
 import unittest
 
-from browser import CHROMIUM, Browser
-from theatron_process import PROGRAM, host
+from page_case import PageCase
+from theatron_process import host
 
-PAGE = pathlib.Path(PROGRAM).parent / "web/files.txt"
 
 
 class ClosingDoor:
@@ -58,21 +55,7 @@ class ClosingDoor:
         self.listener.close()
 
 
-@unittest.skipUnless(CHROMIUM, "chromium is not installed: apt-get install chromium")
-@unittest.skipUnless(PAGE.exists(), "there is no browser client: make build")
-class WebLoading(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.stack = contextlib.ExitStack()
-        folder = pathlib.Path(cls.stack.enter_context(tempfile.TemporaryDirectory()))
-        cls.host = cls.stack.enter_context(host(folder / "host"))
-        cls.link = cls.host.greeting["link"]
-        cls.browser = cls.stack.enter_context(Browser())
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.stack.close()
-
+class WebLoading(PageCase):
     def enter_behind(self, closed):
         """The number of times that the page itself was asked for."""
         port = int(re.search(r":(\d+)/", self.link)[1])

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
 """The browser client in a real browser: by the host's link into the room, with a native participant there."""
-import contextlib
 import gzip
 import http.client
 import os
@@ -8,14 +7,11 @@ import pathlib
 import signal
 import socket
 import ssl
-import tempfile
 import unittest
 
-import theatron_process
-from browser import CHROMIUM, Browser
+from page_case import PAGE, PageCase
 from theatron_process import Process, host, read_png
 
-PAGE = pathlib.Path(theatron_process.PROGRAM).parent / "web/files.txt"
 PICTURES = os.environ.get("THEATRON_PICTURES")  # a folder where pictures of the page stay
 CAMERAS = tuple(f"synthetic:seconds=2,fps=10,quality=quick,camera={i},loop=1" for i in (0, 1))
 SIZE = (960, 540)
@@ -42,20 +38,8 @@ def get(link, path, headers=None, body=True):
     return answer, content
 
 
-@unittest.skipUnless(CHROMIUM, "chromium is not installed: apt-get install chromium")
-@unittest.skipUnless(PAGE.exists(), "there is no browser client: make build")
-class Web(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.stack = contextlib.ExitStack()
-        cls.folder = pathlib.Path(cls.stack.enter_context(tempfile.TemporaryDirectory()))
-        cls.host = cls.stack.enter_context(host(cls.folder / "host", *CAMERAS))
-        cls.link = cls.host.greeting["link"]
-        cls.browser = cls.stack.enter_context(Browser())
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.stack.close()
+class Web(PageCase):
+    cameras = CAMERAS
 
     def picture(self, page, name):
         file = pathlib.Path(PICTURES or self.folder) / f"{name}.png"
@@ -66,10 +50,6 @@ class Web(unittest.TestCase):
         page = self.browser.open(link, SIZE)
         page.enter(name)
         return page
-
-    def leave(self, page):
-        page.evaluate("document.getElementById('leave').click()")
-        page.wait_for("theatron.state.phase === 'left'")
 
     def test_the_page_has_strict_headers_and_is_compressed_and_kept_by_its_hash(self):
         answer, plain = get(self.link, "/")

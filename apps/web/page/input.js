@@ -8,8 +8,8 @@ const walking = {
 };
 const pixels_per_click = 100;  // of a wheel or of a pinch
 
-// `help` shows the help. The result is for the buttons of touch.js.
-export function listen(canvas, client, help) {
+// The result is for the buttons of touch.js.
+export function listen(canvas, client) {
     let walk = [0, 0, 0];  // by a button
     let tool = "";         // "points" or "teleports": what a press on the picture does instead of turning it
     let using = null;      // the pointer that does it
@@ -88,11 +88,9 @@ export function listen(canvas, client, help) {
             return;
         held.add(event.code);
         hold(event);
-        if (["h", "H", "F1"].includes(event.key))
-            help();
-        else if (!event.repeat)
+        if (!event.repeat)
             client.key(event.key.toLowerCase(), event.code);
-        if (event.code in walking || ["F1", "Home"].includes(event.key))
+        if (event.code in walking || event.key === "Home")
             event.preventDefault();
     });
     canvas.addEventListener("keyup", event => {

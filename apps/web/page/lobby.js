@@ -57,17 +57,16 @@ export class Lobby {
             this.tell([text("lobby_unknown")]);
             return false;
         }
-        if (!answer.ok) {
-            this.be_silent();
-            return true;
-        }
+        if (!answer.ok)
+            throw new Error(answer.statusText);
         const lobby = await answer.json();
         const session = lobby?.sessions?.[0];
         if (!session || !this.is_watching)
             return true;
         $("session_name").textContent = String(session.name ?? "");
         this.tell(lines_of(session, lobby.role));
-        await this.show_picture(session);
+        // The lines hold without it.
+        await this.show_picture(session).catch(() => $("session_picture").hidden = true);
         return !session.ended;
     }
 

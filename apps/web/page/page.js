@@ -14,6 +14,7 @@ import { Person } from "./person.js";
 import { PicturePanel } from "./picture.js";
 import { put_bytes, with_patience, with_program } from "./program.js";
 import { store, stored } from "./storage.js";
+import { hold_to_talk } from "./talk.js";
 import { language, text, texts } from "./texts.js";
 import { offer_touch } from "./touch.js";
 import { by_touch, follow_touch } from "./touch_mode.js";
@@ -117,7 +118,7 @@ function run({ client, voice, face, module, flat }) {
     let patience = new Patience();
     let next_texts = 0;
     const help = () => $("help").open || $("help").showModal();
-    offer_touch($("touch"), listen(canvas, client, help), client);
+    offer_touch($("touch"), listen(canvas, client), client);
     const picture_panel = new PicturePanel(client, () => next_texts = 0);
     follow_touch(() => picture_panel.name());
     $("room_panels").addEventListener("click", event => {
@@ -140,8 +141,6 @@ function run({ client, voice, face, module, flat }) {
     };
     $("voice_recording").addEventListener("click", change_voice_recording);
     hold_to_talk($("talk"), voice);
-    for (const picture of [canvas, $("flat")])
-        hold_to_talk(picture, voice);
     // After a click on a button the keys go on to act in the room; a button reached by Tab keeps the focus.
     $("side").addEventListener("click", event => event.detail > 0 && event.target.closest("button") &&
         $(page.way === "flat" ? "flat" : "view").focus({ preventScroll: true }));
@@ -149,14 +148,14 @@ function run({ client, voice, face, module, flat }) {
         if (event.key === "Escape" && !["joined", "left"].includes(page.state.phase) && !$("help").open)
             client.leave();
     });
-    $("flat").addEventListener("keydown", event => {
-        if (["h", "H", "F1"].includes(event.key) && !event.ctrlKey && !event.altKey && !event.metaKey) {
+    // Both ways of seeing have these keys; input.js has the keys of the room.
+    const on_key = event => {
+        const is_plain = !event.ctrlKey && !event.metaKey && !event.altKey;
+        if (is_plain && ["h", "H", "F1"].includes(event.key)) {
             event.preventDefault();
-            help();
+            return help();
         }
-    });
-    const on_voice_key = event => {
-        if (event.key.toLowerCase() === "l" && !event.repeat && !event.ctrlKey && !event.metaKey && !event.altKey)
+        if (event.key.toLowerCase() === "l" && !event.repeat && is_plain)
             voice.toggle_microphone();
         if (!["F7", "F8"].includes(event.key))
             return;
@@ -168,8 +167,10 @@ function run({ client, voice, face, module, flat }) {
         else if (page.state.voice_may_record !== null)
             change_voice_recording();
     };
-    for (const picture of [canvas, $("flat")])
-        picture.addEventListener("keydown", on_voice_key);
+    for (const picture of [canvas, $("flat")]) {
+        hold_to_talk(picture, voice);
+        picture.addEventListener("keydown", on_key);
+    }
     $("show_help").addEventListener("click", help);
     // Only narrow pages and touch have this button; narrow ones begin with the room alone.
     const fold = is_folded => {
@@ -321,30 +322,6 @@ function run({ client, voice, face, module, flat }) {
 function change_push_to_talk(voice) {
     voice.set_push_to_talk(!voice.pushes);
     page.person.remember(page.person.is_remembered, { pushes: voice.pushes ? "yes" : "no" });
-}
-
-// Push to talk with Enter on this element; a button's also by the pointer and the space bar.
-function hold_to_talk(element, voice) {
-    const is_button = element.tagName === "BUTTON";
-    const is_key = ({ key }) => key === "Enter" || (is_button && key === " ");
-    // The other element may be held when this one loses the focus.
-    let is_held = false;
-    const hold = now => {
-        if (is_held !== now)
-            voice.talk(is_held = now);
-    };
-    element.addEventListener("keydown", event => is_key(event) && hold(true));
-    element.addEventListener("keyup", event => is_key(event) && hold(false));
-    element.addEventListener("blur", () => hold(false));
-    if (!is_button)
-        return;
-    element.addEventListener("pointerdown", event => {
-        hold(true);
-        element.setPointerCapture(event.pointerId);
-    });
-    for (const end of ["pointerup", "pointercancel", "lostpointercapture"])
-        element.addEventListener(end, () => hold(false));
-    element.addEventListener("contextmenu", event => event.preventDefault());  // of a long touch
 }
 
 // In this visit; the next one asks again, since several people may use one browser.

@@ -51,9 +51,9 @@ function update_panels(place, panels) {
            () => fill_panels(place, panels));
     for (const [i, panel] of panels.entries())
         for (const [j, row] of panel.rows.entries()) {
-            const { firstElementChild: line, lastElementChild: detail } = place.children[i].lastElementChild.children[j];
-            set_text(line, row.text);
-            set_text(detail.className === "detail" ? detail : detail.previousElementSibling, row.detail);
+            const item = place.children[i].querySelector("ul").children[j];
+            set_text(item.firstElementChild, row.text);
+            set_text(item.querySelector(".detail"), row.detail);
         }
 }
 
