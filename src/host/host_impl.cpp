@@ -466,7 +466,8 @@ void Host::Impl::send_media(const net::Media& encoded,
 void Host::Impl::measure_links() {
     for (const auto& [id, participant] : session->participants()) {
         const auto f = server->take_figures(net::PeerId(std::uint32_t(id)));
-        session->on_link(id, {f.bytes_per_second, f.round_trip, f.delay, f.dropped, f.stands_still},
+        session->on_link(id,
+                         {f.bytes_per_second, f.round_trip, f.delay, f.dropped, f.takes_nothing},
                          steady_now());
     }
 }

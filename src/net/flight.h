@@ -64,7 +64,6 @@ public:
     void idle() { held_back_ = false; }
 
     std::uint64_t bytes_on_the_way() const { return sent_ - acknowledged_; }
-    std::uint64_t bytes_taken() const { return acknowledged_; }
     double window(TimePoint now) const;
 
     // Sizes that suit the measured rate; the largest ones before the first measurement.

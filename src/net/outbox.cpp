@@ -274,7 +274,10 @@ void Outbox::next_chunk(Bytes& envelope, TimePoint now) {
 void Outbox::acknowledge(const wire::Acknowledgement& word, TimePoint now) {
     const std::uint64_t before = flight_.bytes_on_the_way();
     flight_.acknowledge(word.taken, word.held, now);
-    moved_ += flight_.bytes_on_the_way() != before;
+    if (flight_.bytes_on_the_way() == before)
+        return;
+    ++moved_;
+    has_taken_ = true;
 }
 
 bool Outbox::stands_still(TimePoint now) {
@@ -293,9 +296,8 @@ SendingFigures Outbox::take_figures(TimePoint now) {
     figures.delay = flight_.take_delay(now);
     figures.dropped = std::exchange(dropped_, 0);
     figures.bytes_on_the_way = std::size_t(flight_.bytes_on_the_way());
-    const std::uint64_t taken = flight_.bytes_taken();
-    figures.stands_still = figures.bytes_on_the_way > 0 && taken == taken_before_;
-    taken_before_ = taken;
+    const bool has_taken = std::exchange(has_taken_, false);
+    figures.takes_nothing = figures.bytes_on_the_way > 0 && !has_taken;
     return figures;
 }
 

@@ -51,7 +51,7 @@ struct SendingFigures {
     Duration delay{};             // the longest from queued to arrived
     int dropped = 0;              // frames
     std::size_t bytes_on_the_way = 0;
-    bool stands_still = false;  // bytes are on the way, and the peer has taken none
+    bool takes_nothing = false;  // bytes are on the way, and the peer has taken none
 };
 
 // Not thread safe.
@@ -197,7 +197,7 @@ private:
     std::uint64_t moved_ = 0;
     bool idle_ = true;
     std::uint64_t moved_before_ = 0;
-    std::uint64_t taken_before_ = 0;  // by the peer, at the last take_figures()
+    bool has_taken_ = false;  // the peer, since the last take_figures()
     std::optional<TimePoint> still_since_;
 
     Flight flight_;

@@ -248,6 +248,24 @@ TEST(Outbox, APeerThatTakesNothingIsGivenUpAfterATime) {
     EXPECT_FALSE(outbox.stands_still(sent + Outbox::give_up_after));
 }
 
+TEST(Outbox, APeerThatTakesNothingIsToldFromOneThatIsSlow) {
+    Outbox outbox;
+    const TimePoint begin = from_us(1'000'000);
+    Bytes envelope;
+    EXPECT_FALSE(outbox.take_figures(begin).takes_nothing) << "nothing is on the way";
+    outbox.push_media(frame(1, 0, true, 0, 100'000));
+    std::uint64_t sent = 0;
+    while (outbox.next(envelope, begin))
+        sent += envelope.size();
+    EXPECT_TRUE(outbox.take_figures(begin + 100ms).takes_nothing);
+    outbox.acknowledge({sent / 2, {}}, begin + 150ms);
+    EXPECT_FALSE(outbox.take_figures(begin + 200ms).takes_nothing);
+    EXPECT_TRUE(outbox.take_figures(begin + 300ms).takes_nothing);
+    outbox.acknowledge({sent, {}}, begin + 350ms);
+    EXPECT_FALSE(outbox.take_figures(begin + 400ms).takes_nothing);
+    EXPECT_FALSE(outbox.take_figures(begin + 500ms).takes_nothing) << "all was taken";
+}
+
 TEST(Outbox, ControlThatNobodyReadsIsGivenUpAsAWhole) {
     Outbox outbox;
     int kept = 0;

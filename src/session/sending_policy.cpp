@@ -22,7 +22,7 @@ constexpr int late_measures = 3;
 // A browser's page that loads takes nothing for up to half a second, whatever its link carries: it
 // compiles its shaders when the first frames arrive.
 constexpr Duration at_first = std::chrono::seconds(2);
-constexpr int forgiven_at_first = 6;  // measures in a row without an answer
+constexpr int loading_measures = 6;  // measures in a row without an answer
 constexpr Duration shortest_settling = std::chrono::milliseconds(400);
 constexpr Duration calm_to_go_up = std::chrono::milliseconds(600);
 // Before trials of a receiver with which none has failed. Nothing shows the rate of a link that
@@ -73,8 +73,8 @@ bool SendingPolicy::fail_trial(const LinkMeasure& link) {
 bool SendingPolicy::is_late(const LinkMeasure& link, Duration goal, TimePoint now) {
     if (!began_)
         began_ = now;
-    forgiven_ = link.stands_still ? forgiven_ + 1 : 0;
-    if (link.stands_still && now - *began_ < at_first && forgiven_ <= forgiven_at_first)
+    paused_ = link.takes_nothing ? paused_ + 1 : 0;
+    if (paused_ > 0 && paused_ <= loading_measures && now - *began_ < at_first)
         return false;
     // A step that is only tried and loses frames is too much, even if those that get through are
     // in time.

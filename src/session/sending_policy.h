@@ -25,7 +25,7 @@ struct LinkMeasure {
     Duration round_trip{};        // of the link without queues
     Duration delay{};             // the longest of a frame, from encoded to arrived
     int dropped = 0;              // frames that were dropped because the link was too slow
-    bool stands_still = false;    // frames wait for the receiver, and it has taken nothing
+    bool takes_nothing = false;   // frames wait for the receiver, and it has taken nothing
 };
 
 // The rate that a step of the ladder needs.
@@ -72,7 +72,7 @@ private:
     SendingReason reason_ = SendingReason::none;
     int late_in_a_row_ = 0;
     std::optional<TimePoint> began_;  // the first measure
-    int forgiven_ = 0;                // measures in a row in which the receiver took nothing
+    int paused_ = 0;                  // measures in a row in which the receiver took nothing
     TimePoint settled_;               // no other step down before
     TimePoint calm_since_;            // nothing late and nothing dropped
     bool trying_ = false;             // the last step up is still a trial

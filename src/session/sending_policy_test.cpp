@@ -145,7 +145,7 @@ TEST(SendingPolicy, APageThatLoadsIsNoSlowLink) {
     Trial r;
     r.run(0.3);
     LinkMeasure pause = r.link.measure(r.needs[0]);
-    pause.stands_still = true;
+    pause.takes_nothing = true;
     for (int i = 1; i <= 5; ++i) {
         pause.delay = i * std::chrono::milliseconds(100);
         r.policy.update(pause, r.needs, r.goal, r.now += std::chrono::milliseconds(100));

@@ -198,7 +198,7 @@ private:
     void tick() {
         const auto f = outbox_.take_figures(now);
         host_.on_link(viewer_id,
-                      {f.bytes_per_second, f.round_trip, f.delay, f.dropped, f.stands_still}, now);
+                      {f.bytes_per_second, f.round_trip, f.delay, f.dropped, f.takes_nothing}, now);
         host_.on_tick(now);
     }
 
