@@ -92,7 +92,7 @@ void say_places(const exporting::ExportSource& source) {
             names += (names.empty() ? "" : ", ") + camera->info().name;
     if (!of_people.empty())
         std::cerr << "Not merged, because they see people who move: " << of_people
-                  << ". Without --merged their points are exported in the person's frame."
+                  << ". Without --merged the points of each are exported in its own frame."
                   << std::endl;
     if (!names.empty() && source.cameras.size() > 1)
         std::cerr << "Nobody knows where these cameras were in the room: " << names

@@ -143,6 +143,7 @@ json state_of(const viewer::Facts& facts, const client::Participant& participant
             {"is_heard",
              session::may(status.standing.role, session::Right::speak) && !status.standing.muted},
             {"is_muted", status.standing.muted},
+            {"may_handle", session::may(status.standing.role, session::Right::handle)},
             // Null where the host does not ask.
             {"voice_may_record", asks_consent ? json(participant.voice_may_record()) : json()},
             {"is_recorded", !participant.recordings().empty()},

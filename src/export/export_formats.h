@@ -22,9 +22,9 @@ struct ExportSource {
 
 // Each returns the number of written files or frames.
 //
-// DIR/00000.ply and so on, for several cameras DIR/camera-0/00000.ply; `merged`: one file for each
-// moment with the points of all cameras, in the room. Cameras that see a person, who moves, are not
-// merged; their own points are in the person's frame (docs/formats/calibration.md).
+// DIR/00000.ply and so on, for several cameras DIR/camera-0/00000.ply, in the frame of each depth
+// camera; `merged`: one file for each moment with the points of all cameras, in the room. Cameras
+// that see a person, who moves, are not merged.
 std::size_t export_ply(ExportSource& source, const std::filesystem::path& folder, bool merged);
 // The layout of folder:DIR, for several cameras in DIR/camera-0 and so on.
 enum class Pictures {

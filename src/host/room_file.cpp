@@ -60,7 +60,7 @@ void put_adjustments(ByteWriter& out, const RoomFile::Adjustments& adjustments) 
 // False if there is none that can be used.
 bool get_adjustments(ByteReader& in, RoomFile::Adjustments& adjustments) {
     const std::size_t count = in.get<std::uint16_t>();
-    if (count > session::max_kept_adjustments)
+    if (count > session::KeptAdjustments::max_kept)
         return false;
     for (std::size_t i = 0; i < count; ++i) {
         session::KeptAdjustment kept;

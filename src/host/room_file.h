@@ -13,8 +13,8 @@
 
 #include "base/time.h"
 #include "base/utc.h"
-#include "session/camera_adjustment.h"
 #include "session/host_room.h"
+#include "session/kept_adjustments.h"
 
 namespace theatron::host {
 

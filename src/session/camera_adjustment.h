@@ -32,17 +32,6 @@ struct CameraAdjustment {
     bool operator==(const CameraAdjustment&) const = default;
 };
 
-// An adjustment that outlives its camera: it belongs to a registered pose, and no longer holds once
-// the camera is registered anew.
-struct KeptAdjustment {
-    std::string publisher, camera;  // names; no publisher: a camera of the host
-    Pose registered;
-    CameraAdjustment adjustment;
-    bool operator==(const KeptAdjustment&) const = default;
-};
-// Adjustments that a host keeps; the oldest gives way.
-inline constexpr std::size_t max_kept_adjustments = 128;
-
 // True if the nudge is within its limits, and the region within a depth picture of this size.
 bool is_within_limits(const CameraAdjustment& adjustment, Size depth);
 

@@ -51,9 +51,6 @@ public:
         DirectPaths::MakeSecret make_secret = {};  // empty: nothing is sent directly
     };
 
-    // Cameras of one publisher at once.
-    static constexpr std::size_t max_published = 8;
-
     explicit HostSession(Config config);
     HostSession(const HostSession&) = delete;
     HostSession& operator=(const HostSession&) = delete;
@@ -202,10 +199,6 @@ private:
     void tell_cases(ParticipantId id);
     void tell_patient();
     void carry_out_late(ParticipantId id, Participant& participant, TimePoint now);
-    wire::Text problem_of(ParticipantId id, const wire::Publish& offer,
-                          const std::vector<wire::Camera>& cameras) const;
-    wire::Text problem_of_faces(ParticipantId id, const std::vector<wire::Camera>& cameras,
-                                std::size_t new_faces) const;
     // `by`: the operator; 0: the person at the host's machine.
     wire::ManageRefusal manage(const wire::Manage& decision, ParticipantId by);
     void set_role(ParticipantId id, Role role);

@@ -5,36 +5,16 @@
 
 #include "geometry/calibration.h"
 #include "geometry/screen.h"
-#include "session/announced_cameras.h"
+#include "session/camera_offer.h"
 #include "session/host_session.h"
 
 namespace theatron::session {
-namespace {
-
 using wire::TextCode;
 
-// No codec makes a picture much larger than its pixels (receive::max_media_size).
-std::size_t max_media_size(Size size) {
-    constexpr std::size_t overhead = 64 * 1024, bytes_per_pixel = 4;
-    return wire::media_header_size + overhead + bytes_per_pixel * size.area();
-}
-
-}  // namespace
-
 void HostSession::carry_out(ParticipantId id, const wire::Publish& offer, TimePoint) {
-    std::vector<wire::Camera> cameras;
-    for (const wire::OfferedCamera& offered : offer.cameras) {
-        wire::Camera camera;
-        camera.name = offered.name;
-        camera.has_color = offered.has_color;
-        camera.frames_per_second = offered.frames_per_second;
-        camera.calibration = offered.calibration;
-        camera.may_record = offered.may_record;
-        camera.session = config_.session;
-        camera.frame = offered.frame;
-        cameras.push_back(std::move(camera));
-    }
-    if (wire::Text problem = problem_of(id, offer, cameras); !problem.empty())
+    const Participant& publisher = *admission_.find(id);
+    std::vector<wire::Camera> cameras = cameras_of(offer, config_.session);
+    if (wire::Text problem = problem_of_offer(id, publisher, streams_, cameras); !problem.empty())
         return send(id, wire::Published{{}, std::move(problem)});
     // The publisher gets its cameras' numbers before the settings for them.
     wire::Published answer;
@@ -43,7 +23,6 @@ void HostSession::carry_out(ParticipantId id, const wire::Publish& offer, TimePo
     send(id, std::move(answer));
     for (const wire::Camera& camera : cameras)
         audit(AuditEvent::What::shared, id, "", camera.name);
-    const Participant& publisher = *admission_.find(id);
     const std::vector<PlacedScreen> screens =
         place_screens({id, publisher.name, publisher.person, {}, {}}, cameras);
     streams_.add(id, std::move(cameras), publisher.given_name);
@@ -90,62 +69,6 @@ void HostSession::end_share(CameraId camera, ParticipantId by) {
     set_budgets();
 }
 
-// The same for the faces among them, of which there are so many.
-wire::Text HostSession::problem_of_faces(ParticipantId id, const std::vector<wire::Camera>& cameras,
-                                         std::size_t new_faces) const {
-    if (!admission_.participants().at(id).has(wire::Feature::webcam))
-        return {TextCode::face_forbidden};
-    for (const wire::Camera& camera : cameras) {
-        if (camera.frame != wire::CameraFrame::face)
-            continue;
-        const auto calibration = decode_calibration(camera.calibration);
-        if (!camera.has_color || !calibration || !is_face(*calibration, camera.frames_per_second))
-            return {TextCode::face_beyond_limits,
-                    {std::to_string(max_face_pixels), std::to_string(int(max_face_fps))}};
-    }
-    const std::vector<CameraId> own = streams_.of(id);
-    const bool has_one = std::any_of(
-        own.begin(), own.end(), [&](CameraId camera) { return streams_.find(camera)->is_face(); });
-    if (new_faces > 1 || has_one)
-        return {TextCode::one_face};
-    if (streams_.faces() >= max_faces)
-        return {TextCode::too_many_faces, {std::to_string(max_faces)}};
-    return {};
-}
-
-// The reason why these cameras cannot join the session; empty if they can.
-wire::Text HostSession::problem_of(ParticipantId id, const wire::Publish& offer,
-                                   const std::vector<wire::Camera>& cameras) const {
-    const Participant& publisher = admission_.participants().at(id);
-    if (offer.cameras.empty())
-        return {TextCode::no_camera_offered};
-    const auto new_faces =
-        std::size_t(std::count_if(cameras.begin(), cameras.end(), [](const wire::Camera& camera) {
-            return camera.frame == wire::CameraFrame::face;
-        }));
-    if (new_faces < cameras.size() && !publisher.has(wire::Feature::publish))
-        return {TextCode::link_without_cameras};
-    if (new_faces > 0)
-        if (wire::Text problem = problem_of_faces(id, cameras, new_faces); !problem.empty())
-            return problem;
-    if (streams_.of(id).size() + cameras.size() > max_published)
-        return {TextCode::too_many_own_cameras, {std::to_string(max_published)}};
-    if (streams_.size() + cameras.size() > wire::max_cameras)
-        return {TextCode::session_full, {std::to_string(wire::max_cameras)}};
-    if (!streams_.has_numbers_for(cameras.size()))
-        return {TextCode::no_camera_numbers};
-    // The same check as in every participant.
-    std::vector<wire::Camera> all = streams_.cameras();
-    for (std::size_t i = 0; i < cameras.size(); ++i) {
-        all.push_back(cameras[i]);
-        all.back().id = streams_.next_id(i);
-        all.back().depth_stream = depth_stream(all.back().id);
-        all.back().color_stream = color_stream(all.back().id);
-    }
-    const AnnouncedCameras judged = judge_cameras(std::move(all));
-    return judged.left_out.empty() ? wire::Text() : judged.left_out.back();
-}
-
 void HostSession::carry_out(ParticipantId id, const wire::Unpublish& left, TimePoint) {
     std::vector<CameraId> own = streams_.of(id);
     std::erase_if(own, [&](CameraId camera) {
@@ -179,8 +102,7 @@ void HostSession::take_media(ParticipantId id) {
     for (const CameraId camera : streams_.of(id))
         if (const auto calibration =
                 decode_calibration(streams_.find(camera)->description().calibration))
-            most = std::max({most, max_media_size(calibration->depth.size),
-                             max_media_size(calibration->color.size)});
+            most = std::max(most, max_media_size(*calibration));
     actions_.push_back(action::TakeMedia{id, most});
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "geometry/calibration.h"
+#include "session/camera_offer.h"
 #include "session/host_session.h"
 #include "session/host_session_testing.h"
 
@@ -419,8 +420,8 @@ TEST_F(SessionOfMany, StatesAreBelievedOfOnesOwnCamerasOnly) {
 TEST_F(SessionOfMany, CamerasAreBoundedInNumberAndInPixels) {
     join(alice, "publish");
     (void)session.take_actions();
-    EXPECT_TRUE(publish(alice, HostSession::max_published + 1).empty());
-    EXPECT_EQ(publish(alice, HostSession::max_published).size(), HostSession::max_published);
+    EXPECT_TRUE(publish(alice, max_published + 1).empty());
+    EXPECT_EQ(publish(alice, max_published).size(), max_published);
     EXPECT_TRUE(publish(alice, 1).empty());
     EXPECT_FALSE(sent<wire::Published>(alice).at(0).problem.empty());
     join(bob, "publish");
@@ -435,7 +436,7 @@ TEST_F(SessionOfMany, CamerasAreBoundedInNumberAndInPixels) {
         EXPECT_TRUE(answer.cameras.empty());
         EXPECT_FALSE(answer.problem.empty());
     }
-    EXPECT_EQ(session.streams().size(), 1 + HostSession::max_published);
+    EXPECT_EQ(session.streams().size(), 1 + max_published);
     for (int i = 3; session.streams().size() < wire::max_cameras && i < 60; ++i) {
         join(ParticipantId(i), "publish");
         (void)publish(ParticipantId(i), 2);

@@ -20,27 +20,6 @@ void stand_apart(wire::Camera& camera, double distance_m) {
     camera.calibration = encode_calibration(*calibration);
 }
 
-// The registered pose was the same when this was kept.
-bool is_same_place(const Pose& a, const Pose& b) {
-    constexpr double same_place_m = 1e-4, same_turn = 1e-5;  // half of an angle's sine
-    const Quat turn = conjugate(a.rotation) * b.rotation;
-    return length(a.translation - b.translation) < same_place_m &&
-           length(Vec3{turn.x, turn.y, turn.z}) < same_turn;
-}
-
-bool is_of(const KeptAdjustment& kept, const CameraStreams& camera) {
-    return kept.publisher == camera.publisher_name && kept.camera == camera.description().name;
-}
-
-// Null if there is none.
-const CameraAdjustment* find_kept(const std::vector<KeptAdjustment>& all,
-                                  const CameraStreams& camera) {
-    const auto found = std::find_if(all.begin(), all.end(), [&](const KeptAdjustment& kept) {
-        return is_of(kept, camera) && is_same_place(kept.registered, camera.registered());
-    });
-    return found == all.end() ? nullptr : &found->adjustment;
-}
-
 bool can_be_adjusted(const CameraStreams& camera, const CameraAdjustment& adjustment) {
     const auto calibration = decode_calibration(camera.description().calibration);
     return calibration && calibration->person == 0 &&
@@ -80,7 +59,8 @@ void Streams::add(ParticipantId publisher, std::vector<wire::Camera> cameras,
                 .first->second;
         streams.slot = slot;
         streams.publisher_name = publisher_name;
-        if (const CameraAdjustment* kept = find_kept(adjustments_, streams);
+        if (const CameraAdjustment* kept =
+                adjustments_.find(publisher_name, camera.name, streams.registered());
             kept && can_be_adjusted(streams, *kept)) {
             streams.adjust(*kept);
             camera = streams.description();
@@ -194,7 +174,8 @@ wire::ManageRefusal Streams::adjust(CameraId id, const CameraAdjustment& adjustm
     if (!can_be_adjusted(camera, adjustment))
         return wire::ManageRefusal::beyond_limits;
     camera.adjust(adjustment);
-    keep(camera);
+    adjustments_.keep({camera.publisher_name, camera.description().name, camera.registered(),
+                       camera.adjustment()});
     tell_changed(camera);
     return wire::ManageRefusal::none;
 }
@@ -220,16 +201,6 @@ void Streams::tell_changed(const CameraStreams& camera) {
     for (const auto& [receiver, wishes] : receivers_)
         if (receiver != camera.publisher())
             send(receiver, wire::CameraChanged{camera.description()});
-}
-
-// The newest one of a camera replaces the one before.
-void Streams::keep(const CameraStreams& camera) {
-    std::erase_if(adjustments_, [&](const KeptAdjustment& kept) { return is_of(kept, camera); });
-    if (camera.adjustment() != CameraAdjustment{})
-        adjustments_.push_back({camera.publisher_name, camera.description().name,
-                                camera.registered(), camera.adjustment()});
-    if (adjustments_.size() > max_kept_adjustments)
-        adjustments_.erase(adjustments_.begin());
 }
 
 void Streams::on_region(bool is_drawn) {

@@ -18,6 +18,7 @@
 #include "session/camera_streams.h"
 #include "session/delivery.h"
 #include "session/host_actions.h"
+#include "session/kept_adjustments.h"
 #include "session/key_requests.h"
 #include "session/stream_rates.h"
 
@@ -90,7 +91,7 @@ public:
     // The same for gains that were estimated; a camera keeps those of its own (CameraStreams).
     void set_estimated_gain(CameraId camera, Vec3 gain);
     // Those of all cameras that are or were here.
-    const std::vector<KeptAdjustment>& adjustments() const { return adjustments_; }
+    const std::vector<KeptAdjustment>& adjustments() const { return adjustments_.all(); }
     // `is_drawn`: some camera has a region of interest. Without one, depth never becomes lossy
     // because of a slow link.
     void on_region(bool is_drawn);
@@ -163,7 +164,6 @@ private:
     static bool gets(const CameraStreams& camera, ParticipantId id, const Receiver& receiver) {
         return camera.is_for(id, receiver.takes_faces, receiver.records);
     }
-    void keep(const CameraStreams& camera);
     void tell_changed(const CameraStreams& camera);
     void set_wish(ParticipantId id, Receiver& receiver, CameraStreams& camera, bool depth);
     void take_step(ParticipantId id, Receiver& receiver);
@@ -187,7 +187,7 @@ private:
     KeyRequests key_requests_;
     StreamRates rates_;
     bool region_is_drawn_ = false;
-    std::vector<KeptAdjustment> adjustments_;  // the oldest first
+    KeptAdjustments adjustments_;
     std::uint64_t changes_ = 0;
 };
 

@@ -141,6 +141,12 @@ class WebEntrance(PageCase):
             self.assertEqual(again.evaluate(NUMBERS), [])
             self.assertNotEqual(self.open().evaluate("theatron.person.id"), second)
 
+    def test_a_link_that_the_host_does_not_know_invites_nobody(self):
+        token = self.links["expert"].split("join=")[1].split("&")[0]
+        page = self.browser.open(self.links["expert"].replace(token, token[::-1]), SIZE)
+        page.wait_for("!!document.getElementById('session_lines')?.innerText.includes('does not know this invitation')")
+        self.assertNotIn("You are invited", page.evaluate("document.getElementById('join').innerText"))
+
     def test_the_fingerprint_is_no_proof_and_the_page_says_so(self):
         page = self.open()
         text = page.evaluate("document.getElementById('certificate').textContent")

@@ -17,8 +17,8 @@ MUTE = "#room_panels [data-label$=\"/Mute\"]"
 class WebPanels(PageCase):
     cameras = (CAMERA,)
 
-    def enter(self, way="room", size=(640, 480)):
-        page = self.browser.open(self.links["operator"], size)
+    def enter(self, way="room", size=(640, 480), role="operator"):
+        page = self.browser.open(self.links[role], size)
         page.enter("Ada", way=way)
         page.wait_for("theatron.state.phase === 'joined'")
         return page
@@ -29,6 +29,7 @@ class WebPanels(PageCase):
             page.wait_for("theatron.state.people.some(p => p.name === 'Ben') && theatron.state.cameras[0]?.frames > 3")
             page.wait_for(f"!!document.querySelector('{MUTE}')")
             page.evaluate(f"document.querySelector('{MUTE}').scrollIntoView()")
+            self.assertIn("Mute: Ben", page.evaluate(f"document.querySelector('{MUTE}').ariaLabel"))
             at = page.middle(MUTE)
             page.mouse("mousePressed", *at)
             ages = page.evaluate(AGES)
@@ -119,6 +120,15 @@ class WebPanels(PageCase):
                 page.wait_for("!!" + let_in)
                 page.evaluate(let_in + ".click()")
                 guest.wait_for(lambda f: f["phase"] == "joined", 30)
+
+    def test_observers_have_no_buttons_that_their_role_forbids(self):
+        page = self.enter(role="observer")
+        shown = "[...document.querySelectorAll('#tools [data-key]')].filter(b => b.offsetParent).map(b => b.dataset.key).join('')"
+        page.wait_for(f"{shown} === 'por'")
+        name = page.evaluate("theatron.state.people.find(person => person.self).name")
+        self.host.say(f"role {name} expert")
+        page.wait_for(f"{shown} === 'ponzr'")
+        self.leave(page)
 
     def test_a_phone_in_landscape_begins_with_the_room_and_has_its_buttons_whole(self):
         page = self.browser.open("about:blank", (640, 360))

@@ -54,6 +54,7 @@ export class Lobby {
     async show() {
         const answer = await this.fetch("/lobby");
         if (answer.status === 401) {
+            $("invitation").hidden = true;
             this.tell([text("lobby_unknown")]);
             return false;
         }

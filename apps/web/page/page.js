@@ -208,6 +208,8 @@ function run({ client, voice, face, module, flat }) {
         show_way(page.state);
         place_voices(voice, page.state);
         show_voices(voice, page.state);
+        for (const key of ["n", "z"])
+            document.querySelector(`#tools [data-key="${key}"]`).hidden = !page.state.may_handle;
         document.title = `${page.state.host || host} - Theatron`;
     };
     // Asks soon, because the time that drawing takes decides on the quality.

@@ -67,9 +67,12 @@ export function command_of(button, panels) {
 }
 
 // A row of buttons alone belongs to the text above it.
+function subject_of(panel, i) {
+    return panel.rows.slice(0, i + 1).findLast(({ text }) => text)?.text ?? "";
+}
+
 function place_of(panel, i) {
-    const named = panel.rows.slice(0, i + 1).findLast(({ text }) => text);
-    return `${panel.title}/${named?.text ?? ""}`;
+    return `${panel.title}/${subject_of(panel, i)}`;
 }
 
 function set_text(place, content) {
@@ -106,8 +109,9 @@ function fill_panels(place, panels) {
                 button.dataset.command = command;
                 button.dataset.label = `${place_of(panel, at)}/${label}`;
                 button.dataset.place = `${place_of(panel, at).split(/[:,] /)[0]}/${i}`;
-                if (row.text)
-                    button.setAttribute("aria-label", `${label}: ${row.text}`);
+                const subject = subject_of(panel, at);
+                if (subject)
+                    button.setAttribute("aria-label", `${label}: ${subject}`);
                 buttons.append(button);
             }
             if (row.buttons.length)
