@@ -37,7 +37,7 @@ public:
         content_.volumes = {
             std::make_shared<const medical::Volume>(std::move(loaded.volumes.front()))};
         room_.emplace();
-        room_->screen.emplace();
+        room_->screen = session::CaseInRoom::Screen{};
         room_->screen->object.room_from_object = {{}, {0, 1.5, 0}};
     }
 

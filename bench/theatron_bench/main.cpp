@@ -9,15 +9,17 @@
 #include "capture/mkv_reader.h"
 
 int main(int argc, char** argv) {
-    theatron::sandbox::run_as_child(argc, argv, theatron::capture::foreign_readers);
-    CLI::App app("Measure codecs, filters, renderers and the whole way of a frame",
-                 "theatron bench");
-    app.require_subcommand(1);
-    theatron::bench::add_benchmarks(app);
     try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& e) {
-        return app.exit(e);
+        theatron::sandbox::run_as_child(argc, argv, theatron::capture::foreign_readers);
+        CLI::App app("Measure codecs, filters, renderers and the whole way of a frame",
+                     "theatron bench");
+        app.require_subcommand(1);
+        theatron::bench::add_benchmarks(app);
+        try {
+            app.parse(argc, argv);
+        } catch (const CLI::ParseError& e) {
+            return app.exit(e);
+        }
     } catch (const theatron::Error& e) {
         std::fprintf(stderr, "theatron: %s\n", e.what());
         return 1;

@@ -71,10 +71,12 @@ TEST(Synth, ALiverHas1200To1800Millilitres) {
         const medical::Box box = liver.box();
         std::size_t inside = 0;
         constexpr double step = 6;
-        for (double z = box.low_mm.z; z <= box.high_mm.z; z += step)
-            for (double y = box.low_mm.y; y <= box.high_mm.y; y += step)
-                for (double x = box.low_mm.x; x <= box.high_mm.x; x += step)
-                    inside += liver.distance({x, y, z}) < 0;
+        const Vec3 size = (box.high_mm - box.low_mm) * (1 / step);
+        for (int z = 0; z <= int(size.z); ++z)
+            for (int y = 0; y <= int(size.y); ++y)
+                for (int x = 0; x <= int(size.x); ++x)
+                    inside += liver.distance(box.low_mm +
+                                             Vec3{double(x), double(y), double(z)} * step) < 0;
         const double litres = double(inside) * step * step * step * 1e-6;
         EXPECT_GT(litres, 1.2) << seed;
         EXPECT_LT(litres, 1.8) << seed;
@@ -141,11 +143,13 @@ TEST(Synth, TumoursNeverLeaveTheLiver) {
     for (const std::uint64_t seed : {0, 1, 99}) {
         const SynthLiver liver(seed);
         for (const SynthTumour& tumour : place_tumours(liver, vessels_of(seed), seed)) {
-            const double reach = 1.6 * tumour.radius_mm, step = reach / 20;
-            for (double z = -reach; z <= reach; z += step)
-                for (double y = -reach; y <= reach; y += step)
-                    for (double x = -reach; x <= reach; x += step) {
-                        const Vec3 p = tumour.center_mm + Vec3{x, y, z};
+            constexpr int steps = 20;
+            const double step = 1.6 * tumour.radius_mm / steps;
+            for (int z = -steps; z <= steps; ++z)
+                for (int y = -steps; y <= steps; ++y)
+                    for (int x = -steps; x <= steps; ++x) {
+                        const Vec3 p =
+                            tumour.center_mm + Vec3{double(x), double(y), double(z)} * step;
                         ASSERT_TRUE(distance(p, tumour) > 0 || liver.distance(p) < 0)
                             << "seed " << seed;
                     }
@@ -195,11 +199,13 @@ double edge_offset_mm(Vec3 point, Vec3 normal, double inside, double outside) {
     const medical::Volume& volume = coarse().volume;
     const double middle = (inside + outside) / 2;
     double nearest = 1e9;
-    for (double offset = -2.5; offset < 2.5; offset += 0.05)
+    for (int i = -50; i < 50; ++i) {
+        const double offset = 0.05 * i;
         if ((value_at(volume, point + normal * offset) < middle) !=
                 (value_at(volume, point + normal * (offset + 0.05)) < middle) &&
             std::abs(offset) < std::abs(nearest))
             nearest = offset;
+    }
     return nearest;
 }
 

@@ -133,7 +133,7 @@ void CameraLane::set_filter(filter::ChainSettings settings,
 void CameraLane::set_crop(std::optional<capture::Crop> crop) {
     assert(!crop || capture::lies_in(*crop, info_.calibration.depth.size));
     const std::lock_guard lock(mutex_);
-    orders_.crop = std::move(crop);
+    orders_.crop = crop;
     orders_.filter_changed = true;
 }
 

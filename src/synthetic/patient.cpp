@@ -30,7 +30,7 @@ F3 cover_point(float u, float v) {
     const float along = mix(-0.672f, 1.72f, u);
     const float across = (v - 0.5f) * 2 * 0.98f;
     float drop_x = 0, drop_z = 0;
-    float x = along, z = across;
+    float x = along;
     const auto leave = [](float s, float edge, float radius, float& drop) {
         const float beyond = std::abs(s) - edge;
         if (beyond <= 0)
@@ -47,7 +47,7 @@ F3 cover_point(float u, float v) {
         x = leave(along, 1.11f, 0.05f, drop_x);
     // Near the frame at the head the sheet hangs from further out.
     const float raised = smoothstep(-0.5f, -0.66f, x);
-    z = leave(across, mix(half_width, 0.4f, raised), 0.045f, drop_z);
+    float z = leave(across, mix(half_width, 0.4f, raised), 0.045f, drop_z);
     const float drop = std::max(drop_x, drop_z) + 0.25f * std::min(drop_x, drop_z);
     float y = cover_height(x, z);
     const float edge_y = cover_height(x, std::copysign(std::min(std::abs(z), half_width), z));

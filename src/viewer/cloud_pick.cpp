@@ -33,7 +33,9 @@ public:
 
     std::optional<double> hit() const {
         std::optional<double> before;
-        for (double t = nearest_m; t < farthest_pick_m; t += step_m) {
+        constexpr int steps = int((farthest_pick_m - nearest_m) / step_m + 0.5);
+        for (int i = 0; i < steps; ++i) {
+            const double t = nearest_m + i * step_m;
             const std::optional<double> now = behind(t);
             if (before && now && *before < 0 && *now >= 0 && *now < surface_m)
                 return refined(t - step_m, t);

@@ -109,7 +109,7 @@ TEST(DrawingPace, AChosenRendererStays) {
 }
 
 TEST(DrawingPace, AChosenScaleStays) {
-    for (auto ways : {automatic_ways(2, 0.6), ways_of("blend", 0.6)}) {
+    for (const auto& ways : {automatic_ways(2, 0.6), ways_of("blend", 0.6)}) {
         Viewer viewer(ways);
         EXPECT_EQ(viewer.watch(machine(300ms, 300ms), minute).scale, 0.6);
     }
