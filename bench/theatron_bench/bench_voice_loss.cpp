@@ -63,10 +63,10 @@ nlohmann::json lost_5_percent(int frame_ms) {
     voice::Decoder decoder;
     voice::Playout playout(decoder);
     std::vector<float> block(480);
-    double next_us = 0;
+    std::int64_t next_us = 0;
     for (const Arrival& arrival : arrivals) {
-        for (; next_us < arrival.us; next_us += 10'000)
-            playout.pull(block, from_us(std::int64_t(next_us)));
+        for (; double(next_us) < arrival.us; next_us += 10'000)
+            playout.pull(block, from_us(next_us));
         voice::Packet packet;
         packet.number = arrival.number;
         packet.frame_ms = frame_ms;

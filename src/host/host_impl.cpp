@@ -211,6 +211,20 @@ void Host::Impl::note_left(net::PeerId peer) {
     }
 }
 
+void Host::Impl::keep_for_next_time() {
+    room_file->save(session->room(), session->streams().adjustments(), steady_now());
+    if (audit && !has_ended)
+        audit->add({session::AuditEvent::What::ended,
+                    {},
+                    "",
+                    {},
+                    {},
+                    "",
+                    ends_by_host ? session::at_the_host : "",
+                    name},
+                   "");
+}
+
 void Host::Impl::say_goodbye() {
     server->post([this] {
         has_ended = session->has_ended();

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <set>
 
+#include "base/fault.h"
 #include "base/line_limit.h"
 #include "base/steady_clock.h"
 #include "capture/camera_places.h"
@@ -124,30 +125,21 @@ struct Host::Impl {
     ~Impl() {
         const bool has_begun = server && server->has_begun();
         if (has_begun)
-            say_goodbye();
+            (void)contain("the goodbye of a session", [&] { say_goodbye(); });
         replay.reset();
         // The server's thread uses the lanes: it leaves them first. The lanes use the watches,
         // whose threads post to the server.
         if (server)
             server->leave();
-        if (has_begun) {
-            room_file->save(session->room(), session->streams().adjustments(), steady_now());
-            if (audit && !has_ended)
-                audit->add({session::AuditEvent::What::ended,
-                            {},
-                            "",
-                            {},
-                            {},
-                            "",
-                            ends_by_host ? session::at_the_host : "",
-                            name},
-                           "");
-        }
+        if (has_begun)
+            (void)contain("the end of a session", [&] { keep_for_next_time(); });
         lanes.clear();
         place_watch.reset();
         gain_watch.reset();
     }
 
+    // Saves the room, and ends the audit log of this session.
+    void keep_for_next_time();
     // `port` is set before; it opens for the first session.
     void open(const SessionOptions& options, const capture::Progress& progress);
     void audit_beginning();

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <future>
+#include <memory>
 #include <stdexcept>
 #include <thread>
 #include <utility>
@@ -160,7 +161,7 @@ TEST(Connection, BothSidesLearnOfTheEnd) {
 }
 
 // Answers each message with itself; a message that begins with 66 meets a fault of the host.
-Server::Handler echo_that_can_throw(TestServer*& host) {
+Server::Handler echo_that_can_throw(std::unique_ptr<TestServer>& host) {
     Server::Handler handler;
     handler.control = [&host](PeerId peer, ByteView bytes) {
         if (bytes[0] == std::byte{66})
@@ -182,9 +183,8 @@ Client::End echo(const Link& link, std::byte content) {
 }
 
 TEST(Connection, AMessageWhoseHandlingThrowsCostsItsConnectionOnly) {
-    TestServer* host = nullptr;
-    TestServer server(echo_that_can_throw(host));
-    host = &server;
+    std::unique_ptr<TestServer> server;
+    server = std::make_unique<TestServer>(echo_that_can_throw(server));
     const std::uint64_t before = fault_count();
     std::promise<void> in, over;
     std::thread other([&] {
@@ -199,43 +199,41 @@ TEST(Connection, AMessageWhoseHandlingThrowsCostsItsConnectionOnly) {
             over.get_future().wait();
             self->send_control(Bytes{std::byte{2}});
         };
-        Client client(server.link(), h);
+        Client client(server->link(), h);
         self = &client;
         EXPECT_EQ(client.run().why, "");
     });
     in.get_future().wait();
-    EXPECT_NE(echo(server.link(), std::byte{66}).why, "");
+    EXPECT_NE(echo(server->link(), std::byte{66}).why, "");
     EXPECT_EQ(fault_count(), before + 1);
     over.set_value();
     other.join();
 }
 
 TEST(Connection, NothingThatAHandlerThrowsEndsTheServer) {
-    TestServer* host = nullptr;
-    Server::Handler handler = echo_that_can_throw(host);
+    std::unique_ptr<TestServer> server;
+    Server::Handler handler = echo_that_can_throw(server);
     handler.tick = [] { throw std::runtime_error("a tick"); };
     handler.closed = [](PeerId, const std::string&) { throw 1; };
     handler.connected = [first = true](PeerId, const std::string&, bool) mutable {
         if (std::exchange(first, false))
             throw std::runtime_error("the first to come");
     };
-    TestServer server(std::move(handler));
-    host = &server;
-    server.server.post([] { throw std::runtime_error("posted"); });
-    EXPECT_NE(echo(server.link(), std::byte{1}).why, "");
-    EXPECT_NE(echo(server.link(), std::byte{66}).why, "");
-    EXPECT_EQ(echo(server.link(), std::byte{2}).why, "");
+    server = std::make_unique<TestServer>(std::move(handler));
+    server->server.post([] { throw std::runtime_error("posted"); });
+    EXPECT_NE(echo(server->link(), std::byte{1}).why, "");
+    EXPECT_NE(echo(server->link(), std::byte{66}).why, "");
+    EXPECT_EQ(echo(server->link(), std::byte{2}).why, "");
 }
 
 TEST(Connection, AHandlerOfAClientThatThrowsEndsTheConnection) {
-    TestServer* host = nullptr;
-    TestServer server(echo_that_can_throw(host));
-    host = &server;
+    std::unique_ptr<TestServer> server;
+    server = std::make_unique<TestServer>(echo_that_can_throw(server));
     Client* self = nullptr;
     Client::Handler h = client_handler();
     h.connected = [&] { self->send_control(Bytes{std::byte{1}}); };
     h.control = [&](ByteView) { throw std::bad_alloc(); };
-    Client client(server.link(), h);
+    Client client(server->link(), h);
     self = &client;
     EXPECT_NE(client.run().why.find("fault"), std::string::npos);
 }

@@ -41,7 +41,7 @@ ColorImage scene(Size size, unsigned noise) {
 Bytes encoded(const ColorImage& image, int subsampling, int quality, int restart = 0) {
     const std::string interval = std::to_string(restart) + "B";
     setenv("TJ_RESTART", restart ? interval.c_str() : "", 1);
-    const tjhandle encoder = tjInitCompress();
+    void* const encoder = tjInitCompress();
     unsigned char* bytes = nullptr;
     unsigned long size = 0;
     EXPECT_EQ(tjCompress2(encoder, &image.pixels[0].r, image.size.width, 0, image.size.height,
@@ -57,7 +57,7 @@ Bytes encoded(const ColorImage& image, int subsampling, int quality, int restart
 
 ColorImage decoded_by_library(const Bytes& jpeg, Size size) {
     ColorImage image(size);
-    const tjhandle decoder = tjInitDecompress();
+    void* const decoder = tjInitDecompress();
     EXPECT_EQ(tjDecompress2(decoder, reinterpret_cast<const unsigned char*>(jpeg.data()),
                             static_cast<unsigned long>(jpeg.size()), &image.pixels[0].r, size.width,
                             0, size.height, TJPF_RGB, TJFLAG_ACCURATEDCT),

@@ -331,9 +331,10 @@ void LiveScene::add_table_outline() {
         frame_.objects.push_back(object);
     };
     constexpr double dot_m = 0.02, dots_apart_m = 0.2, head_m = 0.07;
+    const int last = int((2 * half_length_m + dot_m) / dots_apart_m);
     for (const double z : {-half_width_m, half_width_m})
-        for (double x = -half_length_m; x <= half_length_m + dot_m; x += dots_apart_m)
-            add({x, height_m, z}, dot_m);
+        for (int i = 0; i <= last; ++i)
+            add({i * dots_apart_m - half_length_m, height_m, z}, dot_m);
     add({-half_length_m + head_m, height_m, 0}, head_m);
 }
 

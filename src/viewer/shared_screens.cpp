@@ -89,9 +89,9 @@ bool SharedScreens::follow(const session::RoomObjects& objects, ParticipantId se
         const auto facts = session::decode_shared_screen(object.kind, object.properties);
         return Object{id, session::place_of(object, *facts), facts->pinned, object.grip.holder};
     };
-    const auto set = [&](Screen& screen, std::optional<Object> object) {
+    const auto set = [&](Screen& screen, const std::optional<Object>& object) {
         changed = changed || object != screen.object;
-        screen.object = std::move(object);
+        screen.object = object;
     };
     for (auto& [camera, screen] : screens_) {
         const auto id = session::find_screen(objects, camera, screen.name);

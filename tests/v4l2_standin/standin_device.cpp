@@ -201,7 +201,7 @@ void Device::paint(unsigned index, unsigned number) {
     }
     unsigned char* coded = out;
     unsigned long size = buffer_bytes;
-    const tjhandle jpeg = tjInitCompress();
+    void* const jpeg = tjInitCompress();
     const bool good = pixels && jpeg &&
                       tjCompress2(jpeg, pixels, int(width), 0, int(height), TJPF_RGB, &coded, &size,
                                   TJSAMP_422, 90, TJFLAG_NOREALLOC) == 0;
