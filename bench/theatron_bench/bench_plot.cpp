@@ -62,7 +62,7 @@ struct Box {
     }
 };
 
-class Drawing {
+class Plot {
 public:
     void line(double x1, double y1, double x2, double y2, const char* color, double width) {
         svg_ += "<line x1='" + number(x1) + "' y1='" + number(y1) + "' x2='" + number(x2) +
@@ -90,7 +90,7 @@ private:
     std::string svg_;
 };
 
-void draw_panel(Drawing& out, const nlohmann::json& sequence) {
+void draw_panel(Plot& out, const nlohmann::json& sequence) {
     std::vector<double> ms, kb;
     for (const auto& codec : sequence["codecs"]) {
         // Times below the clock's resolution are drawn at the edge.
@@ -159,7 +159,7 @@ std::string size_speed_svg(const nlohmann::json& sequences) {
     const std::size_t columns = std::min(sequences.size(), most_in_a_row);
     const std::size_t rows = (sequences.size() + most_in_a_row - 1) / most_in_a_row;
     const double width = panel_width * double(columns), height = panel_height * double(rows);
-    Drawing drawing;
+    Plot drawing;
     for (std::size_t i = 0; i < sequences.size(); ++i) {
         drawing.begin_at(panel_width * double(i % most_in_a_row),
                          panel_height * double(i / most_in_a_row));

@@ -58,11 +58,11 @@ TEST(CameraChoice, BeginsWithTheBestLiveCamera) {
 TEST(CameraChoice, DoesNotChangeForALittleOrForAMoment) {
     CameraChoice choice;
     choice.choose(scores(1, 0.9), at(0));
-    for (double t = 0; t < 60; t += 0.1)
-        ASSERT_EQ(choice.choose(scores(1, 1.3), at(t)), a);
+    for (int i = 0; i < 600; ++i)
+        ASSERT_EQ(choice.choose(scores(1, 1.3), at(i * 0.1)), a);
     // Much better, but only for a second out of two.
-    for (double t = 60; t < 120; t += 0.1)
-        ASSERT_EQ(choice.choose(scores(1, int(t) % 2 == 0 ? 3 : 0.5), at(t)), a);
+    for (int i = 600; i < 1200; ++i)
+        ASSERT_EQ(choice.choose(scores(1, i / 10 % 2 == 0 ? 3 : 0.5), at(i * 0.1)), a);
 }
 
 TEST(CameraChoice, ChangesWhenAnotherIsMuchBetterForAWhile) {

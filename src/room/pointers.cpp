@@ -30,8 +30,8 @@ void Pointers::add_to(render::SceneFrame& frame, const std::vector<Pointer>& poi
                 {&ball_, {{}, place}, look, false, render::ObjectId::none, radius_m / ball_m});
         };
         const double reach = pointer.reach_m.value_or(free_reach_m);
-        for (double t = dots_apart_m; t < reach; t += dots_apart_m)
-            add(pointer.from + pointer.direction * t, dot_m);
+        for (int i = 1; i * dots_apart_m < reach; ++i)
+            add(pointer.from + pointer.direction * (i * dots_apart_m), dot_m);
         if (!pointer.reach_m)
             continue;
         const auto radius_at = [&](Vec3 place) {

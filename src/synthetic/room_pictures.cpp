@@ -51,7 +51,8 @@ Canvas checklist() {
 
 void trace(Canvas& c, float x0, float x1, float y, float height, float beats, int kind, Rgb color) {
     float px = x0, py = y;
-    for (float x = x0; x <= x1; x += 2) {
+    for (int i = 0; i <= int((x1 - x0) / 2); ++i) {
+        const float x = x0 + 2 * float(i);
         const float phase = std::fmod((x - x0) / (x1 - x0) * beats, 1.0f);
         const auto bump = [&](float at, float width, float h) {
             return h * std::exp(-(phase - at) * (phase - at) / (width * width));

@@ -28,7 +28,7 @@ Bytes encoded(ColorView image, int quality, bool halve_chroma) {
 
 // With libjpeg-turbo, which refuses what is damaged.
 ColorImage decoded(const Bytes& jpeg) {
-    const tjhandle library = tjInitDecompress();
+    void* const library = tjInitDecompress();
     const auto* from = reinterpret_cast<const unsigned char*>(jpeg.data());
     int width = 0, height = 0, subsampling = 0, colors = 0;
     EXPECT_EQ(
@@ -44,7 +44,7 @@ ColorImage decoded(const Bytes& jpeg) {
 
 Bytes encoded_by_libjpeg(const ColorImage& image, int quality, bool halve_chroma) {
     const int subsampling = halve_chroma ? TJSAMP_420 : TJSAMP_444;
-    const tjhandle library = tjInitCompress();
+    void* const library = tjInitCompress();
     Bytes jpeg(tjBufSize(image.size.width, image.size.height, subsampling));
     auto* to = reinterpret_cast<unsigned char*>(jpeg.data());
     auto used = static_cast<unsigned long>(jpeg.size());

@@ -43,7 +43,7 @@ struct Planes {
             reinterpret_cast<const unsigned char*>(samples.data()) + layout.y, u.data(), v.data()};
         const int strides[] = {int(layout.y_stride), int(width), int(width)};
         ColorImage image(size);
-        const tjhandle library = tjInitDecompress();
+        void* const library = tjInitDecompress();
         EXPECT_EQ(tjDecodeYUVPlanes(library, planes, strides, TJSAMP_420,
                                     reinterpret_cast<unsigned char*>(image.pixels.data()),
                                     size.width, size.width * 3, size.height, TJPF_RGB, 0),
