@@ -41,10 +41,12 @@ struct Axis {
     std::vector<double> ticks() const {
         const bool many = high / low > 500;
         std::vector<double> result;
-        for (double decade = 1e-3; decade < 1e7; decade *= 10)
-            for (const double step : {1.0, 2.0, 5.0})
-                if (decade * step >= low && decade * step <= high && (!many || step == 1))
-                    result.push_back(decade * step);
+        for (int power = -3; power < 7; ++power)
+            for (const double step : {1.0, 2.0, 5.0}) {
+                const double tick = std::pow(10, power) * step;
+                if (tick >= low && tick <= high && (!many || step == 1))
+                    result.push_back(tick);
+            }
         return result;
     }
 };
