@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // theatron_bench: benchmarks, started by `theatron bench`.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <string>
 
 #include "base/error.h"
 #include "bench_commands.h"
@@ -15,6 +17,12 @@ int main(int argc, char** argv) {
                      "theatron bench");
         app.require_subcommand(1);
         theatron::bench::add_benchmarks(app);
+        const auto known = app.get_subcommands({});
+        if (argc > 1 && argv[1][0] != '-' &&
+            std::none_of(known.begin(), known.end(),
+                         [&](const CLI::App* one) { return one->check_name(argv[1]); }))
+            throw theatron::Error("There is no benchmark '" + std::string(argv[1]) +
+                                  "'; 'theatron bench --help' lists them.");
         try {
             app.parse(argc, argv);
         } catch (const CLI::ParseError& e) {
