@@ -362,17 +362,40 @@ exporting::Verification add_verification(
     return found;
 }
 
+bool ends_early(const record::RecordingFile& recording) {
+    return std::any_of(recording.segments().begin(), recording.segments().end(),
+                       [](const record::Segment& s) { return !s.early_end.empty(); });
+}
+
+// Pictures that never came into the recording, by the numbers of those that did.
+std::uint64_t missing_in(const Json& cameras) {
+    std::uint64_t missing = 0;
+    for (const Json& camera : cameras)
+        for (const char* kind : {"depth", "color"})
+            if (camera.contains(kind))
+                missing += std::uint64_t(camera[kind]["missing"]);
+    return missing;
+}
+
 // The last line of --verify.
-const char* verdict(const record::RecordingFile& recording, const exporting::Verification& found) {
+std::string verdict(const record::RecordingFile& recording, const exporting::Verification& found,
+                    std::uint64_t missing) {
     if (found.damaged_pictures)
         return "parts are damaged; 'theatron recover' saves the others";
+    const std::string decoded = "every picture that is there was decoded, and ";
     if (recording.missing_segments() > 0)
-        return "every picture that is there was decoded, and a segment is missing";
+        return decoded + "a segment is missing";
     if (std::any_of(recording.segments().begin(), recording.segments().end(),
                     [](const record::Segment& s) { return !s.closed; }))
-        return "every picture that is there was decoded, and an end is missing";
-    return recording.complete() ? "every picture was decoded, and nothing is damaged"
-                                : "every picture was decoded, but a file is not as it was recorded";
+        return decoded + "an end is missing";
+    if (ends_early(recording))
+        return decoded + "it ends earlier than was wanted";
+    if (!recording.complete())
+        return "every picture was decoded, but a file is not as it was recorded";
+    if (missing > 0)
+        return decoded + "nothing is damaged; " + std::to_string(missing) +
+               (missing == 1 ? " picture" : " pictures") + " never came into it";
+    return "every picture was decoded, and nothing is damaged";
 }
 
 void run(const std::string& file, bool as_json, bool verified) {
@@ -407,9 +430,9 @@ void run(const std::string& file, bool as_json, bool verified) {
         if (json.contains("voices"))
             print_voices(json["voices"]);
         if (verified)
-            print("%s\n", verdict(*recording, found));
+            print("%s\n", verdict(*recording, found, missing_in(json["cameras"])).c_str());
     }
-    if (verified && (found.damaged || !recording->complete()))
+    if (verified && (found.damaged || !recording->complete() || ends_early(*recording)))
         throw CLI::RuntimeError(damaged_exit_code);
 }
 

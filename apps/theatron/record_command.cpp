@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <thread>
 
 #include "base/error.h"
@@ -264,7 +265,7 @@ void run(const Flags& flags) {
         std::fprintf(stderr, "%s%s\n", live_line ? "\r\033[K" : "", text.c_str());
     };
     FileWatch watch(file);
-    bool deleted = false;
+    std::set<std::string> gone_files;
     auto say_cut = [&, said = std::uint64_t(0)](const record::Recorder::Figures& f) mutable {
         if (f.cut_bytes > said)
             say("Another program has cut " + std::to_string(f.cut_bytes - said) +
@@ -298,7 +299,7 @@ void run(const Flags& flags) {
         say_cut(recorder->figures());
         if (const auto gone = watch.gone(recorder->figures().segments); !gone.empty()) {
             say(what_is_gone(gone) + "; the recording goes on in a new file.");
-            deleted = true;
+            gone_files.insert(gone.string());
             intake.begin_segment();
         }
         if (live_line) {
@@ -324,7 +325,7 @@ void run(const Flags& flags) {
         throw Error(intake.problem().empty()
                         ? "Stopped before anything came, so nothing was recorded."
                         : intake.problem());
-    recorder->finish();
+    intake.finish();
     if (live_line)
         std::cout << "\r\033[K";
     if (end && !end->remark.empty())
@@ -336,9 +337,9 @@ void run(const Flags& flags) {
     for (std::uint32_t segment = 1; segment <= f.segments; ++segment)
         if (const auto path = record::segment_path(file, segment); !std::filesystem::exists(path)) {
             say(what_is_gone(path) + " while the recording went on.");
-            deleted = true;
+            gone_files.insert(path.string());
         }
-    const bool complete = has_rest && !missing.any() && !deleted && f.cut_bytes == 0 &&
+    const bool complete = has_rest && !missing.any() && gone_files.empty() && f.cut_bytes == 0 &&
                           !(end && end->fault) && f.problem.empty();
     if (flags.json)
         std::cout << nlohmann::json{{"file", file},
@@ -355,6 +356,7 @@ void run(const Flags& flags) {
                                     {"voices_not_agreed", source->voices_not_agreed()},
                                     {"not_agreed", source->not_agreed()},
                                     {"cut_bytes", f.cut_bytes},
+                                    {"gone_files", gone_files},
                                     {"missing_end_seconds", missing_end},
                                     {"complete", complete},
                                     {"cameras", std::move(cameras)},

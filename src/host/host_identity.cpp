@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "base/log.h"
 #include "files/private_file.h"
 #include "files/state_folder.h"
 #include "net/certificate.h"
@@ -73,6 +74,11 @@ std::string load_or_make_token(const std::filesystem::path& folder, const char* 
     }
     token = net::random_token();
     files::write_private_file(path, token + "\n");
+    if (text)
+        log::warning("host",
+                     "token file was empty: its token is new, and links with the old one "
+                     "no longer let anybody in",
+                     {{"file", path.string()}});
     return token;
 }
 

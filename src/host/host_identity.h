@@ -23,7 +23,8 @@ void check_token(const std::string& token);
 std::string read_token(const std::filesystem::path& path);
 
 // The token in this file of the folder, made at first use. It outlives the host, so that links stay
-// valid after a restart. Only its owner may read it. Throws Error.
+// valid after a restart. Only its owner may read it. An empty file gets a new token, and the log
+// tells. Throws Error.
 std::string load_or_make_token(const std::filesystem::path& folder, const char* name);
 
 // One host at a time uses a state folder. Throws Error, with the process that has it, if another

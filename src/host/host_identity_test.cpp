@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/log.h"
 #include "files/private_file.h"
 #include "testing/temporary_folder.h"
 
@@ -85,6 +86,20 @@ TEST(Token, AStartThatWasCutOffIsCompletedByTheNext) {
         const std::string token = load_or_make_token(folder.path(), "join.token");
         EXPECT_EQ(load_or_make_token(folder.path(), "join.token"), token) << left;
     }
+}
+
+TEST(Token, OfAnEmptyFileIsNewAndTheLogTells) {
+    const theatron::testing::TemporaryFolder folder;
+    const auto said_at_start = [&] {
+        ::testing::internal::CaptureStderr();
+        load_or_make_token(folder.path(), "join.token");
+        log::flush(std::chrono::minutes(1));
+        return ::testing::internal::GetCapturedStderr();
+    };
+    EXPECT_EQ(said_at_start(), "") << "the first start";
+    EXPECT_EQ(said_at_start(), "");
+    files::write_private_file(folder.path() / "join.token", "");
+    EXPECT_THAT(said_at_start(), HasSubstr("token file was empty"));
 }
 
 TEST(Token, ThatOthersMayReadIsRefused) {

@@ -33,11 +33,25 @@ Duration between(TimePoint from, TimePoint to) {
     return Duration(to_us(to) / 2 - to_us(from) / 2) * 2;
 }
 
+// True if each camera is one of these; false for none.
+bool are_among(const std::vector<RecordedCamera>& cameras, const std::vector<RecordedCamera>& all) {
+    return !cameras.empty() && std::ranges::all_of(cameras, [&](const RecordedCamera& camera) {
+        return std::ranges::find(all, camera) != all.end();
+    });
+}
+
 }  // namespace
+
+bool Intake::is_of(const Description& description, const wire::MediaHeader& header) {
+    const auto setting = description.settings.find(header.stream);
+    return setting != description.settings.end() && setting->second == header.setting;
+}
 
 void Intake::describe(std::vector<RecordedCamera> cameras, std::map<StreamId, SettingId> settings,
                       bool new_connection, TimePoint now) {
     const std::lock_guard lock(mutex_);
+    if (change_ && new_connection)
+        end_change(change_->held.back().now);
     std::vector<std::pair<StreamId, const RecordedCamera*>> streams;
     for (const RecordedCamera& camera : cameras) {
         streams.emplace_back(depth_stream(camera.id), &camera);
@@ -70,6 +84,10 @@ void Intake::describe(std::vector<RecordedCamera> cameras, std::map<StreamId, Se
             entry.captured.reset();
         }
     }
+    if (change_)
+        describe_change({cameras, settings, false});
+    if (change_)
+        return;
     // Setting numbers of an earlier connection are no longer valid.
     if (new_connection)
         current_.settings.clear();
@@ -80,8 +98,9 @@ void Intake::describe(std::vector<RecordedCamera> cameras, std::map<StreamId, Se
     if (new_connection || (cameras.empty() && !was_without && kept_.empty()))
         waits_since_ = now;
     pending_ = {std::move(cameras), std::move(settings), new_connection || was_pending};
-    if (!pending_->new_connection && pending_->cameras == current_.cameras) {
-        current_ = *std::move(pending_);
+    if (!pending_->new_connection && are_among(pending_->cameras, current_.cameras)) {
+        // The segment goes on, with the tracks of cameras that have left.
+        current_.settings = std::move(pending_->settings);
         pending_.reset();
     }
     if (is_described_anew())
@@ -89,10 +108,10 @@ void Intake::describe(std::vector<RecordedCamera> cameras, std::map<StreamId, Se
             entry.gate.want_key();
 }
 
-// The same streams, in the same settings, of cameras that now stand elsewhere.
+// Streams of the segment, in the same settings, of cameras that now stand elsewhere.
 bool Intake::is_described_anew() const {
-    return pending_ && !pending_->new_connection && recorder_ &&
-           pending_->settings == current_.settings;
+    return pending_ && !pending_->new_connection && recorder_ && !pending_->cameras.empty() &&
+           std::ranges::includes(current_.settings, pending_->settings);
 }
 
 bool Intake::take(const wire::MediaHeader& header, std::shared_ptr<const Bytes> message,
@@ -102,22 +121,55 @@ bool Intake::take(const wire::MediaHeader& header, std::shared_ptr<const Bytes> 
     if (!problem_.empty() || found == entries_.end())
         return false;
     Entry& entry = found->second;
-    const auto is_setting = [&](const Description& description) {
-        const auto setting = description.settings.find(header.stream);
-        return setting != description.settings.end() && setting->second == header.setting;
-    };
-    if (!is_setting(current_)) {
-        // Frames of an older setting were in flight when it changed; they are not recorded.
-        if (!pending_ || !is_setting(*pending_))
+    if (!change_ && begins_segment(entry, header)) {
+        const bool is_first = !recorder_ || (pending_ && pending_->new_connection);
+        Description next = pending_ ? *std::exchange(pending_, std::nullopt) : present();
+        if (!is_first)
+            begin_change(std::move(next), now.local);
+        else if (!begin(std::move(next), header.captured, now))
             return false;
-        if (!header.key)
-            entry.gate.close();
-        else if (!begin(*std::exchange(pending_, std::nullopt), header.captured, now))
+    }
+    if (!change_ || !belongs_to_next(entry, header)) {
+        const bool ask = put(entry, header, std::move(message), filters, now);
+        if (change_ && is_change_over(now.local))
+            end_change(now);
+        return ask;
+    }
+    note_time(entry, header, now.local);
+    change_->held_bytes += message->size();
+    change_->held.push_back({header, std::move(message), filters, now});
+    if (is_change_over(now.local))
+        end_change(now);
+    return false;
+}
+
+// The newest segment's, without cameras that have left.
+Intake::Description Intake::present() const {
+    Description description = current_;
+    std::erase_if(description.cameras, [&](const RecordedCamera& camera) {
+        return !current_.settings.contains(depth_stream(camera.id)) &&
+               !current_.settings.contains(color_stream(camera.id));
+    });
+    return description;
+}
+
+// True if this frame is the first of a new segment.
+bool Intake::begins_segment(const Entry& entry, const wire::MediaHeader& header) const {
+    if (is_of(current_, header))
+        return (wants_segment_ || is_described_anew()) && header.key && can_begin_with(entry);
+    // Frames of an older setting were in flight when it changed; they are not recorded.
+    return header.key && pending_ && is_of(*pending_, header);
+}
+
+// Takes a message of the segment that has begun.
+bool Intake::put(Entry& entry, const wire::MediaHeader& header,
+                 std::shared_ptr<const Bytes> message, const std::string& filters, const Now& now) {
+    if (!is_of(current_, header)) {
+        // Its key frame was lost on the way.
+        const std::optional<Description>& next = change_ ? change_->next : pending_;
+        if (!next || !is_of(*next, header))
             return false;
-    } else if ((wants_segment_ || is_described_anew()) && header.key && can_begin_with(entry)) {
-        Description next = is_described_anew() ? *std::exchange(pending_, std::nullopt) : current_;
-        if (!begin(std::move(next), header.captured, now))
-            return false;
+        entry.gate.close();
     }
     const StreamGate::Answer answer = entry.gate.on_frame(header, now.local);
     note_time(entry, header, now.local);
@@ -168,7 +220,8 @@ bool Intake::keeps() const {
 
 // A segment of this description begins with what was captured then: a frame or a part of the room.
 // Kept parts and voices come before it.
-bool Intake::begin(Description description, TimePoint captured, const Now& now) {
+bool Intake::begin(Description description, TimePoint captured, const Now& now,
+                   std::optional<TimePoint> voices_begin) {
     // Block times count from this clock: as late as possible, but not after the frame.
     ClockPair clock = now.clock;
     if (!kept_.empty())
@@ -190,7 +243,7 @@ bool Intake::begin(Description description, TimePoint captured, const Now& now) 
     for (auto& [id, entry] : entries_)
         entry.gate.close();
     current_ = std::move(description);
-    begin_voices(clock.session);
+    begin_voices(voices_begin.value_or(clock.session));
     ++segments_begun_;
     wants_segment_ = false;
     for (const auto& put : std::exchange(kept_, {}))

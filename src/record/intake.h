@@ -11,6 +11,8 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -45,9 +47,14 @@ public:
     };
 
     // Sets the cameras and settings of the following messages. If anything except the numbers of
-    // settings is new, or with `new_connection` (the session's clock and all numbers may be new), a
-    // segment begins with the first key frame in one of the new settings. From any thread, in
+    // settings is new, a segment begins with the first key frame in one of the new settings. From
+    // then on each other stream goes into the segment before until its own next key frame, and what
+    // is of the new segment is held back until all have had one, at most change_patience and
+    // max_held_bytes: no stream loses a frame because another changes. With `new_connection` the
+    // session's clock and all numbers may be new, and nothing is held back. From any thread, in
     // order with take().
+    static constexpr Duration change_patience = std::chrono::seconds(2);
+    static constexpr std::size_t max_held_bytes = std::size_t(64) << 20;
     void describe(std::vector<RecordedCamera> cameras, std::map<StreamId, SettingId> settings,
                   bool new_connection, TimePoint now);
 
@@ -94,6 +101,9 @@ public:
     // The last file is not at its name any more: a new one begins with the next key frame, which
     // take() requests. Until then pictures go into the last one, which may only be renamed.
     void begin_segment();
+
+    // Gives the recorder what is held back, and finishes it.
+    void finish();
 
     // This camera has ended: it sends no more pictures, and none are missing from now on.
     void on_end(CameraId camera);
@@ -150,13 +160,42 @@ private:
         FrameNumber blocks = 0;
     };
 
+    // A message of the segment that is about to begin.
+    struct Held {
+        wire::MediaHeader header;
+        std::shared_ptr<const Bytes> message;
+        std::string filters;
+        Now now;
+    };
+    // From the first key frame of a segment until it begins.
+    struct Change {
+        Description next;
+        std::vector<Held> held;  // in the order of arrival
+        std::size_t held_bytes = 0;
+        std::set<StreamId> changed;  // whose frames are held
+        TimePoint since;             // on the machine's own clock
+    };
+
+    static bool is_of(const Description& description, const wire::MediaHeader& header);
+    Description present() const;
+    bool begins_segment(const Entry& entry, const wire::MediaHeader& header) const;
+    void begin_change(Description next, TimePoint now);
+    bool belongs_to_next(const Entry& entry, const wire::MediaHeader& header);
+    bool is_awaited(StreamId stream) const;
+    bool is_change_over(TimePoint now) const;
+    void describe_change(Description next);
+    void end_change(const Now& now);
+    bool put(Entry& entry, const wire::MediaHeader& header, std::shared_ptr<const Bytes> message,
+             const std::string& filters, const Now& now);
+
     std::vector<VoiceTrack> voice_tracks() const;
     void begin_voices(TimePoint begin);
     VoiceLane* voice_lane_of(ParticipantId person);
     void add_voice(std::size_t lane, const VoiceSequence::Block& block, TimePoint now);
     void fill_voices(TimePoint until, TimePoint now);
     void keep_voice_figures();
-    bool begin(Description description, TimePoint captured, const Now& now);
+    bool begin(Description description, TimePoint captured, const Now& now,
+               std::optional<TimePoint> voices_begin = {});
     bool keeps() const;
     bool put_room(ByteView part, bool key, TimePoint begin, TimePoint now);
     void put_voice(ParticipantId person, const VoicePacket& packet, TimePoint now);
@@ -174,7 +213,8 @@ private:
     std::map<StreamId, Entry> entries_;
     Description current_;                 // of the newest segment
     std::optional<Description> pending_;  // not begun yet
-    TimePoint waits_since_;               // for a picture of pending_, on the machine's own clock
+    std::optional<Change> change_;
+    TimePoint waits_since_;  // for a picture of pending_, on the machine's own clock
     // Parts of the room and voices since session time kept_from_, for the segment of pending_.
     std::vector<std::function<void()>> kept_;
     TimePoint kept_from_;

@@ -94,9 +94,14 @@ MatroskaWriter::MatroskaWriter(const std::filesystem::path& path, const Layout& 
     }
 
     file_ = create(path, layout.replace);
-    if (const std::string problem = append(bytes); !problem.empty()) {
+    if (!append(bytes).empty()) {
+        unlink(path.c_str());  // it has no content, and was empty before
         close(file_);
-        throw Error(problem);
+        throw Error(std::string(early_end_ == disk_full ? "The disk is full"
+                                : early_end_ == file_too_large
+                                    ? "The system allows no file of this size"
+                                    : "The disk fails") +
+                    ", so the recording '" + path.string() + "' cannot begin.");
     }
 }
 

@@ -145,6 +145,22 @@ TEST(Recording, AFullDiskEndsItWithASentenceAndKeepsWhatCameBefore) {
     EXPECT_EQ(count_equal(*recording, messages), frames_in(*recording));
 }
 
+TEST(Recording, ADiskThatIsFullAtTheBeginningLeavesNoFile) {
+    const testing::TemporaryFolder folder;
+    const fs::path path = folder.path() / "full.mkv";
+    const auto before = ::signal(SIGXFSZ, SIG_IGN);
+    const SizeLimit limit(100);
+    try {
+        Recorder recorder(path, cameras(1), session_begin);
+        FAIL() << "the head does not fit";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("cannot begin"), std::string::npos)
+            << error.what();
+    }
+    EXPECT_FALSE(fs::exists(path));
+    ::signal(SIGXFSZ, before);
+}
+
 TEST(Recorder, NeverTakesAFileFromAnotherRecorderOrAPlayer) {
     const testing::TemporaryFolder folder;
     const fs::path path = folder.path() / "one.mkv";

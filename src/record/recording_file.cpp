@@ -367,8 +367,15 @@ void RecordingFile::place_segments() {
                 (original_before.info.clock.session + original_before.end);
             const Duration utc_pause = session_pause + step;
             const bool is_same = -same_clock < step && step < same_clock;
-            // Speech may go on where the pictures have ended.
-            constexpr Duration shortest = std::chrono::milliseconds(1);
+            // Speech may go on where the pictures have ended. Streams change to the next segment
+            // one after the other (Intake::describe()), so its beginning may overlap the end of the
+            // segment before.
+            constexpr Duration longest_overlap = std::chrono::seconds(3);
+            const bool overlaps =
+                is_same && session_pause < Duration(0) && session_pause > -longest_overlap;
+            const Duration shortest = overlaps
+                                          ? std::max(session_pause, before->begin - before->end)
+                                          : Duration(std::chrono::milliseconds(1));
             const Duration longest = before->last - before->end + max_pause;
             begin =
                 before->end + std::clamp(is_same ? session_pause : utc_pause, shortest, longest);

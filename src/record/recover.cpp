@@ -188,14 +188,21 @@ private:
 bool saved_all(const RecordingFile& recording, const Recovered& result) {
     bool all = recording.missing_segments() == 0 && recording.unreadable_files().empty();
     for (const Segment& segment : recording.segments())
-        all = all && segment.closed && segment.damaged_places == 0 && segment.refused == 0 &&
-              segment.foreign.files == 0;
+        all = all && segment.closed && segment.early_end.empty() && segment.damaged_places == 0 &&
+              segment.refused == 0 && segment.foreign.files == 0;
     for (const Recovered::Camera& camera : result.cameras)
         for (const RecoveredStream* stream : {&camera.depth, &camera.color})
             all = all && stream->damaged == 0 && stream->undecodable == 0;
     for (const RecoveredStream* stream : {&result.room, &result.voices})
         all = all && stream->damaged == 0 && stream->undecodable == 0;
     return all;
+}
+
+bool has_content(const Recovered& result) {
+    std::uint64_t saved = result.room.saved + result.voices.saved;
+    for (const Recovered::Camera& camera : result.cameras)
+        saved += camera.depth.saved + camera.color.saved;
+    return saved > 0;
 }
 
 // The writer's own sentence is about a recording that ends early, and keeps what it has.
@@ -292,6 +299,8 @@ Recovered recover(const RecordingFile& recording, const std::filesystem::path& o
         result.bytes += writer.bytes();
         result.files.push_back(file.string());
     }
+    if (!has_content(result))
+        throw Error("Nothing in this recording can be saved: no picture of it is whole.");
     result.complete = saved_all(recording, result);
     new_files.keep();
     return result;

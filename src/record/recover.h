@@ -35,7 +35,7 @@ struct Recovered {
 
 // Writes segment by segment into new files with names from `out` (segment_path), which must not
 // exist. Times and numbers are kept. `progress` gets the share done, 0 to 1, or is empty. Throws
-// Error, after it has removed the new files.
+// Error, also if nothing can be saved, after it has removed the new files.
 Recovered recover(const RecordingFile& recording, const std::filesystem::path& out,
                   const std::function<void(double)>& progress);
 

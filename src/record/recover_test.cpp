@@ -145,6 +145,18 @@ TEST(Recovery, AFullDiskLeavesNothingAndSaysSo) {
     EXPECT_TRUE(fs::exists(folder.path() / "a.mkv"));
 }
 
+TEST(Recovery, ARecordingWithoutAWholePictureLeavesNoFile) {
+    const testing::TemporaryFolder folder;
+    write_bytes(folder.path() / "whole.mkv", recording_of(with_keys(10, 500)));
+    const auto whole = RecordingFile::open(folder.path() / "whole.mkv");
+    Bytes bytes = bytes_of(folder.path() / "whole.mkv");
+    bytes.resize(std::size_t(whole->cameras()[0].depth.frames.at(0).payload_at));
+    write_bytes(folder.path() / "head.mkv", bytes);
+    const auto head = RecordingFile::open(folder.path() / "head.mkv");
+    EXPECT_THROW(recover(*head, folder.path() / "out.mkv", {}), Error);
+    EXPECT_FALSE(fs::exists(folder.path() / "out.mkv"));
+}
+
 TEST(JoinedFiles, AnotherFileInTheMiddleDoesNotSwallowTheRest) {
     const auto messages = with_keys(120, 500, 1);
     const Bytes one = recording_of(messages), other = recording_of(with_keys(45, 500, 2));

@@ -42,6 +42,8 @@ public:
 
     // The next frame that refers to another asks for a key frame, although nothing is missing.
     void want_key() { wants_key_ = true; }
+    // The next frame is recorded although it refers to another.
+    bool is_open() const { return open_; }
     // Some frames of the stream refer to others.
     bool has_references() const { return has_references_; }
 

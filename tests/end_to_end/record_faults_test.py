@@ -305,6 +305,25 @@ class RecordFaults(unittest.TestCase):
         self.assertEqual(figures["segments"], 1)
         self.assert_decodes(self.file)
 
+    def test_cameras_that_come_and_go_cost_the_others_no_picture(self):
+        segments = [self.folder / f"a.{n:03}.mkv" for n in (2, 3)]
+        with host(self.state, self.camera) as h, \
+                self.recorder(h.greeting["link"], self.file, "--depth-codec", "strata") as recorder:
+            self.begun(recorder)
+            for segment in segments:
+                with Process("publish", h.greeting["publish_link"], "--camera", self.camera, "--may-record") as guest:
+                    self.begun(recorder, segment)
+                    guest.send(signal.SIGINT)
+                    guest.end()
+                self.begun(recorder, segment, more_than=segment.stat().st_size + 10_000)
+            figures = self.ends(recorder, COMPLETE)
+        self.assertEqual((figures["segments"], figures["lost"] + figures["dropped"]), (3, 0))
+        code, out, errors = run("inspect", self.file, "--verify", "--json")
+        self.assertEqual(code, 0, errors)
+        depth = json.loads(out)["cameras"][0]["depth"]
+        self.assertEqual(depth["frames"], figures["cameras"][0]["depth"]["pictures"])
+        self.assertLess(depth["longest_gap_ms"], 1500)
+
     def test_a_restarted_host_begins_a_segment_that_plays(self):
         second = self.folder / "a.002.mkv"
         later = clock_ahead(DAY_S) or ()

@@ -54,9 +54,11 @@ class InThePage(unittest.TestCase):
             browser = stack.enter_context(Browser())
 
             def comes(page, codec):
-                page.wait_for(f"{CAMERA}.depth === '{codec}'")
+                # On a machine under load the host adds layers to the codec that it chose itself.
+                is_shown = f"({CAMERA}.depth === '{codec}' || {CAMERA}.depth?.startsWith('{codec}:layers='))"
+                page.wait_for(is_shown)
                 before = page.evaluate(f"{CAMERA}.depth_frames")
-                page.wait_for(f"{CAMERA}.depth === '{codec}' && {CAMERA}.depth_frames > {before + 5}")
+                page.wait_for(f"{is_shown} && {CAMERA}.depth_frames > {before + 5}")
                 self.assertEqual(page.evaluate(f"{CAMERA}.decoder_failures"), 0)
 
             page = browser.open(source.greeting["link"] + "&depth=zstd:delta=1,layers=2", SIZE)

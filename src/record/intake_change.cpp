@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// The change from one segment to the next without a lost frame: see Intake::describe().
+#include <algorithm>
+#include <utility>
+
+#include "record/intake.h"
+
+namespace theatron::record {
+namespace {
+
+// The colour of a depth stream's camera, or the depth of a colour stream's.
+StreamId beside(StreamId stream) {
+    const CameraId camera = camera_of(stream);
+    return is_depth(stream) ? color_stream(camera) : depth_stream(camera);
+}
+
+}  // namespace
+
+void Intake::begin_change(Description next, TimePoint now) {
+    change_.emplace();
+    change_->next = std::move(next);
+    change_->since = now;
+    for (auto& [id, entry] : entries_)
+        if (is_awaited(id))
+            entry.gate.want_key();
+}
+
+// True if frames of this stream still go into the segment before, until its next key frame.
+bool Intake::is_awaited(StreamId stream) const {
+    const auto entry = entries_.find(stream);
+    if (entry == entries_.end() || change_->changed.contains(stream))
+        return false;
+    const auto before = current_.settings.find(stream);
+    const auto after = change_->next.settings.find(stream);
+    return before != current_.settings.end() && after != change_->next.settings.end() &&
+           before->second == after->second && !entry->second.ended && !entry->second.silent &&
+           entry->second.gate.is_open();
+}
+
+// A stream whose frames are all key frames changes together with the one beside it, so that depth
+// and colour of a frame are in the same segment.
+bool Intake::belongs_to_next(const Entry& entry, const wire::MediaHeader& header) {
+    if (!is_of(change_->next, header))
+        return false;
+    if (change_->changed.contains(header.stream))
+        return true;
+    const auto other = entries_.find(beside(header.stream));
+    const bool waits = is_of(current_, header) && !entry.gate.has_references() &&
+                       other != entries_.end() && other->second.gate.has_references() &&
+                       is_awaited(other->first);
+    if (!header.key || waits)
+        return false;
+    change_->changed.insert(header.stream);
+    return true;
+}
+
+bool Intake::is_change_over(TimePoint now) const {
+    return now - change_->since >= change_patience || change_->held_bytes >= max_held_bytes ||
+           std::none_of(entries_.begin(), entries_.end(),
+                        [&](const auto& entry) { return is_awaited(entry.first); });
+}
+
+// The cameras or settings change once more. Held frames of streams that are gone or have other
+// settings now belong to a segment of their own.
+void Intake::describe_change(Description next) {
+    const bool has_others =
+        std::any_of(change_->held.begin(), change_->held.end(),
+                    [&](const Held& held) { return !is_of(next, held.header); });
+    if (has_others)
+        end_change(change_->held.back().now);
+    else
+        change_->next = std::move(next);
+}
+
+void Intake::end_change(const Now& now) {
+    Change change = *std::exchange(change_, std::nullopt);
+    const auto [first, last] = std::minmax_element(
+        change.held.begin(), change.held.end(),
+        [](const Held& a, const Held& b) { return a.header.captured < b.header.captured; });
+    if (!begin(std::move(change.next), first->header.captured, now, last->header.captured))
+        return;
+    for (Held& held : change.held) {
+        Entry& entry = entries_.at(held.header.stream);
+        if (put(entry, held.header, std::move(held.message), held.filters, held.now))
+            entry.gate.want_key();
+    }
+}
+
+void Intake::finish() {
+    {
+        const std::lock_guard lock(mutex_);
+        if (change_)
+            end_change(change_->held.back().now);
+    }
+    if (Recorder* const begun = recorder())
+        begun->finish();
+}
+
+}  // namespace theatron::record

@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: Apache-2.0
+// The change from one segment to the next, seen from streams that have no part in it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "record/intake.h"
+#include "record/recording_file.h"
+#include "record/recording_layout.h"
+#include "testing/temporary_folder.h"
+
+namespace theatron::record {
+namespace {
+
+constexpr Duration spacing = 33'333us;
+constexpr TimePoint session_begin = from_us(5'000'000'000);
+// Frames between the request for a key frame and the key frame.
+constexpr int travel = 4;
+
+std::vector<FrameNumber> count_to(FrameNumber count) {
+    std::vector<FrameNumber> numbers(count);
+    std::iota(numbers.begin(), numbers.end(), FrameNumber(0));
+    return numbers;
+}
+
+// A host of several streams at 30 Hz.
+class IntakeChange : public ::testing::Test {
+protected:
+    struct Sender {
+        FrameNumber next = 0;
+        bool all_keys = false;
+        SettingId setting{1};
+        int until_key = 0;  // frames; less than zero: none is wanted
+    };
+
+    static RecordedCamera camera(int id, const std::string& name, bool has_color = false) {
+        RecordedCamera camera;
+        camera.id = CameraId{std::uint8_t(id)};
+        camera.name = name;
+        camera.frames_per_second = 30;
+        camera.depth = {"zstd:delta=1", 4, 3};
+        if (has_color)
+            camera.color = RecordedStream{"jpeg", 4, 3};
+        return camera;
+    }
+
+    void describe(std::vector<RecordedCamera> cameras, bool new_connection = false) {
+        std::map<StreamId, SettingId> settings;
+        for (const RecordedCamera& camera : cameras) {
+            const StreamId depth = depth_stream(camera.id), color = color_stream(camera.id);
+            settings[depth] = senders_[depth].setting;
+            if (camera.color) {
+                senders_[color].all_keys = true;
+                settings[color] = senders_[color].setting;
+            }
+        }
+        intake_.describe(std::move(cameras), settings, new_connection, local_);
+    }
+
+    void send(StreamId stream) {
+        Sender& sender = senders_[stream];
+        wire::MediaHeader header;
+        header.stream = stream;
+        header.setting = sender.setting;
+        header.frame = sender.next++;
+        header.key = sender.all_keys || sender.until_key == 0;
+        header.reference = header.key ? header.frame : header.frame - 1;
+        header.captured = session_;
+        header.payload_size = std::uint32_t(payload_size_);
+        auto message = std::make_shared<Bytes>(wire::media_header_size + payload_size_);
+        wire::write_media_header(header, message->data());
+        if (sender.until_key >= 0)
+            --sender.until_key;
+        if (intake_.take(header, std::move(message), "", now()) && sender.until_key < 0 && answers_)
+            sender.until_key = travel;
+    }
+    void run(int frames, const std::vector<StreamId>& streams) {
+        for (int i = 0; i < frames; ++i) {
+            for (const StreamId stream : streams)
+                send(stream);
+            local_ += spacing;
+            session_ += spacing;
+            intake_.pass_time(now());
+        }
+    }
+
+    Intake::Now now() const {
+        return {local_, {session_, UtcTime(1'700'000'000s) + (session_ - session_begin)}};
+    }
+
+    std::unique_ptr<RecordingFile> recorded() {
+        intake_.finish();
+        return RecordingFile::open(file_);
+    }
+    static std::vector<FrameNumber> numbers(const StreamContent& stream) {
+        std::vector<FrameNumber> result;
+        for (const RecordedFrame& frame : stream.frames)
+            result.push_back(frame.number);
+        return result;
+    }
+    static std::size_t frames_in(const StreamContent& stream, std::size_t segment) {
+        return std::size_t(std::count_if(stream.frames.begin(), stream.frames.end(),
+                                         [&](const auto& f) { return f.segment == segment; }));
+    }
+    std::uint64_t lost() const {
+        std::uint64_t sum = 0;
+        for (const Intake::Stream& stream : intake_.streams(local_))
+            sum += stream.figures.lost + stream.figures.dropped;
+        return sum;
+    }
+
+    const StreamId left_ = depth_stream(CameraId{0}), right_ = depth_stream(CameraId{1}),
+                   left_color_ = color_stream(CameraId{0});
+    testing::TemporaryFolder folder_;
+    const std::filesystem::path file_ = folder_.path() / "a.mkv";
+    Intake intake_{file_, {.has_room = true}};
+    TimePoint local_ = from_us(1'000'000), session_ = session_begin;
+    std::map<StreamId, Sender> senders_;
+    std::size_t payload_size_ = 8;
+    bool answers_ = true;  // requests for key frames
+};
+
+TEST_F(IntakeChange, ACameraThatJoinsCostsTheOthersNoFrame) {
+    describe({camera(0, "left")}, true);
+    run(20, {left_});
+    describe({camera(0, "left"), camera(1, "right")});
+    run(20, {left_, right_});
+    EXPECT_EQ(lost(), 0u);
+    const auto recording = recorded();
+    ASSERT_EQ(recording->segments().size(), 2u);
+    EXPECT_EQ(numbers(recording->cameras().at(0).depth), count_to(40));
+    EXPECT_EQ(numbers(recording->cameras().at(1).depth), count_to(20));
+    EXPECT_GT(frames_in(recording->cameras().at(0).depth, 0), 20u) << "until its own key frame";
+}
+
+TEST_F(IntakeChange, ACameraThatLeavesCostsTheOthersNoFrame) {
+    describe({camera(0, "left"), camera(1, "right")}, true);
+    run(20, {left_, right_});
+    describe({camera(0, "left")});
+    run(20, {left_});
+    EXPECT_EQ(lost(), 0u);
+    const auto recording = recorded();
+    EXPECT_EQ(numbers(recording->cameras().at(0).depth), count_to(40));
+    EXPECT_EQ(numbers(recording->cameras().at(1).depth), count_to(20));
+    EXPECT_EQ(recording->segments().size(), 1u);
+}
+
+TEST_F(IntakeChange, ACalibrationThatChangesAfterACameraLeftIsRecorded) {
+    describe({camera(0, "left"), camera(1, "right")}, true);
+    run(20, {left_, right_});
+    describe({camera(0, "left")});
+    run(20, {left_});
+    RecordedCamera moved = camera(0, "left");
+    moved.calibration = Bytes(5);
+    describe({moved});
+    run(20, {left_});
+    EXPECT_EQ(lost(), 0u);
+    const auto recording = recorded();
+    EXPECT_EQ(numbers(recording->cameras().at(0).depth), count_to(60));
+    EXPECT_EQ(recording->cameras().at(0).parts.back().calibration, Bytes(5));
+}
+
+TEST_F(IntakeChange, ACalibrationMayChangeAsACameraLeaves) {
+    describe({camera(0, "left"), camera(1, "right")}, true);
+    run(20, {left_, right_});
+    RecordedCamera moved = camera(0, "left");
+    moved.calibration = Bytes(5);
+    describe({moved});
+    run(20, {left_});
+    EXPECT_EQ(lost(), 0u);
+    const auto recording = recorded();
+    EXPECT_EQ(numbers(recording->cameras().at(0).depth), count_to(40));
+    EXPECT_EQ(recording->cameras().at(0).parts.back().calibration, Bytes(5));
+}
+
+TEST_F(IntakeChange, ACalibrationThatChangesCostsNoFrameOfAnyStream) {
+    std::vector<RecordedCamera> cameras{camera(0, "left", true), camera(1, "right")};
+    describe(cameras, true);
+    run(20, {left_, left_color_, right_});
+    cameras[1].calibration = Bytes(5);
+    describe(cameras);
+    run(20, {left_, left_color_, right_});
+    EXPECT_EQ(lost(), 0u);
+    const auto recording = recorded();
+    ASSERT_EQ(recording->segments().size(), 2u);
+    const CameraContent& left = recording->cameras().at(0);
+    EXPECT_EQ(numbers(left.depth), count_to(40));
+    EXPECT_EQ(numbers(left.color), count_to(40));
+    EXPECT_EQ(numbers(recording->cameras().at(1).depth), count_to(40));
+    EXPECT_EQ(frames_in(left.depth, 0), frames_in(left.color, 0))
+        << "depth and colour of a frame are in one segment";
+}
+
+TEST_F(IntakeChange, FramesKeepTheirTimes) {
+    describe({camera(0, "left")}, true);
+    run(20, {left_});
+    describe({camera(0, "left"), camera(1, "right")});
+    run(20, {left_, right_});
+    const auto recording = recorded();
+    const auto& frames = recording->cameras().at(0).depth.frames;
+    for (std::size_t i = 1; i < frames.size(); ++i)
+        EXPECT_NEAR(double(frames[i].time_us - frames[i - 1].time_us), double(spacing.count()), 2)
+            << i;
+    const auto& others = recording->cameras().at(1).depth.frames;
+    EXPECT_NEAR(double(others[0].time_us), double(frames[20].time_us), 2);
+}
+
+TEST_F(IntakeChange, AStreamWithoutAKeyFrameIsAwaitedForALimitedTime) {
+    std::vector<RecordedCamera> cameras{camera(0, "left"), camera(1, "right")};
+    describe(cameras, true);
+    run(20, {left_, right_});
+    answers_ = false;
+    senders_[right_].until_key = 0;
+    cameras[1].calibration = Bytes(5);
+    describe(cameras);
+    const int patience = int(Intake::change_patience / spacing);
+    run(patience, {left_, right_});
+    EXPECT_EQ(lost(), 0u);
+    run(3, {left_, right_});
+    EXPECT_EQ(lost(), 2u) << "those of the left stream since then";
+    const auto recording = recorded();
+    EXPECT_EQ(recording->segments().size(), 2u);
+    EXPECT_EQ(numbers(recording->cameras().at(1).depth), count_to(FrameNumber(20 + patience + 3)));
+}
+
+TEST_F(IntakeChange, WhatIsHeldBackIsLimited) {
+    std::vector<RecordedCamera> cameras{camera(0, "left"), camera(1, "right")};
+    describe(cameras, true);
+    run(20, {left_, right_});
+    answers_ = false;
+    senders_[right_].until_key = 0;
+    cameras[1].calibration = Bytes(5);
+    describe(cameras);
+    payload_size_ = Intake::max_held_bytes / 4;
+    run(3, {left_, right_});
+    EXPECT_EQ(lost(), 0u);
+    run(1, {right_});
+    run(1, {left_});
+    EXPECT_EQ(lost(), 1u) << "the segment has begun";
+}
+
+TEST_F(IntakeChange, AnotherChangeMeanwhileLosesNothing) {
+    std::vector<RecordedCamera> cameras{camera(0, "left")};
+    describe(cameras, true);
+    run(20, {left_});
+    cameras.push_back(camera(1, "right"));
+    describe(cameras);
+    run(2, {left_, right_});  // held back: the key frame of the left stream is not there yet
+    cameras[0].calibration = Bytes(5);
+    describe(cameras);
+    run(20, {left_, right_});
+    EXPECT_EQ(lost(), 0u);
+    auto recording = recorded();
+    EXPECT_EQ(numbers(recording->cameras().at(0).depth), count_to(42));
+    EXPECT_EQ(numbers(recording->cameras().at(1).depth), count_to(22));
+    EXPECT_EQ(recording->cameras().at(0).parts.back().calibration, Bytes(5));
+}
+
+TEST_F(IntakeChange, ACameraThatComesAndGoesAtOnceKeepsItsFrames) {
+    describe({camera(0, "left")}, true);
+    run(20, {left_});
+    describe({camera(0, "left"), camera(1, "right")});
+    run(2, {left_, right_});
+    describe({camera(0, "left")});
+    run(20, {left_});
+    const auto recording = recorded();
+    EXPECT_EQ(numbers(recording->cameras().at(1).depth), count_to(2));
+    EXPECT_EQ(numbers(recording->cameras().at(0).depth).back(), 41u);
+}
+
+TEST_F(IntakeChange, WhatIsHeldBackAtTheEndIsRecorded) {
+    describe({camera(0, "left")}, true);
+    run(20, {left_});
+    describe({camera(0, "left"), camera(1, "right")});
+    run(2, {left_, right_});
+    const auto recording = recorded();
+    EXPECT_EQ(numbers(recording->cameras().at(0).depth), count_to(22));
+    EXPECT_EQ(numbers(recording->cameras().at(1).depth), count_to(2));
+}
+
+TEST_F(IntakeChange, AConnectionThatEndsKeepsWhatWasHeldBack) {
+    describe({camera(0, "left")}, true);
+    run(20, {left_});
+    describe({camera(0, "left"), camera(1, "right")});
+    run(2, {left_, right_});
+    for (auto& [stream, sender] : senders_)
+        sender = {};
+    session_ = from_us(77);
+    describe({camera(0, "left"), camera(1, "right")}, true);
+    run(10, {left_, right_});
+    const auto recording = recorded();
+    EXPECT_EQ(recording->segments().size(), 3u);
+    EXPECT_EQ(recording->cameras().at(0).depth.frames.size(), 32u);
+    EXPECT_EQ(recording->cameras().at(1).depth.frames.size(), 12u);
+}
+
+TEST_F(IntakeChange, NoStreamWaitsForASilentOne) {
+    std::vector<RecordedCamera> cameras{camera(0, "left"), camera(1, "right")};
+    describe(cameras, true);
+    run(20, {left_, right_});
+    (void)intake_.news(local_);
+    for (int i = 0; i < 10; ++i) {  // only the left one goes on
+        run(10, {left_});
+        (void)intake_.news(local_);
+    }
+    cameras[0].calibration = Bytes(5);
+    describe(cameras);
+    run(travel + 2, {left_});
+    EXPECT_EQ(lost(), 0u);
+    EXPECT_GT(frames_in(recorded()->cameras().at(0).depth, 1), 0u) << "the segment has begun";
+}
+
+TEST_F(IntakeChange, VoicesHaveNoGap) {
+    const ParticipantId anna{7};
+    intake_.describe_voices({{anna, "Anna"}});
+    describe({camera(0, "left")}, true);
+    const Bytes opus(3, std::byte(0xfc));
+    std::uint32_t number = 0;
+    const auto speak = [&](int frames, const std::vector<StreamId>& streams) {
+        for (int i = 0; i < frames; ++i) {
+            run(1, streams);
+            for (; session_begin + number * 20ms < session_ - 30ms; ++number)
+                intake_.take_voice(
+                    anna, {number, session_begin + number * 20ms, 20, false, -30, opus}, session_);
+        }
+    };
+    speak(60, {left_});
+    describe({camera(0, "left"), camera(1, "right")});
+    speak(90, {left_, right_});
+    EXPECT_EQ(intake_.voices().at(0).figures.missing, 0u);
+    const auto recording = recorded();
+    ASSERT_EQ(recording->segments().size(), 2u);
+    std::size_t spoken = 0;
+    for (const RecordedFrame& frame : recording->voices().at(0).content.frames)
+        spoken += recording->read_header(frame)->codec == voice_codec;
+    EXPECT_EQ(spoken, number) << "until voice_patience before the end";
+}
+
+}  // namespace
+}  // namespace theatron::record
