@@ -157,13 +157,13 @@ void Host::Impl::open(const SessionOptions& options, const capture::Progress& pr
         infos, [this](CameraId camera, const wire::Text& problem) { take_place(camera, problem); });
     gain_watch = std::make_unique<GainWatch>(
         infos, [this](const SettledGains::Gains& gains) { take_gains(gains); });
-    for (const CameraId camera : session->streams().of(session::host_publisher))
-        correct_place(*session->streams().find(camera));
+    for (const CameraId camera : session->streams().cameras().of(session::host_publisher))
+        correct_place(*session->streams().cameras().find(camera));
     start_lanes(specifications, std::move(cameras));
     for (std::size_t i = 0; i < lanes.size(); ++i)
         lanes[i]->set_filter(loaded[i].settings, loaded[i].background);
-    for (const CameraId camera : session->streams().of(session::host_publisher))
-        crop(*session->streams().find(camera));
+    for (const CameraId camera : session->streams().cameras().of(session::host_publisher))
+        crop(*session->streams().cameras().find(camera));
     if (!options.cases.empty())
         cases = std::make_unique<CaseShelf>(options.cases, [this](CaseShelf::Offer offer) {
             server->post([this, offer = std::move(offer)] { take_cases(offer); });

@@ -50,7 +50,7 @@ std::optional<wire::Playback> Host::playback() const {
 // The watch compares the cameras where they are shown. An operator's word on where a camera is ends
 // the alarm of its own motion.
 void Host::Impl::carry_out(const session::action::Adjusted& a) {
-    const session::CameraStreams* camera = session->streams().find(a.camera);
+    const session::CameraStreams* camera = session->streams().cameras().find(a.camera);
     if (!camera || camera->publisher() != session::host_publisher)
         return;
     correct_place(*camera);
@@ -135,7 +135,7 @@ void Host::Impl::follow_playback(const std::string& by) {
             continue;
         session->set_calibration(
             id, encode_calibration(has_room ? *calibration : without_person(*calibration)));
-        correct_place(*session->streams().find(id));
+        correct_place(*session->streams().cameras().find(id));
     }
 }
 

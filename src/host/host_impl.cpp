@@ -81,7 +81,8 @@ net::Server::Handler Host::Impl::handler() {
         carry_out();
         color_watch.on_tick(lanes, steady_now());
         note_participants();
-        room_file->on_tick(session->room(), session->streams().adjustments(), steady_now());
+        room_file->on_tick(session->room(), session->streams().cameras().adjustments(),
+                           steady_now());
     };
     return h;
 }
@@ -212,7 +213,7 @@ void Host::Impl::note_left(net::PeerId peer) {
 }
 
 void Host::Impl::keep_for_next_time() {
-    room_file->save(session->room(), session->streams().adjustments(), steady_now());
+    room_file->save(session->room(), session->streams().cameras().adjustments(), steady_now());
     if (audit && !has_ended)
         audit->add({session::AuditEvent::What::ended,
                     {},

@@ -48,23 +48,23 @@ void Host::Impl::note_participants() {
         const auto last = heard.find(net::PeerId(std::uint32_t(publisher)));
         return last != heard.end() && now - last->second > silent_publisher;
     };
-    const session::Streams& streams = session->streams();
-    std::erase_if(dropped_slow, [&](const auto& entry) { return !streams.find(entry.first); });
-    std::erase_if(received, [&](const auto& entry) { return !streams.find(entry.first); });
+    const session::SessionCameras& cameras = session->streams().cameras();
+    std::erase_if(dropped_slow, [&](const auto& entry) { return !cameras.find(entry.first); });
+    std::erase_if(received, [&](const auto& entry) { return !cameras.find(entry.first); });
     std::map<CameraId, session::CameraAdjustment> adjusted;
-    for (const wire::Camera& camera : streams.cameras())
+    for (const wire::Camera& camera : cameras.descriptions())
         if (!camera.adjustment.empty())
-            adjusted[camera.id] = streams.find(camera.id)->adjustment();
+            adjusted[camera.id] = cameras.find(camera.id)->adjustment();
     std::vector<HostFigures::Published> published;
-    for (const wire::Camera& camera : streams.cameras())
+    for (const wire::Camera& camera : cameras.descriptions())
         if (camera.publisher != session::host_publisher) {
-            const auto& state = streams.find(camera.id)->state;
+            const auto& state = cameras.find(camera.id)->state;
             published.push_back({camera.id, camera.name, camera.publisher,
                                  condition_here(state, is_silent(camera.publisher)),
                                  dropped_slow[camera.id], camera.frame == wire::CameraFrame::face,
                                  received[camera.id]});
         }
-    std::string problem_of_places = mixed_registrations(streams.cameras());
+    std::string problem_of_places = mixed_registrations(cameras.descriptions());
     if (problem_of_places != registration_problem && !problem_of_places.empty())
         log::warning("host", "cameras of different registrations",
                      {{"problem", problem_of_places}});

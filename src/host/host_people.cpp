@@ -98,7 +98,7 @@ void Host::Impl::audit_beginning() {
     if (!audit)
         return;
     audit->add({What::began, {}, "", {}, {}, "", "", name}, "");
-    for (const wire::Camera& camera : session->streams().cameras())
+    for (const wire::Camera& camera : session->streams().cameras().descriptions())
         audit->add({What::shared, {}, "", {}, {}, "", "", camera.name}, "");
 }
 

@@ -12,8 +12,8 @@ constexpr std::uint8_t jpeg = 66, h264 = 67;
 
 class AutomaticColor : public ::testing::Test {
 protected:
-    static Streams::Config config() {
-        Streams::Config config;
+    static SessionCameras::Config config() {
+        SessionCameras::Config config;
         config.codecs.layered = [](const std::string& codec) {
             return CodecSteps::Layered{codec, true};
         };

@@ -97,7 +97,7 @@ protected:
 TEST_F(Adjusting, ByAnOperatorIsToldToAllAndToThoseWhoComeLater) {
     come(alice, "or");
     come(bob, "secret");
-    const Pose registered = pose_of(session_->streams().cameras().at(0));
+    const Pose registered = pose_of(session_->streams().cameras().descriptions().at(0));
     EXPECT_EQ(adjust(alice, nudge), ManageRefusal::none);
     for (const ParticipantId id : {alice, bob}) {
         const auto changes = messages_to<wire::CameraChanged>(id, taken);
@@ -111,8 +111,8 @@ TEST_F(Adjusting, ByAnOperatorIsToldToAllAndToThoseWhoComeLater) {
     EXPECT_EQ(pose_of(welcome.cameras.at(0)), nudged(registered, nudge));
     // Adjustments do not add up: each is relative to the registered pose.
     EXPECT_EQ(adjust(alice, {}), ManageRefusal::none);
-    EXPECT_EQ(pose_of(session_->streams().cameras().at(0)), registered);
-    EXPECT_TRUE(session_->streams().adjustments().empty());
+    EXPECT_EQ(pose_of(session_->streams().cameras().descriptions().at(0)), registered);
+    EXPECT_TRUE(session_->streams().cameras().adjustments().empty());
 }
 
 TEST_F(Adjusting, IsRefusedWithAReason) {
@@ -124,32 +124,34 @@ TEST_F(Adjusting, IsRefusedWithAReason) {
     tell(alice, wire::AdjustCamera{8, {}, Bytes(3)});
     EXPECT_EQ(messages_to<wire::Managed>(alice, taken).at(0).refusal, ManageRefusal::beyond_limits);
     EXPECT_TRUE(messages_to<wire::CameraChanged>(bob, taken).empty());
-    EXPECT_TRUE(session_->streams().adjustments().empty());
+    EXPECT_TRUE(session_->streams().cameras().adjustments().empty());
 }
 
 TEST_F(Adjusting, OutlivesTheHostUntilTheCameraIsRegisteredAnew) {
     come(alice, "or");
     EXPECT_EQ(adjust(alice, nudge), ManageRefusal::none);
-    const auto kept = session_->streams().adjustments();
+    const auto kept = session_->streams().cameras().adjustments();
     ASSERT_EQ(kept.size(), 1u);
 
     HostSession::Config again = with_operator();
     again.streams.adjustments = kept;
     const Pose registered = pose_of(again.cameras[0]);
     HostSession second(again);
-    EXPECT_EQ(pose_of(second.streams().cameras().at(0)), nudged(registered, nudge));
+    EXPECT_EQ(pose_of(second.streams().cameras().descriptions().at(0)), nudged(registered, nudge));
 
     auto calibration = decode_calibration(again.cameras[0].calibration).value();
     calibration.room_from_camera.translation.x += 0.001;
     again.cameras[0].calibration = encode_calibration(calibration);
     HostSession third(again);
-    EXPECT_EQ(pose_of(third.streams().cameras().at(0)), calibration.room_from_camera);
+    EXPECT_EQ(pose_of(third.streams().cameras().descriptions().at(0)),
+              calibration.room_from_camera);
 }
 
 TEST_F(Adjusting, KeepsGainsThatWereEstimated) {
     come(alice, "or");
     const auto calibration = [&] {
-        return decode_calibration(session_->streams().cameras().at(0).calibration).value();
+        return decode_calibration(session_->streams().cameras().descriptions().at(0).calibration)
+            .value();
     };
     const Calibration registered = calibration();
     session_->set_estimated_gain({}, {1.25, 1, 0.5});
@@ -162,7 +164,8 @@ TEST_F(Adjusting, KeepsGainsThatWereEstimated) {
     session_->set_estimated_gain({}, {1.5, 1, 0.5});
     EXPECT_EQ(calibration().color_gain, (Vec3{1.5, 1, 0.5}));
     EXPECT_EQ(calibration().room_from_camera, nudged(registered.room_from_camera, nudge));
-    EXPECT_EQ(session_->streams().adjustments().at(0).registered, registered.room_from_camera);
+    EXPECT_EQ(session_->streams().cameras().adjustments().at(0).registered,
+              registered.room_from_camera);
 
     // A recording that is played knows its own from some time on.
     Calibration known = registered;

@@ -14,7 +14,7 @@ using wire::TextCode;
 
 // The same for the faces among them, `new_faces` of them.
 wire::Text problem_of_faces(ParticipantId id, const Admission::Participant& publisher,
-                            const Streams& streams, const std::vector<wire::Camera>& cameras,
+                            const SessionCameras& present, const std::vector<wire::Camera>& cameras,
                             std::size_t new_faces) {
     if (!publisher.has(wire::Feature::webcam))
         return {TextCode::face_forbidden};
@@ -26,12 +26,12 @@ wire::Text problem_of_faces(ParticipantId id, const Admission::Participant& publ
             return {TextCode::face_beyond_limits,
                     {std::to_string(max_face_pixels), std::to_string(int(max_face_fps))}};
     }
-    const std::vector<CameraId> own = streams.of(id);
+    const std::vector<CameraId> own = present.of(id);
     const bool has_one = std::any_of(
-        own.begin(), own.end(), [&](CameraId camera) { return streams.find(camera)->is_face(); });
+        own.begin(), own.end(), [&](CameraId camera) { return present.find(camera)->is_face(); });
     if (new_faces > 1 || has_one)
         return {TextCode::one_face};
-    if (streams.faces() >= max_faces)
+    if (present.faces() >= max_faces)
         return {TextCode::too_many_faces, {std::to_string(max_faces)}};
     return {};
 }
@@ -55,7 +55,8 @@ std::vector<wire::Camera> cameras_of(const wire::Publish& offer, wire::SessionId
 }
 
 wire::Text problem_of_offer(ParticipantId id, const Admission::Participant& publisher,
-                            const Streams& streams, const std::vector<wire::Camera>& cameras) {
+                            const SessionCameras& present,
+                            const std::vector<wire::Camera>& cameras) {
     if (cameras.empty())
         return {TextCode::no_camera_offered};
     const auto new_faces =
@@ -65,20 +66,20 @@ wire::Text problem_of_offer(ParticipantId id, const Admission::Participant& publ
     if (new_faces < cameras.size() && !publisher.has(wire::Feature::publish))
         return {TextCode::link_without_cameras};
     if (new_faces > 0)
-        if (wire::Text problem = problem_of_faces(id, publisher, streams, cameras, new_faces);
+        if (wire::Text problem = problem_of_faces(id, publisher, present, cameras, new_faces);
             !problem.empty())
             return problem;
-    if (streams.of(id).size() + cameras.size() > max_published)
+    if (present.of(id).size() + cameras.size() > max_published)
         return {TextCode::too_many_own_cameras, {std::to_string(max_published)}};
-    if (streams.size() + cameras.size() > wire::max_cameras)
+    if (present.size() + cameras.size() > wire::max_cameras)
         return {TextCode::session_full, {std::to_string(wire::max_cameras)}};
-    if (!streams.has_numbers_for(cameras.size()))
+    if (!present.has_numbers_for(cameras.size()))
         return {TextCode::no_camera_numbers};
     // The same check as in every participant.
-    std::vector<wire::Camera> all = streams.cameras();
+    std::vector<wire::Camera> all = present.descriptions();
     for (std::size_t i = 0; i < cameras.size(); ++i) {
         all.push_back(cameras[i]);
-        all.back().id = streams.next_id(i);
+        all.back().id = present.next_id(i);
         all.back().depth_stream = depth_stream(all.back().id);
         all.back().color_stream = color_stream(all.back().id);
     }

@@ -8,7 +8,7 @@
 #include "base/ids.h"
 #include "geometry/calibration.h"
 #include "session/admission.h"
-#include "session/streams.h"
+#include "session/session_cameras.h"
 #include "wire/control.h"
 
 namespace theatron::session {
@@ -22,7 +22,8 @@ std::vector<wire::Camera> cameras_of(const wire::Publish& offer, wire::SessionId
 // The reason why cameras that the participant `id` offers cannot join the session; empty if they
 // can.
 wire::Text problem_of_offer(ParticipantId id, const Admission::Participant& publisher,
-                            const Streams& streams, const std::vector<wire::Camera>& cameras);
+                            const SessionCameras& present,
+                            const std::vector<wire::Camera>& cameras);
 
 // Bytes of the largest media message of such a camera.
 std::size_t max_media_size(const Calibration& calibration);

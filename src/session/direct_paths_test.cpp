@@ -298,7 +298,7 @@ protected:
         say(id, hello);
     }
     SettingId given(ParticipantId id) {
-        return session.streams().find(CameraId{1})->receivers.at(id).depth;
+        return session.streams().cameras().find(CameraId{1})->receivers.at(id).depth;
     }
     void report(ParticipantId id) {
         say(id, wire::Report{{{depth_stream(CameraId{1}), 0, 0, 0, {}, given(id)}}, ""});

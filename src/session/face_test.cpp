@@ -131,7 +131,7 @@ TEST_F(Faces, AnExpertSendsNoOtherCamera) {
     camera.frame = CameraFrame::room;
     EXPECT_EQ(problem_with(alice, {camera}), TextCode::link_without_cameras);
     EXPECT_EQ(problem_with(alice, {face(), camera}), TextCode::link_without_cameras);
-    EXPECT_TRUE(session_->streams().of(alice).empty());
+    EXPECT_TRUE(session_->streams().cameras().of(alice).empty());
 }
 
 TEST_F(Faces, BeyondTheLimitsAreRefused) {
@@ -205,12 +205,12 @@ TEST_F(Faces, ANewRoleWithoutTheRightTakesTheFaceAway) {
     come(bob);
     offer(alice, {face()});
     tell(carol, wire::Manage{1, wire::ManageAction::set_role, alice, Role::observer});
-    EXPECT_TRUE(session_->streams().of(alice).empty());
+    EXPECT_TRUE(session_->streams().cameras().of(alice).empty());
     EXPECT_EQ(to<wire::CamerasRemoved>(bob).size(), 1u);
     tell(carol, wire::Manage{2, wire::ManageAction::set_role, alice, Role::expert});
     EXPECT_EQ(problem_with(alice, {face()}), TextCode::none);
     tell(carol, wire::Manage{3, wire::ManageAction::set_role, alice, Role::operator_});
-    EXPECT_EQ(session_->streams().of(alice).size(), 1u) << "it stays";
+    EXPECT_EQ(session_->streams().cameras().of(alice).size(), 1u) << "it stays";
 }
 
 TEST_F(Faces, DoNotMoveCamerasWithoutAPlace) {
@@ -221,11 +221,11 @@ TEST_F(Faces, DoNotMoveCamerasWithoutAPlace) {
     calibration.depth.fx = calibration.depth.fy = 60;
     now += 1s;
     offer(carol, {{"cart", false, 30, encode_calibration(calibration), true}});
-    const CameraId cart = session_->streams().of(carol).back();
+    const CameraId cart = session_->streams().cameras().of(carol).back();
     const auto placed =
-        decode_calibration(session_->streams().find(cart)->description().calibration);
+        decode_calibration(session_->streams().cameras().find(cart)->description().calibration);
     ASSERT_TRUE(placed);
-    EXPECT_EQ(placed->room_from_camera.translation.x, Streams::unregistered_distance_m)
+    EXPECT_EQ(placed->room_from_camera.translation.x, SessionCameras::unregistered_distance_m)
         << "beside the host's camera";
 }
 
@@ -234,7 +234,7 @@ TEST_F(Faces, ARecorderGetsThemOnlyWhereTheyMayBeRecorded) {
     come(bob, "secret", {Feature::webcam}, true);
     offer(alice, {face()});
     EXPECT_TRUE(settings(alice).empty()) << "nobody gets it";
-    tell(alice, wire::Unpublish{session_->streams().of(alice)});
+    tell(alice, wire::Unpublish{session_->streams().cameras().of(alice)});
     now += 1s;
     offer(alice, {face({320, 240}, 15, true)});
     EXPECT_EQ(settings(alice).size(), 2u);

@@ -11,6 +11,7 @@
 
 #include "session/case_objects.h"
 #include "session/host_actions.h"
+#include "session/replayed_room.h"
 #include "session/request_budget.h"
 #include "session/room_bytes.h"
 #include "session/room_state.h"
@@ -155,7 +156,7 @@ private:
     }
 
     RoomState state_;
-    RoomObjects replayed_;  // with recorded_bit
+    ReplayedRoom replayed_;
     std::uint64_t replayed_changes_ = 0;
     std::vector<CaseFacts> cases_;
     Authors authors_;

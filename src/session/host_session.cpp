@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "session/request_kinds.h"
 #include "wire/no_codec.h"
 
 namespace theatron::session {
@@ -15,72 +16,6 @@ using wire::TextCode;
 
 HostSession::CheckedCodec checked(const HostSession::CheckCodec& check, const std::string& codec) {
     return codec == wire::no_codec ? HostSession::CheckedCodec{codec, ""} : check(codec);
-}
-
-Kind kind_of(const wire::Join&) {
-    return Kind::other;
-}
-Kind kind_of(const wire::ChooseCodecs&) {
-    return Kind::codecs;
-}
-Kind kind_of(const wire::ChooseDelivery&) {
-    return Kind::delivery;
-}
-Kind kind_of(const wire::RequestKey&) {
-    return Kind::key;
-}
-Kind kind_of(const wire::Ping&) {
-    return Kind::ping;
-}
-Kind kind_of(const wire::Report&) {
-    return Kind::report;
-}
-Kind kind_of(const wire::Publish&) {
-    return Kind::publish;
-}
-Kind kind_of(const wire::Unpublish&) {
-    return Kind::publish;
-}
-Kind kind_of(const wire::CameraState&) {
-    return Kind::state;
-}
-Kind kind_of(const wire::RoomRequest&) {
-    return Kind::room;
-}
-Kind kind_of(const wire::Manage&) {
-    return Kind::manage;
-}
-Kind kind_of(const wire::RequestContent&) {
-    return Kind::content;
-}
-Kind kind_of(const wire::VoiceConsent&) {
-    return Kind::other;
-}
-
-Kind kind_of(const wire::AdjustCamera&) {
-    return Kind::manage;
-}
-Kind kind_of(const wire::Play&) {
-    return Kind::manage;
-}
-Kind kind_of(const wire::LookBack&) {
-    return Kind::manage;
-}
-Kind kind_of(const wire::OfferDirect&) {
-    return Kind::publish;
-}
-
-// The number of a decision that is answered with Managed; 0: it is none.
-std::uint32_t decision_number(const wire::ToHost& message) {
-    if (const auto* decision = std::get_if<wire::Manage>(&message))
-        return decision->number;
-    if (const auto* decision = std::get_if<wire::AdjustCamera>(&message))
-        return decision->number;
-    if (const auto* decision = std::get_if<wire::Play>(&message))
-        return decision->number;
-    if (const auto* decision = std::get_if<wire::LookBack>(&message))
-        return decision->number;
-    return 0;
 }
 
 }  // namespace
@@ -105,7 +40,7 @@ HostSession::HostSession(Config config)
 
 void HostSession::on_connected(ParticipantId id, TimePoint now, const std::string& address) {
     direct_.set_address(id, address);
-    admission_.on_connected(id, 2 * streams_.size(), now);
+    admission_.on_connected(id, 2 * streams_.cameras().size(), now);
 }
 
 void HostSession::on_control(ParticipantId id, ByteView bytes, TimePoint now) {
@@ -120,8 +55,7 @@ void HostSession::on_control(ParticipantId id, ByteView bytes, TimePoint now) {
         const auto* hello = std::get_if<wire::Join>(&*message);
         return hello ? join(id, *hello, now) : refuse(id, {TextCode::not_joined});
     }
-    const Kind kind =
-        message ? std::visit([](const auto& m) { return kind_of(m); }, *message) : Kind::other;
+    const Kind kind = message ? kind_of(*message) : Kind::other;
     switch (participant->budget.ask(kind, now)) {
         case RequestBudget::Answer::granted:
             // By the answer those who wait know that the connection has not frozen.
@@ -224,14 +158,14 @@ void HostSession::describe_session(ParticipantId id) {
     const Participant& participant = *admission_.find(id);
     const bool sends_only = participant.has(wire::Feature::sends_only);
     const bool takes_faces = participant.has(wire::Feature::webcam);
-    send(id,
-         wire::Welcome{participant.protocol, id, config_.name,
-                       sends_only ? std::vector<wire::Camera>() : streams_.seen_by(id, takes_faces),
-                       participant.features, config_.session});
+    send(id, wire::Welcome{participant.protocol, id, config_.name,
+                           sends_only ? std::vector<wire::Camera>()
+                                      : streams_.cameras().seen_by(id, takes_faces),
+                           participant.features, config_.session});
     tell_standing(id);
     if (sends_only)
         return;
-    for (const wire::CameraState& state : streams_.states_seen_by(id, takes_faces))
+    for (const wire::CameraState& state : streams_.cameras().states_seen_by(id, takes_faces))
         send(id, state);
 }
 
@@ -342,7 +276,7 @@ void HostSession::on_closed(ParticipantId id) {
         const bool has_waited = participant->waits();
         if (participant->joined || has_waited)
             audit(AuditEvent::What::left, id);
-        unshare(id, streams_.of(id));
+        unshare(id, streams_.cameras().of(id));
         admission_.remove(id);
         if (has_waited)
             tell_operators();
@@ -394,7 +328,7 @@ void HostSession::end(wire::TextCode reason) {
             continue;
         if (participant.waits())
             audit(AuditEvent::What::left, id);
-        unshare(id, streams_.of(id));
+        unshare(id, streams_.cameras().of(id));
         participant.closing = true;
         room_.leave(id);
         actions_.push_back(action::End{id, {{reason}}});
@@ -457,7 +391,7 @@ void HostSession::refuse(ParticipantId id, wire::Text reason) {
     wire::Refused refusal = wire::refused(std::move(reason));
     std::string why = refusal.in_english;
     send(id, std::move(refusal));
-    unshare(id, streams_.of(id));
+    unshare(id, streams_.cameras().of(id));
     participant.closing = true;
     look_back_.leave(id);
     direct_.leave(id);

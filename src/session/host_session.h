@@ -42,7 +42,7 @@ public:
         std::vector<wire::Camera> cameras;  // the host's own from the beginning; their numbers and
                                             // streams are given, from 0 on
         CheckCodec check_depth, check_color;
-        Streams::Config streams;
+        SessionCameras::Config streams;
         RoomSnapshot room;          // from the previous run
         HostRoom::Authors authors;  // of its marks
         // Those of them that may_know_patient() are told who the patient of the open case is.

@@ -25,7 +25,7 @@ void HostSession::carry_out(ParticipantId id, const wire::AdjustCamera& wish, Ti
 
 ManageRefusal HostSession::adjust(CameraId camera, const CameraAdjustment& adjustment,
                                   const std::string& by, TimePoint now) {
-    const CameraStreams* known = streams_.find(camera);
+    const CameraStreams* known = streams_.cameras().find(camera);
     const bool changes_region = known && known->adjustment().region != adjustment.region;
     const ManageRefusal refusal = streams_.adjust(camera, adjustment);
     if (refusal != ManageRefusal::none)
@@ -45,7 +45,7 @@ void HostSession::audit_adjustments(TimePoint now) {
             ++next;
             continue;
         }
-        if (const CameraStreams* camera = streams_.find(next->first))
+        if (const CameraStreams* camera = streams_.cameras().find(next->first))
             actions_.push_back(
                 action::Audit{{AuditEvent::What::adjusted,
                                {},

@@ -111,7 +111,7 @@ void check_rights(const HostSession& host) {
         if (object.kind == session::ObjectKind::person && !may(object.creator, Right::see))
             std::abort();
     }
-    for (const wire::Camera& camera : host.streams().cameras())
+    for (const wire::Camera& camera : host.streams().cameras().descriptions())
         if (camera.publisher != session::host_publisher &&
             !may(camera.publisher, session::needed_right(camera.frame)))
             std::abort();
@@ -125,7 +125,7 @@ void check_rights(const HostSession& host) {
 // Nobody is shown the past of its own camera, nor of a camera that has left.
 void check_past(const HostSession& host, const std::vector<session::LookBack::Due>& pictures) {
     for (const session::LookBack::Due& due : pictures) {
-        const auto* camera = host.streams().find(camera_of(due.header.stream));
+        const auto* camera = host.streams().cameras().find(camera_of(due.header.stream));
         const auto found = host.participants().find(due.receiver);
         if (!camera || !camera->may_be_kept() || camera->publisher() == due.receiver ||
             found == host.participants().end() || !found->second.takes_part())
@@ -153,7 +153,8 @@ void check_screens(const HostSession& host) {
             std::abort();
         if (!screen->camera)
             ++away;
-        else if (!host.streams().find(*screen->camera) || !shown.insert(*screen->camera).second)
+        else if (!host.streams().cameras().find(*screen->camera) ||
+                 !shown.insert(*screen->camera).second)
             std::abort();
     }
     if (away > session::HostRoom::max_kept_screens)
@@ -199,7 +200,7 @@ void check_sent(const HostSession& host, const session::action::Send& send) {
 
 void check(const HostSession& host) {
     std::set<SettingId> numbers;
-    const std::vector<wire::Camera> cameras = host.streams().cameras();
+    const std::vector<wire::Camera> cameras = host.streams().cameras().descriptions();
     if (cameras.size() > wire::max_cameras)
         std::abort();
     for (const wire::Camera& camera : cameras)
@@ -210,9 +211,10 @@ void check(const HostSession& host) {
             for (const session::ActiveSetting& setting : settings)
                 if (setting.id == SettingId{} || !numbers.insert(setting.id).second)
                     std::abort();
-            for (const auto& [id, announced] : host.streams().find(camera.id)->receivers)
+            for (const auto& [id, announced] : host.streams().cameras().find(camera.id)->receivers)
                 if (id == camera.publisher ||
-                    !host.streams().find(camera.id)->table(depth).find(announced.of(depth)))
+                    !host.streams().cameras().find(camera.id)->table(depth).find(
+                        announced.of(depth)))
                     std::abort();
         }
 }

@@ -168,9 +168,9 @@ void HostSession::set_role(ParticipantId id, Role role) {
         return refuse(id, {TextCode::observer_records});
     if (!person.may(Right::publish)) {
         std::erase(person.features, wire::Feature::publish);
-        std::vector<CameraId> forbidden = streams_.of(id);
+        std::vector<CameraId> forbidden = streams_.cameras().of(id);
         std::erase_if(forbidden, [&](CameraId camera) {
-            return person.may(needed_right(streams_.find(camera)->description().frame));
+            return person.may(needed_right(streams_.cameras().find(camera)->description().frame));
         });
         unshare(id, forbidden);
     } else if (person.asks_to_publish && !could_publish) {

@@ -189,7 +189,7 @@ TEST_F(People, ARoleThatMayPublishGetsAWelcomeThatSaysSoAndOneThatMayNotLosesIts
     EXPECT_EQ(audited(), std::vector{What::shared});
     EXPECT_EQ(manage(alice, ManageAction::set_role, bob, Role::expert), ManageRefusal::none);
     EXPECT_EQ(audited(), (std::vector{What::unshared, What::role_changed}));
-    EXPECT_EQ(session_->streams().size(), 1u);
+    EXPECT_EQ(session_->streams().cameras().size(), 1u);
     EXPECT_EQ(to<wire::CamerasRemoved>(alice).size(), 1u);
     EXPECT_EQ(to<wire::Welcome>(bob).size(), 1u);
 }

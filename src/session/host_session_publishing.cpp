@@ -14,12 +14,13 @@ using wire::TextCode;
 void HostSession::carry_out(ParticipantId id, const wire::Publish& offer, TimePoint) {
     const Participant& publisher = *admission_.find(id);
     std::vector<wire::Camera> cameras = cameras_of(offer, config_.session);
-    if (wire::Text problem = problem_of_offer(id, publisher, streams_, cameras); !problem.empty())
+    if (wire::Text problem = problem_of_offer(id, publisher, streams_.cameras(), cameras);
+        !problem.empty())
         return send(id, wire::Published{{}, std::move(problem)});
     // The publisher gets its cameras' numbers before the settings for them.
     wire::Published answer;
     for (std::size_t i = 0; i < cameras.size(); ++i)
-        answer.cameras.push_back(streams_.next_id(i));
+        answer.cameras.push_back(streams_.cameras().next_id(i));
     send(id, std::move(answer));
     for (const wire::Camera& camera : cameras)
         audit(AuditEvent::What::shared, id, "", camera.name);
@@ -50,13 +51,13 @@ std::vector<HostSession::PlacedScreen> HostSession::place_screens(
         cameras[i].calibration = encode_calibration(
             screen_calibration(calibration->color.size, place.width_m, place.room_from_screen));
         places.push_back(chosen);
-        screens.push_back({streams_.next_id(i), std::move(one), chosen});
+        screens.push_back({streams_.cameras().next_id(i), std::move(one), chosen});
     }
     return screens;
 }
 
 void HostSession::end_share(CameraId camera, ParticipantId by) {
-    const CameraStreams* found = streams_.find(camera);
+    const CameraStreams* found = streams_.cameras().find(camera);
     if (!found || found->publisher() == host_publisher)
         return;
     const ParticipantId publisher = found->publisher();
@@ -70,7 +71,7 @@ void HostSession::end_share(CameraId camera, ParticipantId by) {
 }
 
 void HostSession::carry_out(ParticipantId id, const wire::Unpublish& left, TimePoint) {
-    std::vector<CameraId> own = streams_.of(id);
+    std::vector<CameraId> own = streams_.cameras().of(id);
     std::erase_if(own, [&](CameraId camera) {
         return std::find(left.cameras.begin(), left.cameras.end(), camera) == left.cameras.end();
     });
@@ -79,7 +80,8 @@ void HostSession::carry_out(ParticipantId id, const wire::Unpublish& left, TimeP
 
 void HostSession::unshare(ParticipantId id, const std::vector<CameraId>& cameras) {
     for (const CameraId camera : cameras)
-        audit(AuditEvent::What::unshared, id, "", streams_.find(camera)->description().name);
+        audit(AuditEvent::What::unshared, id, "",
+              streams_.cameras().find(camera)->description().name);
     for (const CameraId camera : cameras) {
         room_.remove_screen(camera);
         look_back_.forget(camera, {});
@@ -90,7 +92,7 @@ void HostSession::unshare(ParticipantId id, const std::vector<CameraId>& cameras
 }
 
 void HostSession::carry_out(ParticipantId id, const wire::CameraState& state, TimePoint) {
-    const CameraStreams* camera = streams_.find(state.camera);
+    const CameraStreams* camera = streams_.cameras().find(state.camera);
     if (camera && camera->publisher() == id)
         streams_.on_state(state);
 }
@@ -99,16 +101,16 @@ void HostSession::carry_out(ParticipantId id, const wire::CameraState& state, Ti
 // shrinks: pictures of a camera that leaves may still be in flight.
 void HostSession::take_media(ParticipantId id) {
     std::size_t& most = admission_.find(id)->max_media;
-    for (const CameraId camera : streams_.of(id))
+    for (const CameraId camera : streams_.cameras().of(id))
         if (const auto calibration =
-                decode_calibration(streams_.find(camera)->description().calibration))
+                decode_calibration(streams_.cameras().find(camera)->description().calibration))
             most = std::max(most, max_media_size(*calibration));
     actions_.push_back(action::TakeMedia{id, most});
 }
 
 void HostSession::set_budgets() {
     for (auto& [id, participant] : admission_.participants())
-        participant.budget.set_streams(2 * streams_.size());
+        participant.budget.set_streams(2 * streams_.cameras().size());
 }
 
 std::vector<ParticipantId> HostSession::on_media_from(ParticipantId id, ByteView message,
@@ -121,9 +123,9 @@ std::vector<ParticipantId> HostSession::on_media_from(ParticipantId id, ByteView
         refuse(id, {TextCode::damaged_picture, {std::string(to_text(header.error()))}});
         return {};
     }
-    const CameraStreams* camera = streams_.find(camera_of(header->stream));
+    const CameraStreams* camera = streams_.cameras().find(camera_of(header->stream));
     // A camera that has just left may still have pictures in flight; its number is not used again.
-    if (!camera && camera_of(header->stream) < streams_.next_id(0))
+    if (!camera && camera_of(header->stream) < streams_.cameras().next_id(0))
         return {};
     if (!camera || camera->publisher() != id ||
         (!is_depth(header->stream) && !camera->description().has_color)) {

@@ -31,8 +31,8 @@ protected:
         say(id, offer);
     }
     ScreenPlace place(CameraId camera) {
-        return screen_place(
-            *decode_calibration(session.streams().find(camera)->description().calibration));
+        return screen_place(*decode_calibration(
+            session.streams().cameras().find(camera)->description().calibration));
     }
     std::optional<ObjectId> object(CameraId camera) {
         return find_screen(session.room().snapshot().objects, camera, "");
@@ -71,11 +71,11 @@ TEST_F(SharedScreens, AreEndedByTheirSharerForAll) {
     publish(alice, {"scope", "tower"});
     (void)session.take_actions();
     end(bob, CameraId{1});
-    EXPECT_TRUE(session.streams().find(CameraId{1})) << "Bob does not share it";
+    EXPECT_TRUE(session.streams().cameras().find(CameraId{1})) << "Bob does not share it";
     (void)session.take_actions();
     end(alice, CameraId{1});
     const auto actions = session.take_actions();
-    EXPECT_FALSE(session.streams().find(CameraId{1}));
+    EXPECT_FALSE(session.streams().cameras().find(CameraId{1}));
     EXPECT_FALSE(object(CameraId{1}));
     EXPECT_TRUE(object(CameraId{2}));
     ASSERT_EQ(sent<wire::CamerasRemoved>(bob, actions).size(), 1u);
@@ -129,7 +129,7 @@ TEST_F(SharedScreens, OfTheHostAreHandledWhereTheyHaveNoPlaceButDoNotEnd) {
     const wire::RoomRequest end{1, encode_request(request::Remove{*screen})};
     host.on_control(alice, wire::encode(wire::ToHost(end)), now);
     EXPECT_TRUE(find_screen(host.room().snapshot().objects, CameraId{1}, ""));
-    EXPECT_TRUE(host.streams().find(CameraId{1}));
+    EXPECT_TRUE(host.streams().cameras().find(CameraId{1}));
 }
 
 TEST_F(SharedScreens, APublisherThatIsLostLeavesItsPlaceToTheNextConnection) {

@@ -20,7 +20,7 @@ void LookBack::clear() {
 
 bool LookBack::is_shown(ParticipantId id, const Past::Picture& picture) const {
     const CameraStreams* camera =
-        picture.message ? streams_.find(camera_of(picture.header.stream)) : nullptr;
+        picture.message ? streams_.cameras().find(camera_of(picture.header.stream)) : nullptr;
     return camera && camera->is_for(id, false, false);
 }
 

@@ -208,7 +208,7 @@ TEST_F(SessionOfMany, OnlyALinkForPublishersLetsCamerasIn) {
     EXPECT_TRUE(publish(alice, 1).empty());
     EXPECT_EQ(sent<wire::Published>(alice).at(0).problem.code,
               wire::TextCode::link_without_cameras);
-    EXPECT_EQ(session.streams().size(), 1u);
+    EXPECT_EQ(session.streams().cameras().size(), 1u);
     EXPECT_TRUE(session.on_media_from(alice, picture(CameraId{1}, SettingId{1}), now).empty());
     actions = session.take_actions();
     EXPECT_EQ(all<action::Close>().size(), 1u);
@@ -254,10 +254,10 @@ TEST_F(SessionOfMany, CamerasWithoutAPlaceStandBesideEachOther) {
     session.on_closed(alice);
     const auto third = publish(bob, 1);
     const auto x_of = [&](CameraId id) {
-        const auto& calibration = session.streams().find(id)->description().calibration;
+        const auto& calibration = session.streams().cameras().find(id)->description().calibration;
         return decode_calibration(calibration)->room_from_camera.translation.x;
     };
-    constexpr double apart = Streams::unregistered_distance_m;
+    constexpr double apart = SessionCameras::unregistered_distance_m;
     EXPECT_EQ(x_of(CameraId{0}), 0);
     EXPECT_EQ(x_of(second[0]), 2 * apart);
     EXPECT_EQ(x_of(third[0]), apart) << "where the one that left stood";
@@ -299,7 +299,7 @@ TEST_F(SessionOfMany, CamerasLeaveWithTheirPublisherAndNumbersNeverComeAgain) {
     actions = session.take_actions();
     ASSERT_EQ(sent<wire::CamerasRemoved>(bob).size(), 1u);
     EXPECT_EQ(sent<wire::CamerasRemoved>(bob)[0].cameras, first);
-    EXPECT_EQ(session.streams().size(), 1u);
+    EXPECT_EQ(session.streams().cameras().size(), 1u);
 
     join(carol, "publish");
     const auto second = publish(carol, 2);
@@ -436,12 +436,12 @@ TEST_F(SessionOfMany, CamerasAreBoundedInNumberAndInPixels) {
         EXPECT_TRUE(answer.cameras.empty());
         EXPECT_FALSE(answer.problem.empty());
     }
-    EXPECT_EQ(session.streams().size(), 1 + max_published);
-    for (int i = 3; session.streams().size() < wire::max_cameras && i < 60; ++i) {
+    EXPECT_EQ(session.streams().cameras().size(), 1 + max_published);
+    for (int i = 3; session.streams().cameras().size() < wire::max_cameras && i < 60; ++i) {
         join(ParticipantId(i), "publish");
         (void)publish(ParticipantId(i), 2);
     }
-    EXPECT_EQ(session.streams().size(), wire::max_cameras);
+    EXPECT_EQ(session.streams().cameras().size(), wire::max_cameras);
     EXPECT_TRUE(publish(bob, 1).empty());
 }
 
@@ -457,7 +457,7 @@ TEST_F(SessionOfMany, OfferingTooOftenIsAnsweredNotQueued) {
         say(alice, wire::Unpublish{cameras});
     }
     EXPECT_LE(taken, limit.at_once);
-    EXPECT_EQ(session.streams().size(), 1u) << "taking back is never refused";
+    EXPECT_EQ(session.streams().cameras().size(), 1u) << "taking back is never refused";
 }
 
 TEST_F(SessionOfMany, ALinkThatHasExpiredLetsNobodyInAndPutsNobodyOut) {

@@ -4,32 +4,22 @@
 #include <set>
 #include <utility>
 
-#include "session/face_limits.h"
 #include "session/streams.h"
 #include "wire/no_codec.h"
 
 namespace theatron::session {
 
-const std::string& Streams::Receiver::wished(CameraId camera, bool depth) const {
-    const auto single = wishes.find(camera);
-    const auto pick = [&](const Wish& w) -> const std::string& {
-        return depth ? w.depth : w.color;
-    };
-    return single != wishes.end() && !pick(single->second).empty() ? pick(single->second)
-                                                                   : pick(wish);
-}
-
-void Streams::join(ParticipantId id, const Wish& wish, bool records, bool takes_faces) {
-    Receiver& receiver = receivers_[id];
+void Streams::join(ParticipantId id, const CodecWish& wish, bool records, bool takes_faces) {
+    StreamReceiver& receiver = receivers_[id];
     receiver.wish = wish;
     receiver.records = records;
     receiver.takes_faces = takes_faces;
-    receiver.delivery.set_codecs(config_.codecs, region_is_drawn_);
+    receiver.delivery.set_codecs(codecs_, region_is_drawn_);
     receiver.delivery.set_wish(wish.depth, wish.color);
     for (auto& [camera, streams] : cameras_)
-        if (gets(streams, id, receiver)) {
-            set_wish(id, receiver, streams, true);
-            set_wish(id, receiver, streams, false);
+        if (receiver.gets(streams, id)) {
+            receiver.request(streams, id, true);
+            receiver.request(streams, id, false);
         }
     apply();
 }
@@ -53,78 +43,39 @@ void Streams::tell_again(ParticipantId id) {
         send(id, found->second.delivery.message({}));
         tell_receiver(id, found->second);
     }
-    if (!of(id).empty())
+    if (!cameras_.of(id).empty())
         tell_publisher(id);
 }
 
-void Streams::choose(ParticipantId id, const Wish& wish, const std::vector<CameraId>& cameras) {
+void Streams::choose(ParticipantId id, const CodecWish& wish,
+                     const std::vector<CameraId>& cameras) {
     const auto found = receivers_.find(id);
     if (found == receivers_.end())
         return;
-    Receiver& receiver = found->second;
-    const auto take_over = [&](Wish& target) {
-        if (!wish.depth.empty())
-            target.depth = wish.depth;
-        if (!wish.color.empty())
-            target.color = wish.color;
-    };
-    if (cameras.empty()) {
-        take_over(receiver.wish);
-        for (auto& [camera, single] : receiver.wishes) {
-            if (!wish.depth.empty())
-                single.depth.clear();
-            if (!wish.color.empty())
-                single.color.clear();
-        }
-    }
-    for (const CameraId camera : cameras)
-        if (cameras_.contains(camera))
-            take_over(receiver.wishes[camera]);
-    receiver.delivery.set_wish(receiver.wish.depth, receiver.wish.color);
-    for (auto& [camera, streams] : cameras_) {
-        const bool is_meant =
-            cameras.empty() || std::find(cameras.begin(), cameras.end(), camera) != cameras.end();
-        if (!gets(streams, id, receiver) || !is_meant)
+    StreamReceiver& receiver = found->second;
+    std::vector<CameraId> known = cameras;
+    std::erase_if(known, [&](CameraId camera) { return !cameras_.find(camera); });
+    if (known.empty() && !cameras.empty())
+        return;
+    receiver.choose(wish, known);
+    for (auto& [number, camera] : cameras_) {
+        const bool is_meant = known.empty() || std::ranges::find(known, number) != known.end();
+        if (!is_meant || !receiver.gets(camera, id))
             continue;
         if (!wish.depth.empty())
-            set_wish(id, receiver, streams, true);
+            receiver.request(camera, id, true);
         if (!wish.color.empty())
-            set_wish(id, receiver, streams, false);
+            receiver.request(camera, id, false);
     }
     take_step(id, receiver);
     apply();
 }
 
-void Streams::set_wish(ParticipantId id, Receiver& receiver, CameraStreams& camera, bool depth) {
-    camera.receivers.try_emplace(id);
-    SettingTable& table = camera.table(depth);
-    if (camera.is_face())
-        table.wish(id, std::string(depth ? face_depth_codec : face_color_codec));
-    else
-        table.wish(id, receiver.wished(camera.description().id, depth));
-    if (receiver.records)
-        table.pin(id);
-}
-
-const LadderStep& Streams::step_for(ParticipantId id, Receiver& receiver,
-                                    const CameraStreams& camera) {
-    return receiver.delivery.step_of(
-        receiver.delivery.ladder(camera.table(true).wished(id), camera.table(false).wished(id)));
-}
-
 // Asks for the encodings of the receiver's step.
-void Streams::take_step(ParticipantId id, Receiver& receiver) {
+void Streams::take_step(ParticipantId id, StreamReceiver& receiver) {
     for (auto& [number, camera] : cameras_)
-        if (gets(camera, id, receiver))
-            take_step(id, receiver, camera);
-}
-
-void Streams::take_step(ParticipantId id, Receiver& receiver, CameraStreams& camera) {
-    if (camera.is_face())
-        return;  // fewer pictures are sent, but no other ones
-    const LadderStep step = step_for(id, receiver, camera);
-    camera.table(true).stopgap(id, step.depth_codec);
-    camera.table(false).stopgap(id, step.color_codec);
+        if (receiver.gets(camera, id))
+            receiver.take_step(camera, id);
 }
 
 void Streams::set_goal(ParticipantId id, const wire::ChooseDelivery& goal) {
@@ -141,16 +92,16 @@ void Streams::on_link(ParticipantId id, const LinkMeasure& link, TimePoint now) 
     const auto found = receivers_.find(id);
     if (found == receivers_.end())
         return;
-    Receiver& receiver = found->second;
+    StreamReceiver& receiver = found->second;
     std::vector<Delivery::Given> given;
     for (const auto& [number, camera] : cameras_)
-        if (gets(camera, id, receiver))
+        if (receiver.gets(camera, id))
             given.push_back(
                 {&camera.table(true).given(id),
                  camera.description().has_color ? &camera.table(false).given(id) : nullptr,
                  camera.table(true).wished(id), camera.table(false).wished(id)});
     Delivery& delivery = receiver.delivery;
-    if (!delivery.update(link, given, frames_per_second(), rates_, made_in(id), now))
+    if (!delivery.update(link, given, cameras_.frames_per_second(), rates_, made_in(id), now))
         return;
     const wire::Delivery message = delivery.message(link.delay);
     actions_.push_back(
@@ -164,12 +115,12 @@ void Streams::look_back(ParticipantId id, std::set<CameraId> cameras) {
     const auto found = receivers_.find(id);
     if (found == receivers_.end())
         return;
-    Receiver& receiver = found->second;
+    StreamReceiver& receiver = found->second;
     for (const CameraId camera : std::exchange(receiver.past, std::move(cameras))) {
-        const auto known = cameras_.find(camera);
-        if (known == cameras_.end() || receiver.past.contains(camera))
+        CameraStreams* known = cameras_.find(camera);
+        if (!known || receiver.past.contains(camera))
             continue;
-        known->second.receivers[id] = {};
+        known->receivers[id] = {};
         receiver.delivery.forget(depth_stream(camera));
         receiver.delivery.forget(color_stream(camera));
     }
@@ -180,13 +131,6 @@ void Streams::look_back(ParticipantId id, std::set<CameraId> cameras) {
 std::string Streams::step_of(ParticipantId id) {
     const auto found = receivers_.find(id);
     return found == receivers_.end() ? "" : wire::sent_part(found->second.delivery.message({}));
-}
-
-double Streams::frames_per_second() const {
-    double fastest = 1;
-    for (const auto& [id, camera] : cameras_)
-        fastest = std::max(fastest, camera.description().frames_per_second);
-    return fastest;
 }
 
 // The longer one of depth and colour, each the mean of all cameras. Settings are measured
@@ -242,7 +186,7 @@ void Streams::tell_publisher(ParticipantId publisher) {
     send(publisher, std::move(message));
 }
 
-void Streams::tell_receiver(ParticipantId id, Receiver& receiver) {
+void Streams::tell_receiver(ParticipantId id, StreamReceiver& receiver) {
     wire::Settings message;
     for (auto& [number, camera] : cameras_) {
         const auto announced = camera.receivers.find(id);
@@ -251,7 +195,7 @@ void Streams::tell_receiver(ParticipantId id, Receiver& receiver) {
         const ActiveSetting& depth = camera.table(true).given(id);
         const ActiveSetting& color = camera.table(false).given(id);
         const CameraStreams::Told now{depth.id, color.id,
-                                      step_for(id, receiver, camera).highest_layer};
+                                      receiver.step_for(camera, id).highest_layer};
         const CameraStreams::Told before = std::exchange(announced->second, now);
         if (before.depth == now.depth && before.color == now.color)
             continue;
@@ -264,27 +208,10 @@ void Streams::tell_receiver(ParticipantId id, Receiver& receiver) {
                 key_requests_.request({camera.stream(is_depth), setting.id});
         }
         if (message.note.empty())
-            message.note = note_for(id, receiver, camera);
+            message.note = receiver.note_on(camera, id);
     }
     if (!message.settings.empty())
         send(id, std::move(message));
-}
-
-// Empty if the receiver gets the settings that it requested. It requests none for faces.
-wire::Text Streams::note_for(ParticipantId id, Receiver& receiver, const CameraStreams& camera) {
-    if (camera.is_face())
-        return {};
-    for (const bool depth : {true, false}) {
-        const LadderStep& step = step_for(id, receiver, camera);
-        const std::string& asked = receiver.records
-                                       ? receiver.wished(camera.description().id, depth)
-                                   : depth ? step.depth_codec
-                                           : step.color_codec;
-        if (camera.table(depth).given(id).codec != asked)
-            return {wire::TextCode::all_encodings_taken,
-                    {std::to_string(SettingTable::max_active), asked}};
-    }
-    return {};
 }
 
 }  // namespace theatron::session

@@ -13,19 +13,13 @@
 
 #include "base/ids.h"
 #include "base/time.h"
-#include "session/announced_cameras.h"
-#include "session/camera_adjustment.h"
-#include "session/camera_streams.h"
-#include "session/delivery.h"
 #include "session/host_actions.h"
-#include "session/kept_adjustments.h"
 #include "session/key_requests.h"
+#include "session/session_cameras.h"
 #include "session/stream_rates.h"
+#include "session/stream_receiver.h"
 
 namespace theatron::session {
-
-// The publisher of the host's own cameras.
-inline constexpr ParticipantId host_publisher{0};
 
 // A stream of a participant's camera in one of its settings, and those who get it.
 struct StreamUse {
@@ -42,56 +36,26 @@ struct StreamUse {
 
 class Streams {
 public:
-    struct Config {
-        CodecSteps codecs;                             // for the ladders
-        CameraStreams::Usual usual;                    // in canonical spelling; empty: none
-        std::vector<KeptAdjustment> adjustments = {};  // of the previous run
-    };
     // `actions` must outlive the streams.
-    Streams(Config config, std::vector<Action>& actions)
-        : config_(std::move(config)), actions_(actions), adjustments_(config_.adjustments) {}
+    Streams(const SessionCameras::Config& config, std::vector<Action>& actions)
+        : codecs_(config.codecs), actions_(actions), cameras_(config, numbers_) {}
     Streams(const Streams&) = delete;
     Streams& operator=(const Streams&) = delete;
 
-    // Distance along x between cameras without a known place in the room: so large that none is in
-    // another's picture.
-    static constexpr double unregistered_distance_m = 12;
-
-    // Adds cameras and gives them their numbers and streams; no number is used twice. Cameras
-    // without a place in the room are put side by side. Cameras that were adjusted before are so
-    // again. `publisher_name` is empty for the host. Needs has_numbers_for() them.
+    // Adds cameras (SessionCameras::add()) and tells those who see them.
     void add(ParticipantId publisher, std::vector<wire::Camera> cameras,
              const std::string& publisher_name = "");
-    // The number of the next camera, or of the one `further` behind it.
-    CameraId next_id(std::size_t further) const { return CameraId(next_camera_ + int(further)); }
-    bool has_numbers_for(std::size_t cameras) const {
-        return next_camera_ + int(cameras) <= max_camera_number + 1;
-    }
-    std::size_t size() const { return cameras_.size(); }
-    // The settings in which a camera is to be encoded; empty if there is no such camera.
-    const std::vector<ActiveSetting>& settings(CameraId camera, bool depth) const;
     // Unknown cameras are skipped.
     void remove(const std::vector<CameraId>& cameras);
-    // Null if there is no such camera.
-    const CameraStreams* find(CameraId camera) const;
-    std::vector<CameraId> of(ParticipantId publisher) const;
-    std::vector<wire::Camera> cameras() const;
-    // The cameras that a participant receives: all but its own.
-    std::vector<wire::Camera> seen_by(ParticipantId participant, bool takes_faces = false) const;
-    std::vector<wire::CameraState> states_seen_by(ParticipantId participant,
-                                                  bool takes_faces = false) const;
-    // The pictures of faces among the cameras.
-    std::size_t faces() const;
+    const SessionCameras& cameras() const { return cameras_; }
+    // The settings in which a camera is to be encoded; empty if there is no such camera.
+    const std::vector<ActiveSetting>& settings(CameraId camera, bool depth) const;
     void on_state(const wire::CameraState& state);
-    // Adjusts a camera for all who see it. Cameras that move with a person cannot be, and only the
-    // host's own have a region.
+    // The following three are told to all who see the camera. See SessionCameras.
     wire::ManageRefusal adjust(CameraId camera, const CameraAdjustment& adjustment);
-    // A camera is registered anew, with the same lenses; told to all who see it.
     void set_calibration(CameraId camera, const Bytes& calibration);
-    // The same for gains that were estimated; a camera keeps those of its own (CameraStreams).
+    // Gains that were estimated; a camera keeps those of its own (CameraStreams).
     void set_estimated_gain(CameraId camera, Vec3 gain);
-    // Those of all cameras that are or were here.
-    const std::vector<KeptAdjustment>& adjustments() const { return adjustments_.all(); }
     // `is_drawn`: some camera has a region of interest. Without one, depth never becomes lossy
     // because of a slow link.
     void on_region(bool is_drawn);
@@ -99,16 +63,15 @@ public:
     // core. The receivers of the setting get a note.
     void on_encoding(CameraId camera, SettingId setting, bool keeps_up, double ms_per_picture);
 
-    // Receivers. Codecs are in canonical spelling.
-    struct Wish {
-        std::string depth, color;
-    };
+    // Receivers.
     // A receiver that records gets everything, and others do not change its encodings. Faces go to
     // receivers that take them, in codecs of their own (face_limits.h).
-    void join(ParticipantId receiver, const Wish& wish, bool records, bool takes_faces = false);
+    void join(ParticipantId receiver, const CodecWish& wish, bool records,
+              bool takes_faces = false);
     void leave(ParticipantId receiver);
     // An empty text keeps the codec. Empty `cameras`: for all, also for later ones.
-    void choose(ParticipantId receiver, const Wish& wish, const std::vector<CameraId>& cameras);
+    void choose(ParticipantId receiver, const CodecWish& wish,
+                const std::vector<CameraId>& cameras);
     void set_goal(ParticipantId receiver, const wire::ChooseDelivery& goal);
     // The receiver is shown the past of exactly these cameras (look_back.h): it gets nothing of
     // their present, and no settings. Those of before that are not among them it gets anew.
@@ -147,47 +110,25 @@ public:
     bool all_wait(CameraId camera, const std::function<bool(ParticipantId)>& is_behind) const;
 
 private:
-    struct Receiver {
-        Wish wish;
-        std::map<CameraId, Wish> wishes;  // for single cameras; empty texts: as `wish`
-        bool records = false, takes_faces = false;
-        bool has_ceiling = false;
-        std::set<CameraId> past;  // that it is shown the past of
-        Delivery delivery;
-
-        const std::string& wished(CameraId camera, bool depth) const;
-    };
-
     void send(ParticipantId participant, wire::ToParticipant message) {
         actions_.push_back(action::Send{participant, std::move(message)});
     }
-    static bool gets(const CameraStreams& camera, ParticipantId id, const Receiver& receiver) {
-        return camera.is_for(id, receiver.takes_faces, receiver.records);
-    }
     void tell_changed(const CameraStreams& camera);
-    void set_wish(ParticipantId id, Receiver& receiver, CameraStreams& camera, bool depth);
-    void take_step(ParticipantId id, Receiver& receiver);
-    void take_step(ParticipantId id, Receiver& receiver, CameraStreams& camera);
-    int free_slot() const;
-    const LadderStep& step_for(ParticipantId id, Receiver& receiver, const CameraStreams& camera);
+    void take_step(ParticipantId id, StreamReceiver& receiver);
     // Brings encoders and receivers in line with the tables.
     void apply();
     void tell_publisher(ParticipantId publisher);
-    void tell_receiver(ParticipantId id, Receiver& receiver);
-    wire::Text note_for(ParticipantId id, Receiver& receiver, const CameraStreams& camera);
+    void tell_receiver(ParticipantId id, StreamReceiver& receiver);
     Duration made_in(ParticipantId id) const;
-    double frames_per_second() const;
 
-    const Config config_;
+    const CodecSteps codecs_;  // for the ladders
     std::vector<Action>& actions_;
     SettingNumbers numbers_;
-    int next_camera_ = 0;
-    std::map<CameraId, CameraStreams> cameras_;
-    std::map<ParticipantId, Receiver> receivers_;
+    SessionCameras cameras_;
+    std::map<ParticipantId, StreamReceiver> receivers_;
     KeyRequests key_requests_;
     StreamRates rates_;
     bool region_is_drawn_ = false;
-    KeptAdjustments adjustments_;
     std::uint64_t changes_ = 0;
 };
 

@@ -161,7 +161,7 @@ private:
         } else if (!publishers.empty()) {
             Publisher& publisher = *publishers[random_() % publishers.size()];
             if (choice < 5 && !publisher.asked && publisher.viewer.joined() &&
-                host_.streams().size() < 16) {
+                host_.streams().cameras().size() < 16) {
                 publisher.asked = true;
                 publisher.up.send(
                     Peer::tagged(
@@ -179,7 +179,7 @@ private:
                 ++left;
             }
         }
-        most_cameras = std::max(most_cameras, host_.streams().size());
+        most_cameras = std::max(most_cameras, host_.streams().cameras().size());
     }
 
     // Each encoder refers to its own frame before.
@@ -336,7 +336,7 @@ TEST(SessionOfMany, NoFrameOfACameraThatStaysIsLostOrLateBecauseOfAnother) {
         EXPECT_EQ(viewer->undecodable, 0u);
         EXPECT_EQ(viewer->foreign, 0u) << "in the order of the settings";
         EXPECT_LE(to_ms(viewer->oldest), 2 * 15 + 100);
-        EXPECT_LE(viewer->viewer.settings().size(), 2 * s.host().streams().size())
+        EXPECT_LE(viewer->viewer.settings().size(), 2 * s.host().streams().cameras().size())
             << "nothing is kept of cameras that left";
     }
 }
@@ -376,13 +376,13 @@ TEST(SessionOfMany, AViewerThatJoinsLateSeesEveryCamera) {
     s.join(late);
     s.run(std::chrono::seconds(30));
     EXPECT_TRUE(late.viewer.joined());
-    EXPECT_EQ(late.viewer.cameras().size(), s.host().streams().size());
+    EXPECT_EQ(late.viewer.cameras().size(), s.host().streams().cameras().size());
     EXPECT_EQ(late.lost, 0u);
     std::set<CameraId> seen;
     for (const auto& [stream, state] : late.streams)
         if (state.begun)
             seen.insert(camera_of(stream));
-    EXPECT_GE(seen.size() + 1, s.host().streams().size()) << "one may have come just now";
+    EXPECT_GE(seen.size() + 1, s.host().streams().cameras().size()) << "one may have come just now";
     for (std::size_t i = 0; i < 3; ++i)
         EXPECT_EQ(s.viewers[i]->lost, 0u) << "the others noticed nothing";
 }

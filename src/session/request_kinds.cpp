@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/request_kinds.h"
+
+#include <type_traits>
+#include <variant>
+
+namespace theatron::session {
+namespace {
+
+using Kind = RequestBudget::Kind;
+
+// One for each kind of message, so that a new one cannot be forgotten.
+struct KindOf {
+    Kind operator()(const wire::Join&) const { return Kind::other; }
+    Kind operator()(const wire::ChooseCodecs&) const { return Kind::codecs; }
+    Kind operator()(const wire::ChooseDelivery&) const { return Kind::delivery; }
+    Kind operator()(const wire::RequestKey&) const { return Kind::key; }
+    Kind operator()(const wire::Ping&) const { return Kind::ping; }
+    Kind operator()(const wire::Report&) const { return Kind::report; }
+    Kind operator()(const wire::Publish&) const { return Kind::publish; }
+    Kind operator()(const wire::Unpublish&) const { return Kind::publish; }
+    Kind operator()(const wire::CameraState&) const { return Kind::state; }
+    Kind operator()(const wire::RoomRequest&) const { return Kind::room; }
+    Kind operator()(const wire::Manage&) const { return Kind::manage; }
+    Kind operator()(const wire::RequestContent&) const { return Kind::content; }
+    Kind operator()(const wire::VoiceConsent&) const { return Kind::other; }
+    Kind operator()(const wire::AdjustCamera&) const { return Kind::manage; }
+    Kind operator()(const wire::Play&) const { return Kind::manage; }
+    Kind operator()(const wire::LookBack&) const { return Kind::manage; }
+    Kind operator()(const wire::OfferDirect&) const { return Kind::publish; }
+};
+
+template <class Message>
+concept Decision =
+    std::is_same_v<Message, wire::Manage> || std::is_same_v<Message, wire::AdjustCamera> ||
+    std::is_same_v<Message, wire::Play> || std::is_same_v<Message, wire::LookBack>;
+
+}  // namespace
+
+RequestBudget::Kind kind_of(const wire::ToHost& message) {
+    return std::visit(KindOf{}, message);
+}
+
+std::uint32_t decision_number(const wire::ToHost& message) {
+    return std::visit(
+        [](const auto& m) -> std::uint32_t {
+            if constexpr (Decision<std::decay_t<decltype(m)>>)
+                return m.number;
+            return 0;
+        },
+        message);
+}
+
+}  // namespace theatron::session
