@@ -39,7 +39,7 @@ struct Capture {
     };
     Kind kind = Kind::nothing;
     FramePtr frame;
-    std::string problem;  // one sentence for the user
+    std::string problem;  // one sentence for the user; with an end: what is missing there
     // With an end: the recording may be played again, and more frames come then.
     bool may_go_on = false;
 };

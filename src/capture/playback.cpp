@@ -38,7 +38,9 @@ public:
             if (state.paused)
                 return still(timeout);
             if (!waiting_ && !prepare())
-                return transport_ ? rest(timeout) : finish({.kind = Capture::Kind::end});
+                return transport_ ? rest(timeout)
+                                  : finish({.kind = Capture::Kind::end,
+                                            .problem = recording_->problem_at_end()});
         } catch (const std::exception& problem) {
             return finish({.kind = Capture::Kind::failed, .problem = problem.what()});
         }
@@ -233,6 +235,7 @@ MemoryRecording::MemoryRecording(Recording& source, std::size_t expected_frames,
                      std::min(1.0, double(frames_.size()) / double(expected_frames)));
     }
     lost_pictures_ = source.lost_pictures();
+    problem_at_end_ = source.problem_at_end();
 }
 
 std::optional<Duration> MemoryRecording::offset() {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "base/options.h"
 #include "base/time.h"
@@ -36,6 +37,8 @@ public:
     virtual std::optional<Duration> round() const { return std::nullopt; }
     // As in Camera.
     virtual std::uint64_t lost_pictures() const { return 0; }
+    // One sentence for the user if the recording has no end, or one that was not wanted.
+    virtual std::string problem_at_end() const { return ""; }
 };
 
 // Options of all recorded cameras.
@@ -101,6 +104,7 @@ public:
     void go_to(Duration position) override;
     std::optional<Duration> round() const override { return round_; }
     std::uint64_t lost_pictures() const override { return lost_pictures_; }
+    std::string problem_at_end() const override { return problem_at_end_; }
 
 private:
     struct Kept {
@@ -111,6 +115,7 @@ private:
     std::size_t next_ = 0;
     std::optional<Duration> round_;
     std::uint64_t lost_pictures_ = 0;
+    std::string problem_at_end_;
 };
 
 // A camera that plays a recording in real time.

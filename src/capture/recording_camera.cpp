@@ -227,6 +227,16 @@ std::uint64_t RecordedFrames::lost_pictures() const {
            std::max(lost_before_, losses_.depth() + losses_.color());
 }
 
+std::string RecordedFrames::problem_at_end() const {
+    const record::Segment& last = recording_->segments().back();
+    const std::string subject = "it ", begin = "it ends ";
+    for (const std::string& remark : record::remarks_on(last))
+        if (remark.starts_with(begin) &&
+            (last.closed || last.missing_end != Duration(0) || last.unread_end > 0))
+            return "The recording '" + file_ + "' " + remark.substr(subject.size()) + ".";
+    return "";
+}
+
 wire::MediaHeader RecordedFrames::upcoming() const {
     const auto header = recording_->read_header(content_.depth.frames[next_]);
     return header ? *header : wire::MediaHeader{};

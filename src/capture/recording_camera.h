@@ -67,6 +67,7 @@ public:
     void go_to(Duration position) override;
     std::optional<Duration> round() const override;
     std::uint64_t lost_pictures() const override;
+    std::string problem_at_end() const override;
 
     // The next frame's header as recorded. Precondition: offset() returned a value.
     wire::MediaHeader upcoming() const;

@@ -103,7 +103,7 @@ public:
         if (ended_.size() + failed_.size() < lanes_.size() ||
             steady_now() - over_since_ < encoding_patience)
             return std::nullopt;
-        return End{"", !failed_.empty()};
+        return End{"", !failed_.empty() || ended_with_problem_};
     }
 
     std::uint64_t not_encoded(CameraId camera) const override {
@@ -161,6 +161,7 @@ private:
             over_since_ = steady_now();
         } else {
             ended_.insert(state.camera);
+            ended_with_problem_ = ended_with_problem_ || !problem.empty();
             over_since_ = steady_now();
             intake_.on_end(state.camera);
         }
@@ -176,6 +177,7 @@ private:
     mutable std::mutex mutex_;  // guards all up to the workers
     std::map<CameraId, wire::CameraCondition> conditions_;
     std::set<CameraId> ended_, failed_, damage_said_;
+    bool ended_with_problem_ = false;
     TimePoint over_since_;
 
     send::Workers workers_;

@@ -14,9 +14,9 @@ namespace theatron::record {
 namespace {
 
 constexpr Duration spacing = 33'333us;
-constexpr TimePoint session_begin = from_us(5'000'000'000);
+constexpr TimePoint clock_begin = from_us(5'000'000'000);
 // Frames between the request for a key frame and the key frame.
-constexpr int travel = 4;
+constexpr int travel_frames = 4;
 
 std::vector<FrameNumber> count_to(FrameNumber count) {
     std::vector<FrameNumber> numbers(count);
@@ -73,7 +73,7 @@ protected:
         if (sender.until_key >= 0)
             --sender.until_key;
         if (intake_.take(header, std::move(message), "", now()) && sender.until_key < 0 && answers_)
-            sender.until_key = travel;
+            sender.until_key = travel_frames;
     }
     void run(int frames, const std::vector<StreamId>& streams) {
         for (int i = 0; i < frames; ++i) {
@@ -86,7 +86,7 @@ protected:
     }
 
     Intake::Now now() const {
-        return {local_, {session_, UtcTime(1'700'000'000s) + (session_ - session_begin)}};
+        return {local_, {session_, UtcTime(1'700'000'000s) + (session_ - clock_begin)}};
     }
 
     std::unique_ptr<RecordingFile> recorded() {
@@ -115,7 +115,7 @@ protected:
     testing::TemporaryFolder folder_;
     const std::filesystem::path file_ = folder_.path() / "a.mkv";
     Intake intake_{file_, {.has_room = true}};
-    TimePoint local_ = from_us(1'000'000), session_ = session_begin;
+    TimePoint local_ = from_us(1'000'000), session_ = clock_begin;
     std::map<StreamId, Sender> senders_;
     std::size_t payload_size_ = 8;
     bool answers_ = true;  // requests for key frames
@@ -306,7 +306,7 @@ TEST_F(IntakeChange, NoStreamWaitsForASilentOne) {
     }
     cameras[0].calibration = Bytes(5);
     describe(cameras);
-    run(travel + 2, {left_});
+    run(travel_frames + 2, {left_});
     EXPECT_EQ(lost(), 0u);
     EXPECT_GT(frames_in(recorded()->cameras().at(0).depth, 1), 0u) << "the segment has begun";
 }
@@ -320,9 +320,9 @@ TEST_F(IntakeChange, VoicesHaveNoGap) {
     const auto speak = [&](int frames, const std::vector<StreamId>& streams) {
         for (int i = 0; i < frames; ++i) {
             run(1, streams);
-            for (; session_begin + number * 20ms < session_ - 30ms; ++number)
+            for (; clock_begin + number * 20ms < session_ - 30ms; ++number)
                 intake_.take_voice(
-                    anna, {number, session_begin + number * 20ms, 20, false, -30, opus}, session_);
+                    anna, {number, clock_begin + number * 20ms, 20, false, -30, opus}, session_);
         }
     };
     speak(60, {left_});

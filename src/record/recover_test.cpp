@@ -186,6 +186,24 @@ TEST(JoinedFiles, AnotherFileInTheMiddleDoesNotSwallowTheRest) {
 }
 
 // With the first one's copies of its head damaged, only the second one's are intact.
+TEST(JoinedFiles, TheFilesOwnHeadInItsMiddleIsDamage) {
+    const auto messages = with_keys(300, 500);
+    const Bytes one = recording_of(messages);
+    constexpr std::size_t block = 4096;
+    for (const std::size_t at : {one.size() / 2 / block * block, one.size() / 2 + 301}) {
+        Bytes bytes = one;
+        std::copy_n(one.begin(), block, bytes.begin() + std::ptrdiff_t(at));
+        const testing::TemporaryFolder folder;
+        const auto whole = recovered(bytes, folder.path());
+        EXPECT_GE(frames_in(*whole), messages.size() - 2 * 30) << at;
+        expect_playable(*whole);
+        const auto broken = RecordingFile::open(folder.path() / "broken.mkv");
+        EXPECT_EQ(broken->segments()[0].foreign.files, 0u);
+        EXPECT_GE(broken->segments()[0].damaged_places, 1u);
+        EXPECT_FALSE(broken->complete());
+    }
+}
+
 TEST(JoinedFiles, KeepEachItsOwnHead) {
     const testing::TemporaryFolder folder;
     const fs::path path = folder.path() / "a.mkv";

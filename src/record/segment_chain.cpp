@@ -113,6 +113,12 @@ SegmentChain::Behind SegmentChain::add_behind(const Member& taken, std::uint64_t
         const std::uint64_t begin = *next;
         const auto rest = std::make_shared<PartSource>(taken.source, begin, end);
         Result<FoundHead> head = read_head(*rest, CopySearch::at_the_beginning);
+        const auto info = head ? segment_info_of(*head) : std::nullopt;
+        // Its own head within its own size is a part of its file that was written once more.
+        if (info && info == taken.info && taken.head.segment_end > begin) {
+            behind.goes_on_at = begin + head->clusters_at;
+            break;
+        }
         next =
             read_clusters(*rest, head ? *head : FoundHead{}, [](const FoundBlock&) {}).next_file_at;
         if (next)
@@ -123,7 +129,6 @@ SegmentChain::Behind SegmentChain::add_behind(const Member& taken, std::uint64_t
             behind.goes_on_at = begin + size;
             next.reset();
         }
-        const auto info = head ? segment_info_of(*head) : std::nullopt;
         const bool is_new = follows(info, last_) && !waiting_.contains(info->number);
         if (is_new) {
             auto own = std::make_shared<PartSource>(taken.source, begin, begin + size);

@@ -14,7 +14,8 @@ TEST(Text, ArgumentsStandInTheSentence) {
     EXPECT_EQ(english({TextCode::all_encodings_taken, {"3", "zstd:level=3"}}),
               "The host already encodes in 3 ways; instead of zstd:level=3 you get the nearest of "
               "them.");
-    EXPECT_EQ(english({TextCode::camera_time_jump}), "The times of its pictures are impossible.");
+    EXPECT_EQ(english({TextCode::camera_time_jump}),
+              "Its pictures come late, or their times are wrong.");
     EXPECT_EQ(english(as_written("The cable is {0} out.")), "The cable is {0} out.");
 }
 
