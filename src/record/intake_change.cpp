@@ -17,9 +17,7 @@ StreamId beside(StreamId stream) {
 }  // namespace
 
 void Intake::begin_change(Description next, TimePoint now) {
-    change_.emplace();
-    change_->next = std::move(next);
-    change_->since = now;
+    change_ = Change{std::move(next), {}, 0, {}, now};
     for (auto& [id, entry] : entries_)
         if (is_awaited(id))
             entry.gate.want_key();
