@@ -367,12 +367,14 @@ bool ends_early(const record::RecordingFile& recording) {
                        [](const record::Segment& s) { return !s.early_end.empty(); });
 }
 
-// Pictures that never came into the recording, by the numbers of those that did.
+// Pictures that never came into the recording, by the numbers of those that did. Where colour
+// refers to earlier colour, a picture without one takes a number, too.
 std::uint64_t missing_in(const Json& cameras) {
     std::uint64_t missing = 0;
     for (const Json& camera : cameras)
         for (const char* kind : {"depth", "color"})
-            if (camera.contains(kind))
+            if (camera.contains(kind) &&
+                (std::string(kind) == "depth" || std::string(camera[kind]["codec"]) == "jpeg"))
                 missing += std::uint64_t(camera[kind]["missing"]);
     return missing;
 }
@@ -449,7 +451,8 @@ void add_inspect_command(CLI::App& app) {
     command->footer(
         "A recording that goes on in further files (operation.002.mkv ...) is one: name the "
         "first.\n"
-        "With --verify the exit code is 3 if anything is damaged, or an end is missing.\n"
+        "With --verify the exit code is 3 if anything is damaged, or an end is missing or came too "
+        "early.\n"
         "\nExamples:\n"
         "  theatron inspect operation.mkv\n"
         "  theatron inspect operation.mkv --json\n"

@@ -318,14 +318,15 @@ void run(const Flags& flags) {
             " s before the end did not come from the host.");
     const double wall = to_seconds(steady_now() - begin), cpu = cpu_seconds() - cpu_before;
     Missing missing;
-    nlohmann::json cameras = describe(*source, begin, missing);
     source->stop();
+    intake.take_held();
+    nlohmann::json cameras = describe(*source, begin, missing);
     record::Recorder* recorder = intake.recorder();
     if (!recorder)
         throw Error(intake.problem().empty()
                         ? "Stopped before anything came, so nothing was recorded."
                         : intake.problem());
-    intake.finish();
+    recorder->finish();
     if (live_line)
         std::cout << "\r\033[K";
     if (end && !end->remark.empty())

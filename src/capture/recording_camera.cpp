@@ -145,6 +145,11 @@ void RecordedFrames::match_colors() {
                           frame.number);
     };
     using Name = decltype(name_of(content_.color.frames[0]));
+    const auto colors_are_jpeg = [&](std::size_t segment) {
+        return std::ranges::any_of(content_.parts, [&](const record::CameraPart& part) {
+            return part.segment == segment && is_jpeg(part);
+        });
+    };
     const auto& frames = content_.color.frames;
     std::vector<std::pair<Name, std::uint32_t>> names;
     names.reserve(frames.size());
@@ -153,10 +158,26 @@ void RecordedFrames::match_colors() {
     std::sort(names.begin(), names.end());
     colors_.assign(end_ - begin_, no_color);
     for (std::size_t i = begin_; i < end_; ++i) {
-        const std::pair wanted(name_of(content_.depth.frames[i]), std::uint32_t(0));
-        const auto found = std::lower_bound(names.begin(), names.end(), wanted);
-        if (found != names.end() && found->first == wanted.first)
-            colors_[i - begin_] = found->second;
+        const record::RecordedFrame& depth = content_.depth.frames[i];
+        const auto find = [&](const Name& name) {
+            const auto found =
+                std::lower_bound(names.begin(), names.end(), std::pair(name, std::uint32_t(0)));
+            return found != names.end() && found->first == name ? found->second : no_color;
+        };
+        std::uint32_t& color = colors_[i - begin_];
+        color = find(name_of(depth));
+        // Where a segment changes, the two may be on either side; JPEG can be read alone.
+        for (const int step : {-1, 1}) {
+            const std::size_t beside = depth.segment + std::size_t(step);
+            if (color != no_color || beside >= recording_->segments().size() ||
+                !colors_are_jpeg(depth.segment) || !colors_are_jpeg(beside))
+                continue;
+            const std::uint32_t other = find({std::uint32_t(beside), Duration(0), depth.number});
+            constexpr Duration same_moment = std::chrono::milliseconds(500);
+            if (other != no_color &&
+                std::chrono::abs(frames[other].time() - depth.time()) < same_moment)
+                color = other;
+        }
     }
 }
 
@@ -229,10 +250,13 @@ std::uint64_t RecordedFrames::lost_pictures() const {
 
 std::string RecordedFrames::problem_at_end() const {
     const record::Segment& last = recording_->segments().back();
-    const std::string subject = "it ", begin = "it ends ";
+    // A camera that left earlier has nothing to do with the recording's end.
+    if (parts_.back().segment + 1 != recording_->segments().size())
+        return "";
+    const bool is_short = last.missing_end != Duration(0) || last.unread_end > 0;
+    const std::string subject = "it ", without = "it ends without", early = "it ends earlier";
     for (const std::string& remark : record::remarks_on(last))
-        if (remark.starts_with(begin) &&
-            (last.closed || last.missing_end != Duration(0) || last.unread_end > 0))
+        if (remark.starts_with(early) || (remark.starts_with(without) && is_short))
             return "The recording '" + file_ + "' " + remark.substr(subject.size()) + ".";
     return "";
 }

@@ -49,10 +49,11 @@ ColorData color_of(Size size, int camera, int n) {
     return color;
 }
 
-// Records two cameras for eight seconds; `later` starts a second segment in the middle.
+// Records two cameras for eight seconds; `later` starts a second segment in the middle, with
+// `splits_a_picture` between depth and colour of the first camera.
 void record_both(const std::filesystem::path& path, const std::string& depth_codec,
                  const std::string& color_codec, Size size,
-                 std::optional<record::ClockPair> later = {}) {
+                 std::optional<record::ClockPair> later = {}, bool splits_a_picture = false) {
     const auto depth = video::parse_depth_setting(depth_codec);
     const auto color = video::parse_color_setting(color_codec);
     ASSERT_EQ(depth.problem + color.problem, "");
@@ -81,11 +82,13 @@ void record_both(const std::filesystem::path& path, const std::string& depth_cod
     int first = 0;
     for (int n = 0; n < frames; ++n) {
         const bool key = n % key_distance == 0;
-        if (later && n == frames / 2) {
+        const auto begin_later = [&] {
             clock = *later;
             first = n;
             recorder.begin_segment(descriptions, clock);
-        }
+        };
+        if (later && !splits_a_picture && n == frames / 2)
+            begin_later();
         for (int c = 0; c < cameras; ++c) {
             wire::MediaHeader header;
             header.frame = FrameNumber(n);
@@ -107,6 +110,8 @@ void record_both(const std::filesystem::path& path, const std::string& depth_cod
             header.reference = link.reference_frame;
             header.temporal_layer = std::uint8_t(link.layer);
             add(ByteView(encoded).first(link.bytes));
+            if (later && splits_a_picture && n == frames / 2 && c == 0)
+                begin_later();
 
             header.stream = color_stream(CameraId(c));
             header.temporal_layer = 0;
@@ -378,6 +383,24 @@ TEST(RecordingChain, PlaysOnThroughAllSegmentsWithTheirPauses) {
             EXPECT_EQ(times[i] - times[i - 1], step) << i;
         }
     }
+}
+
+TEST(RecordingChain, PlaysAPictureWhoseColourIsInTheNextSegment) {
+    const testing::TemporaryFolder folder;
+    const Duration half = frames / 2 * (1000ms / frames_per_second);
+    record_both(folder.path() / "a.mkv", "rvl", "jpeg:quality=85", small,
+                record::ClockPair{begin.session + half, begin.utc + half}, true);
+    const std::shared_ptr<const record::RecordingFile> recording =
+        record::RecordingFile::open(folder.path() / "a.mkv");
+    RecordedFrames camera(recording, 0, "a.mkv");
+    Frame frame;
+    int played = 0;
+    for (; camera.offset(); ++played) {
+        camera.read(frame);
+        EXPECT_EQ(frame.depth, depth_of(small, 0, played));
+        EXPECT_TRUE(frame.color.is_jpeg()) << played;
+    }
+    EXPECT_EQ(played, frames);
 }
 
 // The file was written by the version 1 program, from three pictures of a wall. The depth in

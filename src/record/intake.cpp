@@ -33,14 +33,18 @@ Duration between(TimePoint from, TimePoint to) {
     return Duration(to_us(to) / 2 - to_us(from) / 2) * 2;
 }
 
-// True if each camera is one of these; false for none.
-bool are_among(const std::vector<RecordedCamera>& cameras, const std::vector<RecordedCamera>& all) {
+}  // namespace
+
+Intake::~Intake() {
+    take_held();
+}
+
+bool Intake::are_among(const std::vector<RecordedCamera>& cameras,
+                       const std::vector<RecordedCamera>& all) {
     return !cameras.empty() && std::ranges::all_of(cameras, [&](const RecordedCamera& camera) {
         return std::ranges::find(all, camera) != all.end();
     });
 }
-
-}  // namespace
 
 bool Intake::is_of(const Description& description, const wire::MediaHeader& header) {
     const auto setting = description.settings.find(header.stream);
@@ -156,7 +160,8 @@ Intake::Description Intake::present() const {
 // True if this frame is the first of a new segment.
 bool Intake::begins_segment(const Entry& entry, const wire::MediaHeader& header) const {
     if (is_of(current_, header))
-        return (wants_segment_ || is_described_anew()) && header.key && can_begin_with(entry);
+        return (wants_segment_ || is_described_anew()) && header.key && can_begin_with(entry) &&
+               (!pending_ || is_of(*pending_, header));
     // Frames of an older setting were in flight when it changed; they are not recorded.
     return header.key && pending_ && is_of(*pending_, header);
 }
@@ -243,7 +248,9 @@ bool Intake::begin(Description description, TimePoint captured, const Now& now,
     for (auto& [id, entry] : entries_)
         entry.gate.close();
     current_ = std::move(description);
-    begin_voices(voices_begin.value_or(clock.session));
+    // Times of pictures may have any value.
+    begin_voices(
+        std::max(clock.session, std::min(voices_begin.value_or(clock.session), now.clock.session)));
     ++segments_begun_;
     wants_segment_ = false;
     for (const auto& put : std::exchange(kept_, {}))
@@ -322,6 +329,9 @@ void Intake::on_end(CameraId camera) {
 
 std::vector<std::string> Intake::news(TimePoint now) {
     const std::lock_guard lock(mutex_);
+    // Also while no connection gives the session's time.
+    if (change_ && is_change_over(now))
+        end_change(change_->held.back().now);
     std::vector<std::string> sentences;
     const bool held_up = looked_ != TimePoint{} && now - looked_ > late_look;
     looked_ = now;

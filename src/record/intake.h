@@ -39,6 +39,9 @@ public:
     // Nothing is created before the first picture or part of the room.
     Intake(std::filesystem::path file, const Recorder::Options& options)
         : file_(std::move(file)), options_(options) {}
+    ~Intake();
+    Intake(const Intake&) = delete;
+    Intake& operator=(const Intake&) = delete;
 
     // The two clocks now, and the wall's.
     struct Now {
@@ -50,11 +53,11 @@ public:
     // settings is new, a segment begins with the first key frame in one of the new settings. From
     // then on each other stream goes into the segment before until its own next key frame, and what
     // is of the new segment is held back until all have had one, at most change_patience and
-    // max_held_bytes: no stream loses a frame because another changes. With `new_connection` the
-    // session's clock and all numbers may be new, and nothing is held back. From any thread, in
-    // order with take().
+    // one held_share of the recorder's buffer: no stream loses a frame because another changes.
+    // With `new_connection` the session's clock and all numbers may be new, and nothing is held
+    // back. From any thread, in order with take().
     static constexpr Duration change_patience = std::chrono::seconds(2);
-    static constexpr std::size_t max_held_bytes = std::size_t(64) << 20;
+    static constexpr std::size_t held_share = 4;
     void describe(std::vector<RecordedCamera> cameras, std::map<StreamId, SettingId> settings,
                   bool new_connection, TimePoint now);
 
@@ -102,8 +105,8 @@ public:
     // take() requests. Until then pictures go into the last one, which may only be renamed.
     void begin_segment();
 
-    // Gives the recorder what is held back, and finishes it.
-    void finish();
+    // Gives the recorder what is held back for a new segment, as the destructor does.
+    void take_held();
 
     // This camera has ended: it sends no more pictures, and none are missing from now on.
     void on_end(CameraId camera);
@@ -170,12 +173,17 @@ private:
     // From the first key frame of a segment until it begins.
     struct Change {
         Description next;
-        std::vector<Held> held;  // in the order of arrival
+        std::vector<Held> held;  // in the order of arrival; never empty after take()
         std::size_t held_bytes = 0;
         std::set<StreamId> changed;  // whose frames are held
         TimePoint since;             // on the machine's own clock
+        // Since cameras have left meanwhile, whose held frames are still of `next`.
+        std::optional<std::map<StreamId, SettingId>> settings_after;
     };
 
+    // True if each camera is one of these; false for none.
+    static bool are_among(const std::vector<RecordedCamera>& cameras,
+                          const std::vector<RecordedCamera>& all);
     static bool is_of(const Description& description, const wire::MediaHeader& header);
     Description present() const;
     bool begins_segment(const Entry& entry, const wire::MediaHeader& header) const;
@@ -184,7 +192,7 @@ private:
     bool is_awaited(StreamId stream) const;
     bool is_change_over(TimePoint now) const;
     void describe_change(Description next);
-    void end_change(const Now& now);
+    void end_change(Now now);
     bool put(Entry& entry, const wire::MediaHeader& header, std::shared_ptr<const Bytes> message,
              const std::string& filters, const Now& now);
 

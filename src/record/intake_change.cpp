@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // The change from one segment to the next without a lost frame: see Intake::describe().
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 #include "record/intake.h"
 
 namespace theatron::record {
 namespace {
+
+// An older picture is a stale camera's, and says nothing on when a segment begins.
+constexpr Duration oldest_held = std::chrono::seconds(3);
 
 // The colour of a depth stream's camera, or the depth of a colour stream's.
 StreamId beside(StreamId stream) {
@@ -17,7 +21,7 @@ StreamId beside(StreamId stream) {
 }  // namespace
 
 void Intake::begin_change(Description next, TimePoint now) {
-    change_ = Change{std::move(next), {}, 0, {}, now};
+    change_ = Change{std::move(next), {}, 0, {}, now, {}};
     for (auto& [id, entry] : entries_)
         if (is_awaited(id))
             entry.gate.want_key();
@@ -53,45 +57,60 @@ bool Intake::belongs_to_next(const Entry& entry, const wire::MediaHeader& header
 }
 
 bool Intake::is_change_over(TimePoint now) const {
-    return now - change_->since >= change_patience || change_->held_bytes >= max_held_bytes ||
+    return now - change_->since >= change_patience ||
+           change_->held_bytes >= options_.buffer_bytes / held_share ||
            std::none_of(entries_.begin(), entries_.end(),
                         [&](const auto& entry) { return is_awaited(entry.first); });
 }
 
-// The cameras or settings change once more. Held frames of streams that are gone or have other
-// settings now belong to a segment of their own.
+// The cameras or settings change once more. Held frames of streams that have other settings now
+// belong to a segment of their own; those of cameras that have left do not.
 void Intake::describe_change(Description next) {
+    const bool only_left = are_among(next.cameras, change_->next.cameras) &&
+                           std::ranges::includes(change_->next.settings, next.settings);
+    if (only_left) {
+        change_->settings_after = std::move(next.settings);
+        return;
+    }
     const bool has_others =
         std::any_of(change_->held.begin(), change_->held.end(),
                     [&](const Held& held) { return !is_of(next, held.header); });
     if (has_others)
         end_change(change_->held.back().now);
     else
-        change_->next = std::move(next);
+        change_ = Change{std::move(next),     std::move(change_->held),
+                         change_->held_bytes, std::move(change_->changed),
+                         change_->since,      {}};
 }
 
-void Intake::end_change(const Now& now) {
+void Intake::end_change(Now now) {
     Change change = *std::exchange(change_, std::nullopt);
-    const auto [first, last] = std::minmax_element(
-        change.held.begin(), change.held.end(),
-        [](const Held& a, const Held& b) { return a.header.captured < b.header.captured; });
-    if (!begin(std::move(change.next), first->header.captured, now, last->header.captured))
+    assert(!change.held.empty());
+    std::optional<TimePoint> first;
+    TimePoint last{};
+    for (const Held& held : change.held) {
+        const TimePoint captured = held.header.captured;
+        last = std::max(last, captured);
+        // A stale camera's last picture is sent anew with its old time.
+        if (captured > held.now.clock.session - oldest_held)
+            first = std::min(first.value_or(captured), captured);
+    }
+    if (!begin(std::move(change.next), first.value_or(change.held.front().header.captured), now,
+               last))
         return;
     for (Held& held : change.held) {
         Entry& entry = entries_.at(held.header.stream);
         if (put(entry, held.header, std::move(held.message), held.filters, held.now))
             entry.gate.want_key();
     }
+    if (change.settings_after)
+        current_.settings = std::move(*change.settings_after);
 }
 
-void Intake::finish() {
-    {
-        const std::lock_guard lock(mutex_);
-        if (change_)
-            end_change(change_->held.back().now);
-    }
-    if (Recorder* const begun = recorder())
-        begun->finish();
+void Intake::take_held() {
+    const std::lock_guard lock(mutex_);
+    if (change_)
+        end_change(change_->held.back().now);
 }
 
 }  // namespace theatron::record

@@ -75,6 +75,19 @@ protected:
         if (intake_.take(header, std::move(message), "", now()) && sender.until_key < 0 && answers_)
             sender.until_key = travel_frames;
     }
+    // A key frame that says that it was taken then.
+    void send_key(StreamId stream, TimePoint captured) {
+        Sender& sender = senders_[stream];
+        wire::MediaHeader header;
+        header.stream = stream;
+        header.setting = sender.setting;
+        header.frame = header.reference = sender.next++;
+        header.key = true;
+        header.captured = captured;
+        auto message = std::make_shared<Bytes>(wire::media_header_size);
+        wire::write_media_header(header, message->data());
+        (void)intake_.take(header, std::move(message), "", now());
+    }
     void run(int frames, const std::vector<StreamId>& streams) {
         for (int i = 0; i < frames; ++i) {
             for (const StreamId stream : streams)
@@ -90,7 +103,8 @@ protected:
     }
 
     std::unique_ptr<RecordingFile> recorded() {
-        intake_.finish();
+        intake_.take_held();
+        intake_.recorder()->finish();
         return RecordingFile::open(file_);
     }
     static std::vector<FrameNumber> numbers(const StreamContent& stream) {
@@ -114,7 +128,8 @@ protected:
                    left_color_ = color_stream(CameraId{0});
     testing::TemporaryFolder folder_;
     const std::filesystem::path file_ = folder_.path() / "a.mkv";
-    Intake intake_{file_, {.has_room = true}};
+    static constexpr std::size_t buffer_bytes_ = std::size_t(64) << 20;
+    Intake intake_{file_, {.buffer_bytes = buffer_bytes_, .has_room = true}};
     TimePoint local_ = from_us(1'000'000), session_ = clock_begin;
     std::map<StreamId, Sender> senders_;
     std::size_t payload_size_ = 8;
@@ -232,12 +247,16 @@ TEST_F(IntakeChange, WhatIsHeldBackIsLimited) {
     senders_[right_].until_key = 0;
     cameras[1].calibration = Bytes(5);
     describe(cameras);
-    payload_size_ = Intake::max_held_bytes / 4;
-    run(3, {left_, right_});
-    EXPECT_EQ(lost(), 0u);
-    run(1, {right_});
-    run(1, {left_});
-    EXPECT_EQ(lost(), 1u) << "the segment has begun";
+    constexpr std::size_t small = 8, large = buffer_bytes_ / Intake::held_share / 4;
+    for (int i = 0; i < 4; ++i) {
+        EXPECT_EQ(lost(), 0u) << i;
+        payload_size_ = large;
+        run(1, {right_});
+        payload_size_ = small;
+        run(1, {left_});
+    }
+    EXPECT_GT(lost(), 0u) << "the segment has begun";
+    EXPECT_EQ(numbers(recorded()->cameras().at(1).depth), count_to(24));
 }
 
 TEST_F(IntakeChange, AnotherChangeMeanwhileLosesNothing) {
@@ -264,9 +283,77 @@ TEST_F(IntakeChange, ACameraThatComesAndGoesAtOnceKeepsItsFrames) {
     run(2, {left_, right_});
     describe({camera(0, "left")});
     run(20, {left_});
+    EXPECT_EQ(lost(), 0u);
     const auto recording = recorded();
     EXPECT_EQ(numbers(recording->cameras().at(1).depth), count_to(2));
-    EXPECT_EQ(numbers(recording->cameras().at(0).depth).back(), 41u);
+    EXPECT_EQ(numbers(recording->cameras().at(0).depth), count_to(42));
+}
+
+TEST_F(IntakeChange, ACalibrationMayChangeAfterACameraCameAndWent) {
+    describe({camera(0, "left")}, true);
+    run(20, {left_});
+    describe({camera(0, "left"), camera(1, "right")});
+    run(2, {left_, right_});
+    describe({camera(0, "left")});
+    run(20, {left_});
+    RecordedCamera moved = camera(0, "left");
+    moved.calibration = Bytes(5);
+    describe({moved});
+    run(20, {left_});
+    EXPECT_EQ(lost(), 0u);
+    const auto recording = recorded();
+    EXPECT_EQ(recording->segments().size(), 3u);
+    EXPECT_EQ(recording->cameras().at(0).parts.back().calibration, Bytes(5));
+}
+
+// The key frame of the old setting was on its way when another one was asked for.
+TEST_F(IntakeChange, AKeyFrameOfAnOldSettingBeginsNoSegment) {
+    std::vector<RecordedCamera> cameras{camera(0, "left")};
+    describe(cameras, true);
+    run(20, {left_});
+    intake_.begin_segment();
+    cameras[0].depth.codec = "strata";
+    const SettingId old = senders_[left_].setting, next{2};
+    senders_[left_].setting = next;
+    describe(cameras);
+    senders_[left_].setting = old;
+    senders_[left_].until_key = 0;
+    run(1, {left_});
+    senders_[left_].setting = next;
+    senders_[left_].until_key = 0;
+    run(10, {left_});
+    EXPECT_EQ(lost(), 0u);
+    EXPECT_EQ(numbers(recorded()->cameras().at(0).depth), count_to(31));
+}
+
+TEST_F(IntakeChange, AStalePictureDoesNotMoveTheSegment) {
+    describe({camera(0, "left")}, true);
+    run(600, {left_});
+    describe({camera(0, "left"), camera(1, "right")});
+    send_key(right_, session_ - 10s);  // the last picture of a camera that stands still
+    run(20, {left_});
+    EXPECT_EQ(lost(), 0u);
+    const auto recording = recorded();
+    const auto& frames = recording->cameras().at(0).depth.frames;
+    ASSERT_EQ(frames.size(), 620u);
+    for (std::size_t i = 1; i < frames.size(); ++i)
+        EXPECT_NEAR(double(frames[i].time_us - frames[i - 1].time_us), double(spacing.count()), 2)
+            << i;
+}
+
+TEST_F(IntakeChange, ATimeInTheFutureCostsNoVoice) {
+    const ParticipantId anna{7};
+    intake_.describe_voices({{anna, "Anna"}});
+    describe({camera(0, "left")}, true);
+    run(60, {left_});
+    describe({camera(0, "left"), camera(1, "right")});
+    send_key(right_, session_ + 1h);
+    run(20, {left_});
+    const Bytes opus(3, std::byte(0xfc));
+    intake_.take_voice(anna, {0, session_, 20, false, -30, opus}, session_);
+    run(60, {left_});
+    EXPECT_EQ(intake_.voices().at(0).figures.left_out, 0u);
+    EXPECT_EQ(intake_.voices().at(0).figures.packets, 1u);
 }
 
 TEST_F(IntakeChange, WhatIsHeldBackAtTheEndIsRecorded) {

@@ -95,7 +95,12 @@ MatroskaWriter::MatroskaWriter(const std::filesystem::path& path, const Layout& 
 
     file_ = create(path, layout.replace);
     if (!append(bytes).empty()) {
-        unlink(path.c_str());  // it has no content, and was empty before
+        // It has no content: it was empty, or is replaced.
+        struct stat at_name {
+        }, own{};
+        if (lstat(path.c_str(), &at_name) == 0 && fstat(file_, &own) == 0 &&
+            at_name.st_dev == own.st_dev && at_name.st_ino == own.st_ino)
+            unlink(path.c_str());
         close(file_);
         throw Error(std::string(early_end_ == disk_full ? "The disk is full"
                                 : early_end_ == file_too_large

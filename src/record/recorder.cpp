@@ -97,7 +97,11 @@ Duration Recorder::own_time(TimePoint now) {
     const Duration passed =
         std::clamp(from_us(to_us(now) / 2) - from_us(to_us(last_now_) / 2), Duration(0), most / 2) *
         2;
-    last_now_ = now;
+    // Messages that were held back for a segment come late (Intake::describe()).
+    constexpr Duration latest = std::chrono::seconds(10);
+    if (passed > Duration(0) ||
+        from_us(to_us(last_now_) / 2) - from_us(to_us(now) / 2) > latest / 2)
+        last_now_ = now;
     return own_now_ += passed;
 }
 
@@ -107,7 +111,7 @@ void Recorder::begin_segment(const std::vector<RecordedCamera>& cameras, const C
         SegmentWriter::Content{cameras, voices, has_room_});
     const std::lock_guard lock(mutex_);
     streams_ = streams_of(*shared);
-    last_now_ = clock.session;
+    last_now_ = std::max(last_now_, clock.session);
     // A segment without any message is none.
     if (!waiting_.empty() && waiting_.back().segment)
         waiting_.pop_back();

@@ -266,6 +266,9 @@ void RecordingFile::add_segment(SegmentChain::Member member, SegmentChain& chain
             const SegmentChain::Behind behind = chain.add_behind(member, end);
             segment.foreign.add(behind.foreign);
             at = behind.goes_on_at;
+            segment.damaged_places += behind.repeated_head_bytes > 0;
+            segment.damaged_bytes += behind.repeated_head_bytes;
+            segment.bytes += behind.repeated_head_bytes;
         }
     }
     segment.begin = first_block.value_or(Duration(0));
@@ -370,7 +373,7 @@ void RecordingFile::place_segments() {
             // Speech may go on where the pictures have ended. Streams change to the next segment
             // one after the other (Intake::describe()), so its beginning may overlap the end of the
             // segment before.
-            constexpr Duration longest_overlap = std::chrono::seconds(3);
+            constexpr Duration longest_overlap = std::chrono::seconds(5);
             const bool overlaps =
                 is_same && session_pause < Duration(0) && session_pause > -longest_overlap;
             const Duration shortest = overlaps

@@ -185,7 +185,6 @@ TEST(JoinedFiles, AnotherFileInTheMiddleDoesNotSwallowTheRest) {
     EXPECT_LE(frames_in(**recording), 61u);
 }
 
-// With the first one's copies of its head damaged, only the second one's are intact.
 TEST(JoinedFiles, TheFilesOwnHeadInItsMiddleIsDamage) {
     const auto messages = with_keys(300, 500);
     const Bytes one = recording_of(messages);
@@ -204,6 +203,7 @@ TEST(JoinedFiles, TheFilesOwnHeadInItsMiddleIsDamage) {
     }
 }
 
+// With the first one's copies of its head damaged, only the second one's are intact.
 TEST(JoinedFiles, KeepEachItsOwnHead) {
     const testing::TemporaryFolder folder;
     const fs::path path = folder.path() / "a.mkv";

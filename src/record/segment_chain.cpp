@@ -114,8 +114,11 @@ SegmentChain::Behind SegmentChain::add_behind(const Member& taken, std::uint64_t
         const auto rest = std::make_shared<PartSource>(taken.source, begin, end);
         Result<FoundHead> head = read_head(*rest, CopySearch::at_the_beginning);
         const auto info = head ? segment_info_of(*head) : std::nullopt;
-        // Its own head within its own size is a part of its file that was written once more.
-        if (info && info == taken.info && taken.head.segment_end > begin) {
+        // Its own head is a part of its file that was written once more, unless the file was closed
+        // before.
+        const bool was_closed = taken.head.segment_end > 0 && taken.head.segment_end <= begin;
+        if (info && info == taken.info && !was_closed) {
+            behind.repeated_head_bytes = head->clusters_at;
             behind.goes_on_at = begin + head->clusters_at;
             break;
         }

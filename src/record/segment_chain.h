@@ -56,6 +56,8 @@ public:
         Foreign foreign;
         // Another file is in the middle of the member's file: the member continues here.
         std::optional<std::uint64_t> goes_on_at;
+        // Bytes of the member's own head, which stands there once more: damage.
+        std::uint64_t repeated_head_bytes = 0;
     };
     // Reads the files behind the member that was taken last, from `at` on. Those that follow in the
     // recording become members.
