@@ -59,7 +59,8 @@ void Streams::choose(ParticipantId id, const CodecWish& wish,
         return;
     receiver.choose(wish, known);
     for (auto& [number, camera] : cameras_) {
-        const bool is_meant = known.empty() || std::ranges::find(known, number) != known.end();
+        const bool is_meant =
+            known.empty() || std::find(known.begin(), known.end(), number) != known.end();
         if (!is_meant || !receiver.gets(camera, id))
             continue;
         if (!wish.depth.empty())
