@@ -7,6 +7,7 @@
 #include "base/newest_slot.h"
 #include "base/options.h"
 #include "base/statistics.h"
+#include "base/time_between.h"
 
 namespace theatron {
 namespace {
@@ -37,6 +38,14 @@ TEST(Bytes, ReaderFailsPastTheEndAndStaysFailed) {
     EXPECT_FALSE(in.ok());
     EXPECT_EQ(in.get<std::uint8_t>(), 0);
     EXPECT_FALSE(in.ok());
+}
+
+TEST(TimeBetween, IsExactOrCutWhereItWouldOverflow) {
+    const TimePoint lowest = TimePoint::min(), highest = TimePoint::max();
+    EXPECT_EQ(time_between(from_us(5), from_us(12)), 7us);
+    EXPECT_EQ(time_between(highest, highest - 3us), -3us);
+    EXPECT_EQ(time_between(lowest, highest), most_time_between);
+    EXPECT_EQ(time_between(highest, lowest), -most_time_between);
 }
 
 TEST(Options, SplitsKindValueAndKeys) {

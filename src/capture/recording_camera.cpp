@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 #include <tuple>
 
 #include "base/error.h"
@@ -145,11 +146,10 @@ void RecordedFrames::match_colors() {
                           frame.number);
     };
     using Name = decltype(name_of(content_.color.frames[0]));
-    const auto colors_are_jpeg = [&](std::size_t segment) {
-        return std::ranges::any_of(content_.parts, [&](const record::CameraPart& part) {
-            return part.segment == segment && is_jpeg(part);
-        });
-    };
+    std::set<std::size_t> jpeg_segments;
+    for (const record::CameraPart& part : content_.parts)
+        if (is_jpeg(part))
+            jpeg_segments.insert(part.segment);
     const auto& frames = content_.color.frames;
     std::vector<std::pair<Name, std::uint32_t>> names;
     names.reserve(frames.size());
@@ -167,10 +167,11 @@ void RecordedFrames::match_colors() {
         std::uint32_t& color = colors_[i - begin_];
         color = find(name_of(depth));
         // Where a segment changes, the two may be on either side; JPEG can be read alone.
-        for (const int step : {-1, 1}) {
-            const std::size_t beside = depth.segment + std::size_t(step);
-            if (color != no_color || beside >= recording_->segments().size() ||
-                !colors_are_jpeg(depth.segment) || !colors_are_jpeg(beside))
+        if (color != no_color || !jpeg_segments.contains(depth.segment))
+            continue;
+        for (const std::size_t beside :
+             {depth.segment - std::size_t(1), depth.segment + std::size_t(1)}) {
+            if (!jpeg_segments.contains(beside))
                 continue;
             const std::uint32_t other = find({std::uint32_t(beside), Duration(0), depth.number});
             constexpr Duration same_moment = std::chrono::milliseconds(500);
@@ -253,12 +254,10 @@ std::string RecordedFrames::problem_at_end() const {
     // A camera that left earlier has nothing to do with the recording's end.
     if (parts_.back().segment + 1 != recording_->segments().size())
         return "";
-    const bool is_short = last.missing_end != Duration(0) || last.unread_end > 0;
-    const std::string subject = "it ", without = "it ends without", early = "it ends earlier";
-    for (const std::string& remark : record::remarks_on(last))
-        if (remark.starts_with(early) || (remark.starts_with(without) && is_short))
-            return "The recording '" + file_ + "' " + remark.substr(subject.size()) + ".";
-    return "";
+    const std::string remark = last.lacks_end() ? record::end_of(last) : record::early_end_of(last);
+    constexpr std::string_view subject = "it ";
+    return remark.empty() ? ""
+                          : "The recording '" + file_ + "' " + remark.substr(subject.size()) + ".";
 }
 
 wire::MediaHeader RecordedFrames::upcoming() const {

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/time_between.h"
 #include "record/recording_layout.h"
 
 namespace theatron::record {
@@ -26,11 +27,6 @@ std::string count(std::uint64_t pictures) {
 
 std::string rounded_megabytes(std::size_t bytes) {
     return std::to_string((bytes + 500'000) / 1'000'000) + " MB";
-}
-
-// Times of the session come from the host and may have any value: no overflow.
-Duration between(TimePoint from, TimePoint to) {
-    return Duration(to_us(to) / 2 - to_us(from) / 2) * 2;
 }
 
 }  // namespace
@@ -133,18 +129,16 @@ bool Intake::take(const wire::MediaHeader& header, std::shared_ptr<const Bytes> 
         else if (!begin(std::move(next), header.captured, now))
             return false;
     }
-    if (!change_ || !belongs_to_next(entry, header)) {
-        const bool ask = put(entry, header, std::move(message), filters, now);
-        if (change_ && is_change_over(now.local))
-            end_change(now);
-        return ask;
+    bool ask_for_key = false;
+    if (change_ && belongs_to_next(entry, header)) {
+        note_time(entry, header, now.local);
+        change_->held_bytes += message->size();
+        change_->held.push_back({header, std::move(message), filters, now});
+    } else {
+        ask_for_key = put(entry, header, std::move(message), filters, now);
     }
-    note_time(entry, header, now.local);
-    change_->held_bytes += message->size();
-    change_->held.push_back({header, std::move(message), filters, now});
-    if (is_change_over(now.local))
-        end_change(now);
-    return false;
+    end_change_in_time(now);
+    return ask_for_key;
 }
 
 // The newest segment's, without cameras that have left.
@@ -231,7 +225,7 @@ bool Intake::begin(Description description, TimePoint captured, const Now& now,
     ClockPair clock = now.clock;
     if (!kept_.empty())
         captured = std::min(captured, kept_from_);
-    const Duration age = between(captured, clock.session);
+    const Duration age = time_between(captured, clock.session);
     if (age > Duration(0) && age < oldest_beginning)
         clock = {captured, clock.utc - age};
     try {
@@ -314,7 +308,7 @@ bool Intake::put_room(ByteView part, bool key, TimePoint begins, TimePoint now) 
 
 // Late pictures are not missing: their times of exposure are compared.
 void Intake::note_time(Entry& entry, const wire::MediaHeader& header, TimePoint now) {
-    if (entry.captured && between(*entry.captured, header.captured) > entry.patience)
+    if (entry.captured && time_between(*entry.captured, header.captured) > entry.patience)
         ++entry.stream.interruptions;
     entry.captured = header.captured;
     entry.heard = now;

@@ -192,6 +192,7 @@ private:
     bool is_awaited(StreamId stream) const;
     bool is_change_over(TimePoint now) const;
     void describe_change(Description next);
+    void end_change_in_time(const Now& now);
     void end_change(Now now);
     bool put(Entry& entry, const wire::MediaHeader& header, std::shared_ptr<const Bytes> message,
              const std::string& filters, const Now& now);

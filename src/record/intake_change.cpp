@@ -4,6 +4,7 @@
 #include <cassert>
 #include <utility>
 
+#include "base/time_between.h"
 #include "record/intake.h"
 
 namespace theatron::record {
@@ -77,10 +78,15 @@ void Intake::describe_change(Description next) {
                     [&](const Held& held) { return !is_of(next, held.header); });
     if (has_others)
         end_change(change_->held.back().now);
-    else
-        change_ = Change{std::move(next),     std::move(change_->held),
-                         change_->held_bytes, std::move(change_->changed),
-                         change_->since,      {}};
+    if (!change_)
+        return;
+    change_->next = std::move(next);
+    change_->settings_after.reset();
+}
+
+void Intake::end_change_in_time(const Now& now) {
+    if (change_ && is_change_over(now.local))
+        end_change(now);
 }
 
 void Intake::end_change(Now now) {
@@ -92,7 +98,7 @@ void Intake::end_change(Now now) {
         const TimePoint captured = held.header.captured;
         last = std::max(last, captured);
         // A stale camera's last picture is sent anew with its old time.
-        if (captured > held.now.clock.session - oldest_held)
+        if (time_between(captured, held.now.clock.session) < oldest_held)
             first = std::min(first.value_or(captured), captured);
     }
     if (!begin(std::move(change.next), first.value_or(change.held.front().header.captured), now,

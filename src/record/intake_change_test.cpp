@@ -58,35 +58,28 @@ protected:
         intake_.describe(std::move(cameras), settings, new_connection, local_);
     }
 
-    void send(StreamId stream) {
+    // True if the intake asks for a key frame.
+    bool deliver(StreamId stream, bool key, TimePoint captured) {
         Sender& sender = senders_[stream];
         wire::MediaHeader header;
         header.stream = stream;
         header.setting = sender.setting;
         header.frame = sender.next++;
-        header.key = sender.all_keys || sender.until_key == 0;
+        header.key = key;
         header.reference = header.key ? header.frame : header.frame - 1;
-        header.captured = session_;
+        header.captured = captured;
         header.payload_size = std::uint32_t(payload_size_);
         auto message = std::make_shared<Bytes>(wire::media_header_size + payload_size_);
         wire::write_media_header(header, message->data());
+        return intake_.take(header, std::move(message), "", now());
+    }
+    void send(StreamId stream) {
+        Sender& sender = senders_[stream];
+        const bool key = sender.all_keys || sender.until_key == 0;
         if (sender.until_key >= 0)
             --sender.until_key;
-        if (intake_.take(header, std::move(message), "", now()) && sender.until_key < 0 && answers_)
+        if (deliver(stream, key, session_) && sender.until_key < 0 && answers_)
             sender.until_key = travel_frames;
-    }
-    // A key frame that says that it was taken then.
-    void send_key(StreamId stream, TimePoint captured) {
-        Sender& sender = senders_[stream];
-        wire::MediaHeader header;
-        header.stream = stream;
-        header.setting = sender.setting;
-        header.frame = header.reference = sender.next++;
-        header.key = true;
-        header.captured = captured;
-        auto message = std::make_shared<Bytes>(wire::media_header_size);
-        wire::write_media_header(header, message->data());
-        (void)intake_.take(header, std::move(message), "", now());
     }
     void run(int frames, const std::vector<StreamId>& streams) {
         for (int i = 0; i < frames; ++i) {
@@ -96,6 +89,31 @@ protected:
             session_ += spacing;
             intake_.pass_time(now());
         }
+    }
+
+    void begin_with_left(int frames = 20) {
+        describe({camera(0, "left")}, true);
+        run(frames, {left_});
+    }
+    void begin_with_both() {
+        describe({camera(0, "left"), camera(1, "right")}, true);
+        run(20, {left_, right_});
+    }
+    void right_joins() { describe({camera(0, "left"), camera(1, "right")}); }
+    void right_leaves() { describe({camera(0, "left")}); }
+    // The right camera, if it was there, leaves.
+    void left_is_moved() {
+        RecordedCamera moved = camera(0, "left");
+        moved.calibration = Bytes(5);
+        describe({moved});
+    }
+    // The right camera sends its key frame at once, the left one none.
+    void right_is_moved_and_left_sends_no_key() {
+        answers_ = false;
+        senders_[right_].until_key = 0;
+        RecordedCamera moved = camera(1, "right");
+        moved.calibration = Bytes(5);
+        describe({camera(0, "left"), moved});
     }
 
     Intake::Now now() const {
@@ -137,9 +155,8 @@ protected:
 };
 
 TEST_F(IntakeChange, ACameraThatJoinsCostsTheOthersNoFrame) {
-    describe({camera(0, "left")}, true);
-    run(20, {left_});
-    describe({camera(0, "left"), camera(1, "right")});
+    begin_with_left();
+    right_joins();
     run(20, {left_, right_});
     EXPECT_EQ(lost(), 0u);
     const auto recording = recorded();
@@ -150,9 +167,8 @@ TEST_F(IntakeChange, ACameraThatJoinsCostsTheOthersNoFrame) {
 }
 
 TEST_F(IntakeChange, ACameraThatLeavesCostsTheOthersNoFrame) {
-    describe({camera(0, "left"), camera(1, "right")}, true);
-    run(20, {left_, right_});
-    describe({camera(0, "left")});
+    begin_with_both();
+    right_leaves();
     run(20, {left_});
     EXPECT_EQ(lost(), 0u);
     const auto recording = recorded();
@@ -162,13 +178,10 @@ TEST_F(IntakeChange, ACameraThatLeavesCostsTheOthersNoFrame) {
 }
 
 TEST_F(IntakeChange, ACalibrationThatChangesAfterACameraLeftIsRecorded) {
-    describe({camera(0, "left"), camera(1, "right")}, true);
-    run(20, {left_, right_});
-    describe({camera(0, "left")});
+    begin_with_both();
+    right_leaves();
     run(20, {left_});
-    RecordedCamera moved = camera(0, "left");
-    moved.calibration = Bytes(5);
-    describe({moved});
+    left_is_moved();
     run(20, {left_});
     EXPECT_EQ(lost(), 0u);
     const auto recording = recorded();
@@ -177,11 +190,8 @@ TEST_F(IntakeChange, ACalibrationThatChangesAfterACameraLeftIsRecorded) {
 }
 
 TEST_F(IntakeChange, ACalibrationMayChangeAsACameraLeaves) {
-    describe({camera(0, "left"), camera(1, "right")}, true);
-    run(20, {left_, right_});
-    RecordedCamera moved = camera(0, "left");
-    moved.calibration = Bytes(5);
-    describe({moved});
+    begin_with_both();
+    left_is_moved();
     run(20, {left_});
     EXPECT_EQ(lost(), 0u);
     const auto recording = recorded();
@@ -208,9 +218,8 @@ TEST_F(IntakeChange, ACalibrationThatChangesCostsNoFrameOfAnyStream) {
 }
 
 TEST_F(IntakeChange, FramesKeepTheirTimes) {
-    describe({camera(0, "left")}, true);
-    run(20, {left_});
-    describe({camera(0, "left"), camera(1, "right")});
+    begin_with_left();
+    right_joins();
     run(20, {left_, right_});
     const auto recording = recorded();
     const auto& frames = recording->cameras().at(0).depth.frames;
@@ -222,13 +231,8 @@ TEST_F(IntakeChange, FramesKeepTheirTimes) {
 }
 
 TEST_F(IntakeChange, AStreamWithoutAKeyFrameIsAwaitedForALimitedTime) {
-    std::vector<RecordedCamera> cameras{camera(0, "left"), camera(1, "right")};
-    describe(cameras, true);
-    run(20, {left_, right_});
-    answers_ = false;
-    senders_[right_].until_key = 0;
-    cameras[1].calibration = Bytes(5);
-    describe(cameras);
+    begin_with_both();
+    right_is_moved_and_left_sends_no_key();
     const int patience = int(Intake::change_patience / spacing);
     run(patience, {left_, right_});
     EXPECT_EQ(lost(), 0u);
@@ -240,13 +244,8 @@ TEST_F(IntakeChange, AStreamWithoutAKeyFrameIsAwaitedForALimitedTime) {
 }
 
 TEST_F(IntakeChange, WhatIsHeldBackIsLimited) {
-    std::vector<RecordedCamera> cameras{camera(0, "left"), camera(1, "right")};
-    describe(cameras, true);
-    run(20, {left_, right_});
-    answers_ = false;
-    senders_[right_].until_key = 0;
-    cameras[1].calibration = Bytes(5);
-    describe(cameras);
+    begin_with_both();
+    right_is_moved_and_left_sends_no_key();
     constexpr std::size_t small = 8, large = buffer_bytes_ / Intake::held_share / 4;
     for (int i = 0; i < 4; ++i) {
         EXPECT_EQ(lost(), 0u) << i;
@@ -277,11 +276,10 @@ TEST_F(IntakeChange, AnotherChangeMeanwhileLosesNothing) {
 }
 
 TEST_F(IntakeChange, ACameraThatComesAndGoesAtOnceKeepsItsFrames) {
-    describe({camera(0, "left")}, true);
-    run(20, {left_});
-    describe({camera(0, "left"), camera(1, "right")});
+    begin_with_left();
+    right_joins();
     run(2, {left_, right_});
-    describe({camera(0, "left")});
+    right_leaves();
     run(20, {left_});
     EXPECT_EQ(lost(), 0u);
     const auto recording = recorded();
@@ -290,15 +288,12 @@ TEST_F(IntakeChange, ACameraThatComesAndGoesAtOnceKeepsItsFrames) {
 }
 
 TEST_F(IntakeChange, ACalibrationMayChangeAfterACameraCameAndWent) {
-    describe({camera(0, "left")}, true);
-    run(20, {left_});
-    describe({camera(0, "left"), camera(1, "right")});
+    begin_with_left();
+    right_joins();
     run(2, {left_, right_});
-    describe({camera(0, "left")});
+    right_leaves();
     run(20, {left_});
-    RecordedCamera moved = camera(0, "left");
-    moved.calibration = Bytes(5);
-    describe({moved});
+    left_is_moved();
     run(20, {left_});
     EXPECT_EQ(lost(), 0u);
     const auto recording = recorded();
@@ -327,10 +322,9 @@ TEST_F(IntakeChange, AKeyFrameOfAnOldSettingBeginsNoSegment) {
 }
 
 TEST_F(IntakeChange, AStalePictureDoesNotMoveTheSegment) {
-    describe({camera(0, "left")}, true);
-    run(600, {left_});
-    describe({camera(0, "left"), camera(1, "right")});
-    send_key(right_, session_ - 10s);  // the last picture of a camera that stands still
+    begin_with_left(600);
+    right_joins();
+    deliver(right_, true, session_ - 10s);  // the last picture of a camera that stands still
     run(20, {left_});
     EXPECT_EQ(lost(), 0u);
     const auto recording = recorded();
@@ -344,10 +338,9 @@ TEST_F(IntakeChange, AStalePictureDoesNotMoveTheSegment) {
 TEST_F(IntakeChange, ATimeInTheFutureCostsNoVoice) {
     const ParticipantId anna{7};
     intake_.describe_voices({{anna, "Anna"}});
-    describe({camera(0, "left")}, true);
-    run(60, {left_});
-    describe({camera(0, "left"), camera(1, "right")});
-    send_key(right_, session_ + 1h);
+    begin_with_left(60);
+    right_joins();
+    deliver(right_, true, session_ + 1h);
     run(20, {left_});
     const Bytes opus(3, std::byte(0xfc));
     intake_.take_voice(anna, {0, session_, 20, false, -30, opus}, session_);
@@ -357,9 +350,8 @@ TEST_F(IntakeChange, ATimeInTheFutureCostsNoVoice) {
 }
 
 TEST_F(IntakeChange, WhatIsHeldBackAtTheEndIsRecorded) {
-    describe({camera(0, "left")}, true);
-    run(20, {left_});
-    describe({camera(0, "left"), camera(1, "right")});
+    begin_with_left();
+    right_joins();
     run(2, {left_, right_});
     const auto recording = recorded();
     EXPECT_EQ(numbers(recording->cameras().at(0).depth), count_to(22));
@@ -367,9 +359,8 @@ TEST_F(IntakeChange, WhatIsHeldBackAtTheEndIsRecorded) {
 }
 
 TEST_F(IntakeChange, AConnectionThatEndsKeepsWhatWasHeldBack) {
-    describe({camera(0, "left")}, true);
-    run(20, {left_});
-    describe({camera(0, "left"), camera(1, "right")});
+    begin_with_left();
+    right_joins();
     run(2, {left_, right_});
     for (auto& [stream, sender] : senders_)
         sender = {};
@@ -413,7 +404,7 @@ TEST_F(IntakeChange, VoicesHaveNoGap) {
         }
     };
     speak(60, {left_});
-    describe({camera(0, "left"), camera(1, "right")});
+    right_joins();
     speak(90, {left_, right_});
     EXPECT_EQ(intake_.voices().at(0).figures.missing, 0u);
     const auto recording = recorded();

@@ -122,8 +122,7 @@ void Intake::put_voice(ParticipantId person, const VoicePacket& packet, TimePoin
 
 void Intake::pass_time(const Now& now) {
     const std::lock_guard lock(mutex_);
-    if (change_ && is_change_over(now.local))
-        end_change(now);
+    end_change_in_time(now);
     // A room in which nothing changes sends no further part.
     if (problem_.empty() && !kept_.empty() && room_begins_segment(now.local) &&
         !begin(*std::exchange(pending_, std::nullopt), kept_from_, now))

@@ -94,19 +94,15 @@ MatroskaWriter::MatroskaWriter(const std::filesystem::path& path, const Layout& 
     }
 
     file_ = create(path, layout.replace);
-    if (!append(bytes).empty()) {
+    if (const std::string problem = append(bytes); !problem.empty()) {
         // It has no content: it was empty, or is replaced.
-        struct stat at_name {
-        }, own{};
+        struct stat at_name {};
+        struct stat own {};
         if (lstat(path.c_str(), &at_name) == 0 && fstat(file_, &own) == 0 &&
             at_name.st_dev == own.st_dev && at_name.st_ino == own.st_ino)
             unlink(path.c_str());
         close(file_);
-        throw Error(std::string(early_end_ == disk_full ? "The disk is full"
-                                : early_end_ == file_too_large
-                                    ? "The system allows no file of this size"
-                                    : "The disk fails") +
-                    ", so the recording '" + path.string() + "' cannot begin.");
+        throw Error(problem);
     }
 }
 
@@ -122,15 +118,14 @@ std::string MatroskaWriter::fate() const {
 }
 
 std::string MatroskaWriter::problem(int error) const {
+    const std::string how = end_ == 0 ? "cannot begin" : "ends here; " + fate();
     if (error == ENOSPC || error == EDQUOT)
-        return "The disk is full, so the recording '" + path_.string() + "' ends here; " + fate() +
-               ".";
+        return "The disk is full, so the recording '" + path_.string() + "' " + how + ".";
     if (error == EFBIG)
         return "The recording '" + path_.string() +
-               "' has reached the size that the system allows for a file and ends here; " + fate() +
-               ".";
+               "' has reached the size that the system allows for a file and " + how + ".";
     return "Cannot write to '" + path_.string() + "': " + std::strerror(error) +
-           "; the recording ends here, " + fate() + ".";
+           "; the recording " + how + ".";
 }
 
 std::string MatroskaWriter::fail(int error) {

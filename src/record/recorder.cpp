@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/time_between.h"
 #include "record/recording_layout.h"
 #include "record/segment_chain.h"
 #include "record/segment_files.h"
@@ -92,17 +93,13 @@ Recorder::~Recorder() {
 
 // The session's clock may restart; this time only grows. The mutex must be locked.
 Duration Recorder::own_time(TimePoint now) {
-    // No more than an hour at once: a host may send any time.
-    constexpr Duration most = std::chrono::hours(1);
-    const Duration passed =
-        std::clamp(from_us(to_us(now) / 2) - from_us(to_us(last_now_) / 2), Duration(0), most / 2) *
-        2;
+    const Duration step = time_between(last_now_, now);
     // Messages that were held back for a segment come late (Intake::describe()).
     constexpr Duration latest = std::chrono::seconds(10);
-    if (passed > Duration(0) ||
-        from_us(to_us(last_now_) / 2) - from_us(to_us(now) / 2) > latest / 2)
+    if (step > Duration(0) || step < -latest)
         last_now_ = now;
-    return own_now_ += passed;
+    // No more than an hour at once: a host may send any time.
+    return own_now_ += std::clamp(step, Duration(0), Duration(std::chrono::hours(1)));
 }
 
 void Recorder::begin_segment(const std::vector<RecordedCamera>& cameras, const ClockPair& clock,

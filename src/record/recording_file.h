@@ -130,6 +130,8 @@ struct Segment {
         return !head_damaged && damaged_places == 0 && repeated == 0 && foreign.files == 0;
     }
     bool complete() const { return closed && intact(); }
+    // True if pictures may be missing at its end, not only the index.
+    bool lacks_end() const { return !closed && (missing_end != Duration(0) || unread_end > 0); }
 };
 
 class RecordingFile {

@@ -45,16 +45,6 @@ std::string remark_on_foreign(const Segment& segment) {
     return text;
 }
 
-// A sentence without its full stop; empty: writing has not failed.
-std::string early_end_of(const Segment& segment) {
-    const std::string begin = "it ends earlier than was wanted: ";
-    if (segment.early_end == disk_full)
-        return begin + "the disk was full";
-    if (segment.early_end == file_too_large)
-        return begin + "the system allowed no larger file";
-    return segment.early_end.empty() ? "" : begin + "the disk failed";
-}
-
 }  // namespace
 
 std::string end_of(const Segment& segment) {
@@ -72,6 +62,15 @@ std::string end_of(const Segment& segment) {
     std::snprintf(text, sizeof(text), "%.1f s may be missing",
                   std::ceil(to_seconds(*segment.missing_end) * 10) / 10);
     return begin + text;
+}
+
+std::string early_end_of(const Segment& segment) {
+    const std::string begin = "it ends earlier than was wanted: ";
+    if (segment.early_end == disk_full)
+        return begin + "the disk was full";
+    if (segment.early_end == file_too_large)
+        return begin + "the system allowed no larger file";
+    return segment.early_end.empty() ? "" : begin + "the disk failed";
 }
 
 std::string losses_of(const Segment& segment) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "base/time_between.h"
+
 namespace theatron::record {
 namespace {
 
@@ -30,11 +32,6 @@ constexpr Duration most_at_once = std::chrono::minutes(10);
 
 // Packets that overtake each other are fewer than this.
 constexpr std::int64_t most_overtaken = 100;
-
-// Times come from others and may have any value: no overflow.
-Duration time_between(TimePoint from, TimePoint to) {
-    return Duration(to_us(to) / 2 - to_us(from) / 2) * 2;
-}
 
 // Rounded to the nearest step.
 std::int64_t steps_of(Duration time) {

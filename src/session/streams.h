@@ -63,9 +63,8 @@ public:
     // core. The receivers of the setting get a note.
     void on_encoding(CameraId camera, SettingId setting, bool keeps_up, double ms_per_picture);
 
-    // Receivers.
-    // A receiver that records gets everything, and others do not change its encodings. Faces go to
-    // receivers that take them, in codecs of their own (face_limits.h).
+    // Receivers. One that records gets everything, and others do not change its encodings. Faces go
+    // to receivers that take them, in codecs of their own (face_limits.h).
     void join(ParticipantId receiver, const CodecWish& wish, bool records,
               bool takes_faces = false);
     void leave(ParticipantId receiver);
