@@ -145,7 +145,7 @@ void Host::Impl::carry_out(const session::action::Joined& a) {
                   {{"id", int(a.participant)},
                    {"address", address},
                    log::outside("name", a.name),
-                   {"person", hex_text(a.person)},
+                   {"person", hex_text(session::shown_person(a.person))},
                    {"left_out", *left_out}});
 }
 

@@ -202,8 +202,8 @@ private:
     // `by`: the operator; 0: the person at the host's machine.
     wire::ManageRefusal manage(const wire::Manage& decision, ParticipantId by);
     void set_role(ParticipantId id, Role role);
-    // This connection and the others of the same person, but that of `by`.
-    std::vector<ParticipantId> connections_of(ParticipantId id, ParticipantId by);
+    // This connection and the others of the same person.
+    std::vector<ParticipantId> connections_of(ParticipantId id);
     void remove_without_link(const std::string& by);
     static PersonFacts facts_of(const Participant& person);
     void tell_standing(ParticipantId id);

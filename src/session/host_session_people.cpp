@@ -13,10 +13,13 @@ using wire::ManageRefusal;
 using wire::TextCode;
 using What = AuditEvent::What;
 
-// The bytes of a person's id that operators see: enough to tell people apart, too few to pass for
-// one of them.
-constexpr std::size_t shown_person_bytes = 4;
 constexpr ParticipantId the_host{};
+
+// True for decisions that hold for a person, on all its connections and when it comes again.
+bool is_on_person(ManageAction action) {
+    return action == ManageAction::mute || action == ManageAction::unmute ||
+           action == ManageAction::set_role || action == ManageAction::remove;
+}
 
 }  // namespace
 
@@ -72,6 +75,10 @@ ManageRefusal HostSession::manage(const wire::Manage& decision, ParticipantId by
     if (id == by)
         return ManageRefusal::yourself;
     Participant& person = *found;
+    if (const Participant* decider = admission_.find(by);
+        decider && is_on_person(decision.action) && !person.person.empty() &&
+        person.person == decider->person)
+        return ManageRefusal::yourself;
     const bool for_visitors =
         decision.action == ManageAction::admit || decision.action == ManageAction::turn_away;
     if (for_visitors && !person.waits())
@@ -95,7 +102,7 @@ ManageRefusal HostSession::manage(const wire::Manage& decision, ParticipantId by
             break;
         case ManageAction::mute:
         case ManageAction::unmute:
-            for (const ParticipantId own : connections_of(id, by)) {
+            for (const ParticipantId own : connections_of(id)) {
                 Participant& here = *admission_.find(own);
                 here.muted = decision.action == ManageAction::mute;
                 membership_.set_muted(here.person, here.muted);
@@ -108,7 +115,7 @@ ManageRefusal HostSession::manage(const wire::Manage& decision, ParticipantId by
         case ManageAction::set_role: {
             // By a link of another role somebody has another task, such as to publish.
             const Role of_link = person.of_link;
-            for (const ParticipantId own : connections_of(id, by)) {
+            for (const ParticipantId own : connections_of(id)) {
                 const Participant& here = *admission_.find(own);
                 if (here.of_link != of_link || here.waits())
                     continue;
@@ -118,7 +125,7 @@ ManageRefusal HostSession::manage(const wire::Manage& decision, ParticipantId by
             break;
         }
         case ManageAction::remove:
-            for (const ParticipantId own : connections_of(id, by)) {
+            for (const ParticipantId own : connections_of(id)) {
                 const Participant& here = *admission_.find(own);
                 membership_.remove(here.person, here.token);
                 audit(What::removed, own, by_name);
@@ -139,11 +146,11 @@ ManageRefusal HostSession::manage(const wire::Manage& decision, ParticipantId by
     return ManageRefusal::none;
 }
 
-std::vector<ParticipantId> HostSession::connections_of(ParticipantId id, ParticipantId by) {
+std::vector<ParticipantId> HostSession::connections_of(ParticipantId id) {
     std::vector<ParticipantId> own{id};
     const Bytes& person = admission_.find(id)->person;
     for (const auto& [other, there] : admission_.participants())
-        if (other != id && other != by && !person.empty() && there.person == person &&
+        if (other != id && !person.empty() && there.person == person &&
             (there.takes_part() || there.waits()))
             own.push_back(other);
     return own;
@@ -234,13 +241,9 @@ void HostSession::tell_standing(ParticipantId id) {
 std::vector<wire::Visitor> HostSession::visitors() const {
     std::vector<wire::Visitor> visitors;
     for (const auto& [id, participant] : admission_.participants())
-        if (participant.waits()) {
-            const auto shown = std::min(participant.person.size(), shown_person_bytes);
-            visitors.push_back({id, participant.name,
-                                Bytes(participant.person.begin(),
-                                      participant.person.begin() + std::ptrdiff_t(shown)),
-                                participant.role});
-        }
+        if (participant.waits())
+            visitors.push_back(
+                {id, participant.name, shown_person(participant.person), participant.role});
     return visitors;
 }
 

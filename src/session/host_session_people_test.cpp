@@ -245,6 +245,37 @@ TEST_F(People, DecisionsHoldForAllConnectionsOfAPerson) {
     EXPECT_TRUE(is_in(dave));
 }
 
+TEST_F(People, ARoleByOneLinkOutlivesADecisionOnAnother) {
+    come(alice, "or");
+    come(bob, "or");
+    EXPECT_EQ(manage(alice, ManageAction::set_role, bob, Role::observer), ManageRefusal::none);
+    session_->on_closed(bob);
+    come(bob, "secret");
+    EXPECT_EQ(manage(alice, ManageAction::set_role, bob, Role::observer), ManageRefusal::none);
+    session_->on_closed(bob);
+    for (const char* link : {"or", "secret"}) {
+        come(bob, link);
+        EXPECT_EQ(session_->participants().at(bob).role, Role::observer) << link;
+        session_->on_closed(bob);
+    }
+}
+
+// A decision is remembered for the person, so it would shut out the operator at its next join.
+TEST_F(People, AnOperatorDecidesOnNoneOfItsOwnConnections) {
+    come(alice, "or");
+    for (const char* link : {"send", "or", "secret"}) {
+        come(bob, link, int(alice));
+        for (const ManageAction action : {ManageAction::mute, ManageAction::unmute,
+                                          ManageAction::set_role, ManageAction::remove})
+            EXPECT_EQ(manage(alice, action, bob, Role::observer), ManageRefusal::yourself) << link;
+        EXPECT_TRUE(is_in(bob));
+        session_->on_closed(bob);
+    }
+    session_->on_closed(alice);
+    come(alice, "or");
+    EXPECT_EQ(session_->participants().at(alice).role, Role::operator_);
+}
+
 TEST_F(People, ARevokedLinkEndsTheConnectionsOfAllWhoCameByItAndOfNobodyElse) {
     come(alice, "or");
     come(bob, "secret");
@@ -460,6 +491,12 @@ TEST_F(People, WhoseNamesLookEqualAreToldApartExceptForTheSameProgram) {
     EXPECT_EQ(name_of(dave, "ADA", 4), "ADA") << "nobody else is called so now";
     session_->on_closed(dave);
     EXPECT_EQ(name_of(dave, "host", 4), "host (2)") << "the audit log's name of the host's machine";
+}
+
+TEST(Membership, ShowsTooLittleOfAnIdToPassForThePerson) {
+    Bytes id(wire::person_id_size, std::byte(7));
+    EXPECT_EQ(shown_person(id), Bytes(4, std::byte(7)));
+    EXPECT_EQ(shown_person({}), Bytes{});
 }
 
 TEST(Membership, ForgetsTheOldestOfTooManyAndNotesNobodyWithoutAnId) {

@@ -5,6 +5,11 @@
 
 namespace theatron::session {
 
+Bytes shown_person(const Bytes& person) {
+    constexpr std::size_t shown_bytes = 4;
+    return {person.begin(), person.begin() + std::ptrdiff_t(std::min(person.size(), shown_bytes))};
+}
+
 const Membership::Known* Membership::find(const Bytes& person) const {
     const auto found = std::find_if(known_.begin(), known_.end(),
                                     [&](const Known& known) { return known.person == person; });
@@ -32,8 +37,8 @@ Membership::Judged Membership::judge(const Bytes& person, Role of_link) const {
         judged.entry = Entry::enters;
     if (known->removed)
         judged.entry = Entry::was_removed;
-    if (known->has_role && known->of_link == of_link)
-        judged.role = known->role;
+    if (const auto role = known->roles.find(of_link); role != known->roles.end())
+        judged.role = role->second;
     judged.muted = known->muted;
     return judged;
 }
@@ -66,11 +71,8 @@ void Membership::set_muted(const Bytes& person, bool muted) {
 }
 
 void Membership::set_role(const Bytes& person, Role of_link, Role role) {
-    if (Known* known = note(person)) {
-        known->of_link = of_link;
-        known->role = role;
-        known->has_role = true;
-    }
+    if (Known* known = note(person))
+        known->roles[of_link] = role;
 }
 
 }  // namespace theatron::session

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <deque>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +17,10 @@
 #include "session/permissions.h"
 
 namespace theatron::session {
+
+// The bytes of a person's id that others may read: enough to tell people apart, too few to pass for
+// one of them.
+Bytes shown_person(const Bytes& person);
 
 class Membership {
 public:
@@ -38,7 +43,8 @@ public:
     // `token`: of the link by which the person came.
     void remove(const Bytes& person, const std::string& token);
     void set_muted(const Bytes& person, bool muted);
-    // Holds only if the person comes by a link of the same role again.
+    // Holds only if the person comes by a link of the same role again; by one of another role
+    // somebody has another task, such as to publish, and another decision.
     void set_role(const Bytes& person, Role of_link, Role role);
     void forget_all() { known_.clear(); }
 
@@ -49,9 +55,8 @@ private:
     struct Known {
         Bytes person;
         bool admitted = false, removed = false, muted = false;
-        Role of_link{}, role{};
-        bool has_role = false;
-        std::string token;  // of a removed one
+        std::map<Role, Role> roles;  // by that of the link
+        std::string token;           // of a removed one
     };
     const Known* find(const Bytes& person) const;
     // Null for a person without an id.
