@@ -324,8 +324,8 @@ void Intake::on_end(CameraId camera) {
 std::vector<std::string> Intake::news(TimePoint now) {
     const std::lock_guard lock(mutex_);
     // Also while no connection gives the session's time.
-    if (change_ && is_change_over(now))
-        end_change(change_->held.back().now);
+    if (change_)
+        end_change_in_time({now, change_->held.back().now.clock});
     std::vector<std::string> sentences;
     const bool held_up = looked_ != TimePoint{} && now - looked_ > late_look;
     looked_ = now;

@@ -176,7 +176,8 @@ private:
         std::vector<Held> held;  // in the order of arrival; never empty after take()
         std::size_t held_bytes = 0;
         std::set<StreamId> changed;  // whose frames are held
-        TimePoint since;             // on the machine's own clock
+        Duration waited{};           // without the time in which the recorder stood still
+        TimePoint seen;              // when that was counted, on the machine's own clock
         // Since cameras have left meanwhile, whose held frames are still of `next`.
         std::optional<std::map<StreamId, SettingId>> settings_after;
     };
@@ -190,7 +191,7 @@ private:
     void begin_change(Description next, TimePoint now);
     bool belongs_to_next(const Entry& entry, const wire::MediaHeader& header);
     bool is_awaited(StreamId stream) const;
-    bool is_change_over(TimePoint now) const;
+    bool is_change_over() const;
     void describe_change(Description next);
     void end_change_in_time(const Now& now);
     void end_change(Now now);

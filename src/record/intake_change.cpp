@@ -13,6 +13,9 @@ namespace {
 // An older picture is a stale camera's, and says nothing on when a segment begins.
 constexpr Duration oldest_held = std::chrono::seconds(3);
 
+// A longer time between two looks at the clock is one in which the recorder itself stood still.
+constexpr Duration longest_step = std::chrono::milliseconds(500);
+
 // The colour of a depth stream's camera, or the depth of a colour stream's.
 StreamId beside(StreamId stream) {
     const CameraId camera = camera_of(stream);
@@ -22,7 +25,7 @@ StreamId beside(StreamId stream) {
 }  // namespace
 
 void Intake::begin_change(Description next, TimePoint now) {
-    change_ = Change{std::move(next), {}, 0, {}, now, {}};
+    change_ = Change{std::move(next), {}, 0, {}, Duration(0), now, {}};
     for (auto& [id, entry] : entries_)
         if (is_awaited(id))
             entry.gate.want_key();
@@ -57,35 +60,47 @@ bool Intake::belongs_to_next(const Entry& entry, const wire::MediaHeader& header
     return true;
 }
 
-bool Intake::is_change_over(TimePoint now) const {
-    return now - change_->since >= change_patience ||
+bool Intake::is_change_over() const {
+    return change_->waited >= change_patience ||
            change_->held_bytes >= options_.buffer_bytes / held_share ||
            std::none_of(entries_.begin(), entries_.end(),
                         [&](const auto& entry) { return is_awaited(entry.first); });
 }
 
-// The cameras or settings change once more. Held frames of streams that have other settings now
-// belong to a segment of their own; those of cameras that have left do not.
+// The cameras or settings change once more. A camera that has left stays in the segment to come if
+// frames of it are held. Held frames in settings that are no more belong to a segment of their own.
 void Intake::describe_change(Description next) {
-    const bool only_left = are_among(next.cameras, change_->next.cameras) &&
-                           std::ranges::includes(change_->next.settings, next.settings);
-    if (only_left) {
-        change_->settings_after = std::move(next.settings);
+    Description with_left = next;
+    for (const RecordedCamera& camera : change_->next.cameras) {
+        const bool is_there = std::ranges::any_of(
+            next.cameras, [&](const RecordedCamera& other) { return other.id == camera.id; });
+        bool has_held = false;
+        for (const StreamId stream : {depth_stream(camera.id), color_stream(camera.id)})
+            if (!is_there && change_->changed.contains(stream)) {
+                with_left.settings[stream] = change_->next.settings.at(stream);
+                has_held = true;
+            }
+        if (has_held)
+            with_left.cameras.push_back(camera);
+    }
+    const bool has_others = std::ranges::any_of(
+        change_->held, [&](const Held& held) { return !is_of(with_left, held.header); });
+    // Without cameras the room begins a segment.
+    if (has_others || next.cameras.empty()) {
+        end_change(change_->held.back().now);
         return;
     }
-    const bool has_others =
-        std::any_of(change_->held.begin(), change_->held.end(),
-                    [&](const Held& held) { return !is_of(next, held.header); });
-    if (has_others)
-        end_change(change_->held.back().now);
-    if (!change_)
-        return;
-    change_->next = std::move(next);
-    change_->settings_after.reset();
+    change_->next = std::move(with_left);
+    change_->settings_after = std::move(next.settings);
 }
 
 void Intake::end_change_in_time(const Now& now) {
-    if (change_ && is_change_over(now.local))
+    if (!change_)
+        return;
+    // A recorder that stood still takes what waits for it first.
+    change_->waited += std::clamp(now.local - change_->seen, Duration(0), longest_step);
+    change_->seen = now.local;
+    if (is_change_over())
         end_change(now);
 }
 

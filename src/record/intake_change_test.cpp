@@ -287,6 +287,36 @@ TEST_F(IntakeChange, ACameraThatComesAndGoesAtOnceKeepsItsFrames) {
     EXPECT_EQ(numbers(recording->cameras().at(0).depth), count_to(42));
 }
 
+TEST_F(IntakeChange, CamerasThatComeAndGoOneAfterTheOtherCostNoFrame) {
+    begin_with_left();
+    for (int id = 1; id <= 6; ++id) {
+        describe({camera(0, "left"), camera(id, "guest " + std::to_string(id))});
+        run(2, {left_, depth_stream(CameraId(id))});
+        right_leaves();
+        run(id % 2, {left_});
+    }
+    run(20, {left_});
+    EXPECT_EQ(lost(), 0u);
+    const auto recording = recorded();
+    EXPECT_EQ(numbers(recording->cameras().at(0).depth), count_to(20 + 6 * 2 + 3 + 20));
+    ASSERT_EQ(recording->cameras().size(), 7u);
+    for (int id = 1; id <= 6; ++id)
+        EXPECT_EQ(numbers(recording->cameras().at(std::size_t(id)).depth), count_to(2)) << id;
+}
+
+TEST_F(IntakeChange, ARecorderThatStoodStillTakesWhatWaitsFirst) {
+    begin_with_left();
+    right_joins();
+    run(1, {left_, right_});
+    (void)intake_.news(local_);
+    local_ += 5s;
+    intake_.pass_time(now());
+    (void)intake_.news(local_);
+    run(20, {left_, right_});
+    EXPECT_EQ(lost(), 0u);
+    EXPECT_EQ(numbers(recorded()->cameras().at(0).depth), count_to(41));
+}
+
 TEST_F(IntakeChange, ACalibrationMayChangeAfterACameraCameAndWent) {
     begin_with_left();
     right_joins();

@@ -145,6 +145,27 @@ TEST(Recording, AFullDiskEndsItWithASentenceAndKeepsWhatCameBefore) {
     EXPECT_EQ(count_equal(*recording, messages), frames_in(*recording));
 }
 
+// A publisher's clock is estimated, so the time of a picture that is sent again may differ.
+TEST(Recording, APictureThatIsSentAgainStaysBehindTheFirst) {
+    const testing::TemporaryFolder folder;
+    const fs::path path = folder.path() / "a.mkv";
+    const StreamId depth = depth_stream(CameraId(0));
+    {
+        Recorder recorder(path, cameras(1), session_begin);
+        for (const auto& [number, time, reference] :
+             {std::tuple(0, 40ms + 0us, 0), {1, 40ms - 1us, 1}, {2, 70ms + 0us, 1}})
+            EXPECT_EQ(add(recorder,
+                          message(depth, FrameNumber(number), time, 500, FrameNumber(reference))),
+                      Recorder::Added::taken);
+        recorder.finish();
+    }
+    std::vector<FrameNumber> numbers;
+    const auto recording = RecordingFile::open(path);
+    for (const RecordedFrame& frame : recording->cameras().at(0).depth.frames)
+        numbers.push_back(frame.number);
+    EXPECT_EQ(numbers, (std::vector<FrameNumber>{0, 1, 2}));
+}
+
 TEST(Recording, ADiskThatIsFullAtTheBeginningLeavesNoFile) {
     const testing::TemporaryFolder folder;
     const fs::path path = folder.path() / "full.mkv";

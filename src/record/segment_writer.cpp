@@ -131,6 +131,7 @@ std::string SegmentWriter::note_of(const RecordedMessage& one) {
 
 std::string SegmentWriter::write(std::span<const RecordedMessage> messages) {
     std::vector<Block> blocks;
+    std::map<int, std::int64_t> newest_us;  // by track
     for (const RecordedMessage& one : messages) {
         const wire::MediaHeader& header = one.header;
         Block block;
@@ -139,6 +140,12 @@ std::string SegmentWriter::write(std::span<const RecordedMessage> messages) {
         // Nobody is to move what was put into a sequence.
         block.time_us =
             block_time_us(header.captured, is_speech ? header.captured : one.arrived, begin_);
+        // The blocks are sorted by time, and a stream's pictures must stay in their order: one that
+        // is sent again may say that it is older than the one that it replaces.
+        if (!is_speech) {
+            std::int64_t& newest = newest_us[block.track];
+            newest = block.time_us = std::max(block.time_us, newest);
+        }
         const bool is_picture = header.stream != room_stream && !is_speech;
         first_us_ = has_blocks_ ? std::min(first_us_, block.time_us) : block.time_us;
         if (is_picture || !has_pictures_)
