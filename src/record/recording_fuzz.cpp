@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Any bytes, as one file or cut into two segments: reading stays inside them and ends, every frame
-// that it names can be read or is damaged, and a recovered recording is complete.
+// that it names can be read or is damaged, and a recovered recording is complete, or there is none.
 #include <unistd.h>
 
 #include <cstdlib>
 
+#include "base/error.h"
 #include "record/recording_file.h"
 #include "record/recover.h"
 #include "record/speaker_note.h"
@@ -21,7 +22,15 @@ void recover_all(const record::RecordingFile& recording) {
             std::filesystem::remove(record::segment_path(stem + ".mkv", n));
     };
     remove();
-    record::recover(recording, stem + ".mkv", {});
+    try {
+        record::recover(recording, stem + ".mkv", {});
+    } catch (const Error& error) {
+        // Without anything whole there is no new file.
+        if (!std::string_view(error.what()).starts_with("Nothing in this recording") ||
+            std::filesystem::exists(stem + ".mkv"))
+            std::abort();
+        return;
+    }
     const auto saved = record::RecordingFile::open(stem + ".mkv");
     for (const record::Segment& segment : saved->segments())
         if (!segment.complete())
