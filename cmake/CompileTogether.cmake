@@ -8,7 +8,8 @@
 set(THEATRON_FAST_MODULES image geometry codec filter video render medical bench_library)
 
 # A source whose file-local names another source of its target also has is compiled alone. The compiler
-# says "redefinition" or "ambiguous" then: rename one of the two, or add a source here.
+# says "redefinition" or "ambiguous" then: rename one of the two, or add a source here. So is one that takes the
+# compiler longest, such as each with Boost's sockets: two cores share them.
 set(THEATRON_COMPILED_ALONE
   apps/theatron/demo_command.cpp
   apps/theatron/export_command.cpp
@@ -71,6 +72,10 @@ set(THEATRON_COMPILED_ALONE
   src/medical/mesh_shaping.cpp
   src/medical/shared_case.cpp
   src/medical/volume.cpp
+  src/net/boost.cpp
+  src/net/client.cpp
+  src/net/connection.cpp
+  src/net/door.cpp
   src/net/link_test.cpp
   src/net/sha256.cpp
   src/record/intake_test.cpp

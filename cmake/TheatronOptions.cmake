@@ -32,6 +32,10 @@ if(THEATRON_SANITIZE)
   # Assertions are part of what these builds check, also the fuzz targets, which are optimised.
   add_compile_options(-fsanitize=${THEATRON_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all -UNDEBUG)
   add_link_options(-fsanitize=${THEATRON_SANITIZE})
+  # The thread sanitizer must see every access.
+  if(NOT THEATRON_SANITIZE MATCHES "thread")
+    add_compile_options(-fsanitize-ignorelist=${CMAKE_SOURCE_DIR}/cmake/sanitizer_ignorelist.txt)
+  endif()
 elseif(NOT EMSCRIPTEN)
   # The program reads bytes of strangers: an error that a check can still catch ends it instead of being used.
   add_compile_options(-fstack-protector-strong "$<$<NOT:$<CONFIG:Debug>>:-U_FORTIFY_SOURCE;-D_FORTIFY_SOURCE=2>")

@@ -43,6 +43,10 @@ if [ ! -e "$folder/etc/debian_version" ]; then
 fi
 cp /etc/resolv.conf "$folder/etc/resolv.conf"
 
+# As after Debian's installer, which debootstrap is not.
+[ -e "$folder/etc/hosts" ] || printf '127.0.0.1 localhost\n::1 localhost\n' > "$folder/etc/hosts"
+# In a root that is no mount of its own, nothing can be mounted privately, as for network namespaces.
+mount --bind "$folder" "$folder"
 mount -t proc proc "$folder/proc"
 mount --rbind /sys "$folder/sys"
 mount --rbind /dev "$folder/dev"

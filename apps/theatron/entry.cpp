@@ -25,8 +25,8 @@ std::string list_text(const nlohmann::json& session, const char* list, const cha
     const std::size_t count = session[list].size();
     std::string line = std::to_string(count) + " " + (count == 1 ? one : many) + ": ";
     for (std::size_t i = 0; i < std::min(count, named); ++i)
-        line += (i > 0 ? ", " : "") + text(session[list][i], "name") + " (" +
-                text(session[list][i], field) + ")";
+        line += (i > 0 ? ", " : "") + text_field(session[list][i], "name") + " (" +
+                text_field(session[list][i], field) + ")";
     return count > named ? line + ", and " + std::to_string(count - named) + " more" : line;
 }
 
@@ -70,7 +70,7 @@ std::vector<xr::EntryRecent> shown(const client::RecentLinks& recents) {
 }
 
 std::string presence_text(const nlohmann::json& session) {
-    if (is_set(session, "closed"))
+    if (is_field_set(session, "closed"))
         return "not open";
     const bool has_count =
         session.contains("people_count") && session["people_count"].is_number_integer();
@@ -85,7 +85,7 @@ std::string others_text(const nlohmann::json& sessions) {
     std::string line;
     for (std::size_t i = 1; i < sessions.size() && i <= named; ++i) {
         const nlohmann::json& session = sessions[i];
-        line += (line.empty() ? "Also here: " : ", ") + text(session, "name") + " (" +
+        line += (line.empty() ? "Also here: " : ", ") + text_field(session, "name") + " (" +
                 presence_text(session) + ")";
     }
     return sessions.size() > named + 1
@@ -99,12 +99,12 @@ xr::EntryFacts entry_facts(const nlohmann::json& lobby) {
     if (!lobby.contains("sessions") || !lobby["sessions"].is_array() || lobby["sessions"].empty())
         return problem_facts("The host has no session for this link.");
     const nlohmann::json& session = lobby["sessions"][0];
-    if (is_set(session, "ended"))
+    if (is_field_set(session, "ended"))
         return problem_facts("This session has ended. Ask for a new link.");
     xr::EntryFacts facts;
-    facts.title = text(session, "name");
+    facts.title = text_field(session, "name");
     facts.can_enter = true;
-    const std::string role = text(lobby, "role");
+    const std::string role = text_field(lobby, "role");
     facts.lines.push_back("You come as " +
                           std::string(role == "expert" || role == "operator" ? "an " : "a ") +
                           (role.empty() ? "guest" : role) + ".");
@@ -118,12 +118,12 @@ xr::EntryFacts entry_facts(const nlohmann::json& lobby) {
     if (const std::string cameras = list_text(session, "cameras", "state", "camera", "cameras");
         !cameras.empty())
         facts.lines.push_back(cameras);
-    if (is_set(session, "held_back"))
+    if (is_field_set(session, "held_back"))
         facts.lines.push_back(held_back);
     if (const std::string others = others_text(lobby["sessions"]); !others.empty())
         facts.lines.push_back(others);
-    facts.hint = is_set(session, "asks") ? "An operator lets you in after you have knocked."
-                                         : "The session is open.";
+    facts.hint = is_field_set(session, "asks") ? "An operator lets you in after you have knocked."
+                                               : "The session is open.";
     return facts;
 }
 

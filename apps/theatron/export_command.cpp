@@ -4,6 +4,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 
 #include "base/error.h"
 #include "cli/progress.h"
@@ -56,9 +57,13 @@ exporting::ExportSource open_source(const Flags& flags, const Recording& recordi
 struct Exported {
     std::size_t count = 0;
     capture::PictureLosses losses;
+    // One for each calibration, with the number of its pictures.
+    std::vector<std::pair<std::filesystem::path, std::size_t>> places;
 
-    void add(const exporting::ExportSource& source, std::size_t written) {
+    void add(const exporting::ExportSource& source, std::filesystem::path place,
+             std::size_t written) {
         count += written;
+        places.emplace_back(std::move(place), written);
         for (const auto& camera : source.cameras) {
             const capture::PictureLosses& l = camera->losses();
             losses.damaged_depth += l.damaged_depth;
@@ -177,17 +182,23 @@ void run(const Flags& flags) {
 
     const auto report = [&](const char* what, const Exported& e, const std::string& place) {
         damaged |= e.losses.depth() + e.losses.color() > 0;
+        nlohmann::json places = nlohmann::json::array();
+        for (const auto& [path, count] : e.places)
+            places.push_back({{"path", path.string()}, {"count", count}});
         if (flags.json)
             std::cout << files::json_text({{"format", what},
                                            {"count", e.count},
                                            {"path", place},
+                                           {"places", places},
                                            {"lost_depth", e.losses.depth()},
                                            {"lost_color", e.losses.color()},
                                            {"filters", filters}})
                       << std::endl;
         else
-            std::cout << place << ": " << e.count << (e.count == 1 ? " frame" : " frames")
-                      << std::endl;
+            for (const auto& [path, count] : e.places)
+                std::cout << path.string() << ": " << count << (count == 1 ? " frame" : " frames")
+                          << (path == place ? "" : ", after a camera was moved or adjusted")
+                          << std::endl;
         if (e.losses.depth() + e.losses.color() > 0)
             std::cerr << "of depth " << e.losses.damaged_depth << " pictures are damaged and "
                       << e.losses.undecodable_depth << " refer to what is not there; of colour "
@@ -200,8 +211,10 @@ void run(const Flags& flags) {
         Exported exported;
         for (std::size_t n = 0; n < calibrations; ++n) {
             exporting::ExportSource source = open_source(flags, recording, n);
-            if (!source.cameras.empty())
-                exported.add(source, write(source, exporting::place_of(place, n)));
+            if (!source.cameras.empty()) {
+                const std::filesystem::path own = exporting::place_of(place, n);
+                exported.add(source, own, write(source, own));
+            }
         }
         report(what, exported, place);
     };
@@ -231,7 +244,8 @@ void run(const Flags& flags) {
             flags.k4a, calibrations, [&](const std::filesystem::path& draft, std::size_t n) {
                 exporting::ExportSource source = open_source(flags, recording, n);
                 if (!source.cameras.empty())
-                    exported.add(source, exporting::export_k4a(source, draft));
+                    exported.add(source, exporting::place_of(flags.k4a, n),
+                                 exporting::export_k4a(source, draft));
             });
         report("k4a", exported, flags.k4a);
     }
@@ -270,8 +284,10 @@ void add_export_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand("export", "Turn a recording into points or pictures");
     command->footer(
         "Depth is exported as it was recorded, without loss. Of several cameras, each gets a\n"
-        "folder of its own: DIR/camera-0 and so on. Of a damaged recording all that is whole is\n"
-        "exported, and the exit code is 3.\n"
+        "folder of its own: DIR/camera-0 and so on. Where a camera was moved or adjusted, its "
+        "later\n"
+        "pictures are in DIR.2 and so on, which have another calibration. Of a damaged recording\n"
+        "all that is whole is exported, and the exit code is 3.\n"
         "\nExamples:\n"
         "  theatron export operation.mkv --ply points --merged\n"
         "  theatron export operation.mkv --png pictures --camera 1\n"

@@ -20,21 +20,22 @@ std::string names(const nlohmann::json& session, const char* list, const char* f
     std::string all;
     if (session.contains(list) && session[list].is_array())
         for (const auto& entry : session[list]) {
-            const std::string adjusted = text(entry, "adjusted");
-            all += (all.empty() ? "" : ", ") + text(entry, "name") + " (" + text(entry, field) +
+            const std::string adjusted = text_field(entry, "adjusted");
+            all += (all.empty() ? "" : ", ") + text_field(entry, "name") + " (" +
+                   text_field(entry, field) +
                    (adjusted.empty() ? "" : "; by operators: " + adjusted) + ")";
         }
     return all;
 }
 
 void print(const nlohmann::json& lobby) {
-    std::printf("Your link is of the role %s.\n", text(lobby, "role").c_str());
+    std::printf("Your link is of the role %s.\n", text_field(lobby, "role").c_str());
     if (!lobby.contains("sessions") || !lobby["sessions"].is_array())
         return;
     for (const auto& session : lobby["sessions"]) {
-        if (is_set(session, "closed")) {
-            const std::string problem = text(session, "problem");
-            std::printf("%s: %s\n", text(session, "name").c_str(),
+        if (is_field_set(session, "closed")) {
+            const std::string problem = text_field(session, "problem");
+            std::printf("%s: %s\n", text_field(session, "name").c_str(),
                         problem.empty() ? "is being opened" : ("not open. " + problem).c_str());
             continue;
         }
@@ -42,10 +43,10 @@ void print(const nlohmann::json& lobby) {
             session.contains("people_count") && session["people_count"].is_number()
                 ? session["people_count"].get<double>()
                 : 0;
-        std::printf("%s: %.0f participant(s)%s%s\n", text(session, "name").c_str(), people,
-                    is_set(session, "asks") ? ", an operator lets people in" : "",
-                    is_set(session, "ended") ? ", ended" : "");
-        if (is_set(session, "held_back"))
+        std::printf("%s: %.0f participant(s)%s%s\n", text_field(session, "name").c_str(), people,
+                    is_field_set(session, "asks") ? ", an operator lets people in" : "",
+                    is_field_set(session, "ended") ? ", ended" : "");
+        if (is_field_set(session, "held_back"))
             std::printf("  %s\n", held_back);
         if (const std::string in = names(session, "people", "role"); !in.empty())
             std::printf("  people: %s\n", in.c_str());
@@ -59,9 +60,9 @@ std::string picture_address(const nlohmann::json& lobby, const std::string& sess
     std::string names;
     if (lobby.contains("sessions") && lobby["sessions"].is_array())
         for (const auto& shown : lobby["sessions"]) {
-            if (session.empty() || text(shown, "name") == session)
-                return text(shown, "thumbnail");
-            names += (names.empty() ? "'" : ", '") + text(shown, "name") + "'";
+            if (session.empty() || text_field(shown, "name") == session)
+                return text_field(shown, "thumbnail");
+            names += (names.empty() ? "'" : ", '") + text_field(shown, "name") + "'";
         }
     throw Error("This link shows no session '" + session + "'; it shows " + names + ".");
 }

@@ -1,20 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fields of a lobby that a host has sent: any of them may be missing or of another type.
+// Texts on a lobby that a host has sent.
 #pragma once
 
-#include <nlohmann/json.hpp>
-#include <string>
+#include "files/json_fields.h"
 
 namespace theatron::app {
 
-// Empty where there is no such text.
-inline std::string text(const nlohmann::json& from, const char* field) {
-    return from.contains(field) && from[field].is_string() ? from[field].get<std::string>()
-                                                           : std::string();
-}
-inline bool is_set(const nlohmann::json& from, const char* field) {
-    return from.contains(field) && from[field].is_boolean() && from[field].get<bool>();
-}
+using files::is_field_set, files::text_field;
 
 // The reason why a lobby with "held_back" names nobody.
 inline constexpr const char* held_back =

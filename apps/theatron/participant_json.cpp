@@ -99,7 +99,8 @@ nlohmann::json visitors_json(const std::vector<wire::Visitor>& visitors) {
         list.push_back({{"id", std::uint32_t(visitor.participant)},
                         {"name", visitor.name},
                         {"person", hex_text(visitor.person)},
-                        {"role", wire::text_of(visitor.role)}});
+                        {"role", wire::text_of(visitor.role)},
+                        {"records", visitor.records}});
     return list;
 }
 

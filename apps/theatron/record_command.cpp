@@ -8,9 +8,12 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <thread>
+#include <utility>
 
 #include "base/error.h"
 #include "base/steady_clock.h"
@@ -187,31 +190,35 @@ void count_written(nlohmann::json& cameras, const record::Intake& intake,
     }
 }
 
-// Checks that the file that is being written still exists.
+// Checks that the files of the recording still exist.
 class FileWatch {
 public:
-    explicit FileWatch(std::filesystem::path first) : first_(std::move(first)) {}
-
-    // Returns the file if it was deleted or renamed, only once for each; else an empty path.
-    std::filesystem::path gone(std::uint32_t segment) {
-        const auto path = record::segment_path(first_, segment);
-        struct stat info {};
-        if (stat(path.c_str(), &info) == 0) {
-            if (segment != segment_)
-                file_ = {info.st_dev, info.st_ino};
-            segment_ = segment;
-            if (file_ == std::pair(info.st_dev, info.st_ino))
-                return {};
+    // Returns those of `files` that were deleted or renamed since the last call. A file is
+    // identified when it is seen first.
+    std::vector<std::filesystem::path> gone(const std::vector<std::filesystem::path>& files) {
+        std::vector<std::filesystem::path> gone;
+        for (const std::filesystem::path& path : files) {
+            Known& known = known_[path];
+            struct stat info {};
+            const bool is_there = stat(path.c_str(), &info) == 0;
+            const auto identity =
+                is_there ? std::optional(std::pair(info.st_dev, info.st_ino)) : std::nullopt;
+            if (!known.identity)
+                known.identity = identity;
+            if (identity && identity == known.identity)
+                continue;
+            if (!std::exchange(known.told, true))
+                gone.push_back(path);
         }
-        if (std::exchange(told_, segment) == segment)
-            return {};
-        return path;
+        return gone;
     }
 
 private:
-    const std::filesystem::path first_;
-    std::uint32_t segment_ = 0, told_ = 0;
-    std::pair<dev_t, ino_t> file_{};
+    struct Known {
+        std::optional<std::pair<dev_t, ino_t>> identity;
+        bool told = false;
+    };
+    std::map<std::filesystem::path, Known> known_;
 };
 
 // Names the folder if that is not there any more either.
@@ -264,7 +271,7 @@ void run(const Flags& flags) {
     const auto say = [&](const std::string& text) {
         std::fprintf(stderr, "%s%s\n", live_line ? "\r\033[K" : "", text.c_str());
     };
-    FileWatch watch(file);
+    FileWatch watch;
     std::set<std::string> gone_files;
     auto say_cut = [&, said = std::uint64_t(0)](const record::Recorder::Figures& f) mutable {
         if (f.cut_bytes > said)
@@ -297,10 +304,15 @@ void run(const Flags& flags) {
             continue;
         next_look = now + 500ms;
         say_cut(recorder->figures());
-        if (const auto gone = watch.gone(recorder->figures().segments); !gone.empty()) {
-            say(what_is_gone(gone) + "; the recording goes on in a new file.");
+        const auto files = recorder->files();
+        for (const std::filesystem::path& gone : watch.gone(files)) {
+            const bool is_written = gone == files.back();
+            say(what_is_gone(gone) + (is_written
+                                          ? "; the recording goes on in a new file."
+                                          : "; it is a part of this recording, which goes on."));
             gone_files.insert(gone.string());
-            intake.begin_segment();
+            if (is_written)
+                intake.begin_segment();
         }
         if (live_line) {
             Missing missing;
@@ -335,11 +347,10 @@ void run(const Flags& flags) {
     const record::Recorder::Figures f = recorder->figures();
     count_written(cameras, intake, f, missing);
     say_cut(f);
-    for (std::uint32_t segment = 1; segment <= f.segments; ++segment)
-        if (const auto path = record::segment_path(file, segment); !std::filesystem::exists(path)) {
-            say(what_is_gone(path) + " while the recording went on.");
-            gone_files.insert(path.string());
-        }
+    for (const std::filesystem::path& gone : watch.gone(recorder->files())) {
+        say(what_is_gone(gone) + " while the recording went on.");
+        gone_files.insert(gone.string());
+    }
     const bool complete = has_rest && !missing.any() && gone_files.empty() && f.cut_bytes == 0 &&
                           !(end && end->fault) && f.problem.empty();
     if (flags.json)

@@ -74,6 +74,11 @@ bool is_jpeg(const record::CameraPart& part) {
     return part.color.codec.starts_with("jpeg");
 }
 
+// False for codecs of a later version, in another calibration's part.
+bool can_decode_color(const record::CameraPart& part) {
+    return is_jpeg(part) || video::parse_color_setting(part.color.codec).problem.empty();
+}
+
 }  // namespace
 
 std::size_t calibrations_of(const record::CameraContent& camera) {
@@ -146,10 +151,10 @@ void RecordedFrames::match_colors() {
                           frame.number);
     };
     using Name = decltype(name_of(content_.color.frames[0]));
-    std::set<std::size_t> jpeg_segments;
+    std::set<std::size_t> color_segments;
     for (const record::CameraPart& part : content_.parts)
-        if (is_jpeg(part))
-            jpeg_segments.insert(part.segment);
+        if (part.color.present && can_decode_color(part))
+            color_segments.insert(part.segment);
     const auto& frames = content_.color.frames;
     std::vector<std::pair<Name, std::uint32_t>> names;
     names.reserve(frames.size());
@@ -166,12 +171,12 @@ void RecordedFrames::match_colors() {
         };
         std::uint32_t& color = colors_[i - begin_];
         color = find(name_of(depth));
-        // Where a segment changes, the two may be on either side; JPEG can be read alone.
-        if (color != no_color || !jpeg_segments.contains(depth.segment))
+        // Where a segment changes, the two may be on either side.
+        if (color != no_color || !color_segments.contains(depth.segment))
             continue;
         for (const std::size_t beside :
              {depth.segment - std::size_t(1), depth.segment + std::size_t(1)}) {
-            if (!jpeg_segments.contains(beside))
+            if (!color_segments.contains(beside))
                 continue;
             const std::uint32_t other = find({std::uint32_t(beside), Duration(0), depth.number});
             constexpr Duration same_moment = std::chrono::milliseconds(500);
@@ -185,6 +190,7 @@ void RecordedFrames::match_colors() {
 void RecordedFrames::rewind() {
     next_ = begin_;
     is_decoded_ = false;
+    color_.clear();
     last_offset_ = {};
     lost_before_ = std::max(lost_before_, losses_.depth() + losses_.color());
     losses_ = {};
@@ -206,6 +212,7 @@ void RecordedFrames::go_to(Duration position) {
     std::size_t part = 0;
     while (part + 1 < parts_.size() && wanted >= parts_[part + 1].first_depth)
         ++part;
+    color_.clear();
     begin_part(part);
     // From the key frame on that it refers to.
     next_ = wanted;
@@ -222,11 +229,22 @@ void RecordedFrames::begin_part(std::size_t part) {
     const record::CameraPart& one = parts_[part];
     depth_ = std::make_unique<codec::DepthStreamDecoder>(
         video::make_depth_decoder(video::parse_depth_setting(one.depth.codec).setting));
-    color_.reset();
-    if (one.color.present && !is_jpeg(one))
-        color_ = video::make_color_decoder(video::parse_color_setting(one.color.codec).setting.id);
-    next_color_ = one.first_color;
-    last_color_.reset();
+    std::erase_if(color_, [&](const auto& entry) { return entry.first + 1 < one.segment; });
+}
+
+// Precondition: the camera has colour in this segment.
+RecordedFrames::ColorOfSegment& RecordedFrames::colors_of(std::size_t segment) {
+    const auto [at, is_new] = color_.try_emplace(segment);
+    ColorOfSegment& colors = at->second;
+    if (!is_new)
+        return colors;
+    const auto part = std::find_if(content_.parts.begin(), content_.parts.end(),
+                                   [&](const auto& p) { return p.segment == segment; });
+    if (!is_jpeg(*part))
+        colors.decoder =
+            video::make_color_decoder(video::parse_color_setting(part->color.codec).setting.id);
+    colors.next = part->first_color;
+    return colors;
 }
 
 std::optional<Duration> RecordedFrames::offset() {
@@ -325,8 +343,9 @@ void RecordedFrames::read(Frame& out) {
 }
 
 bool RecordedFrames::read_color(std::size_t index, ColorData& out) {
-    if (color_)
-        return decode_color(index, out);
+    ColorOfSegment& colors = colors_of(content_.color.frames[index].segment);
+    if (colors.decoder)
+        return decode_color(colors, index, out);
     Status status = recording_->read_payload(content_.color.frames[index], payload_);
     const auto size = status == Status::ok ? video::read_jpeg_size(payload_) : Result<Size>(status);
     if (!size || *size != info_.calibration.color.size) {
@@ -340,34 +359,34 @@ bool RecordedFrames::read_color(std::size_t index, ColorData& out) {
 
 // Decodes the picture, and before it the skipped pictures that it refers to. False if it
 // cannot be decoded.
-bool RecordedFrames::decode_color(std::size_t index, ColorData& out) {
+bool RecordedFrames::decode_color(ColorOfSegment& colors, std::size_t index, ColorData& out) {
     const auto& frames = content_.color.frames;
     std::size_t first = index;
-    while (!frames[first].key && first > next_color_)
+    while (!frames[first].key && first > colors.next)
         --first;
-    next_color_ = index + 1;
+    colors.next = index + 1;
     bool is_wanted = false;
     for (std::size_t i = first; i <= index; ++i) {
         const auto header = recording_->read_header(frames[i]);
         is_wanted = false;
         // A delta picture refers to the one before it, back to a key frame.
-        if (header && !header->key && last_color_ != header->reference) {
+        if (header && !header->key && colors.last != header->reference) {
             losses_.undecodable_color += i == index;
             continue;
         }
         Status status = header ? recording_->read_payload(frames[i], payload_) : header.error();
         if (status == Status::ok)
-            status = color_->submit(payload_, frames[i].number);
-        last_color_.reset();
+            status = colors.decoder->submit(payload_, frames[i].number);
+        colors.last.reset();
         if (status != Status::ok) {
             ++losses_.damaged_color;
             continue;
         }
-        last_color_ = frames[i].number;
-        while (auto decoded = color_->poll()) {
+        colors.last = frames[i].number;
+        while (auto decoded = colors.decoder->poll()) {
             std::swap(out.pixels, decoded->image);
             out.size = out.pixels.size;
-            color_->recycle(std::move(decoded->image));
+            colors.decoder->recycle(std::move(decoded->image));
             is_wanted = out.size == info_.calibration.color.size;
         }
     }

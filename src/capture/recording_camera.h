@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 
 #include "base/options.h"
 #include "base/utc.h"
@@ -75,12 +76,20 @@ public:
     UtcTime upcoming_utc() const;
 
 private:
+    // The colour of one segment, decoded in order.
+    struct ColorOfSegment {
+        std::unique_ptr<video::ColorDecoder> decoder;  // null for JPEG
+        std::size_t next = 0;                          // index after the last one given to it
+        std::optional<FrameNumber> last;               // last one decoded
+    };
+
     // Makes the decoders of a part, whose codecs may differ from those before.
     void begin_part(std::size_t part);
     // Decodes the next depth image into `decoded_`; false if that fails.
     bool decode();
     bool read_color(std::size_t index, ColorData& out);
-    bool decode_color(std::size_t index, ColorData& out);
+    bool decode_color(ColorOfSegment& colors, std::size_t index, ColorData& out);
+    ColorOfSegment& colors_of(std::size_t segment);
     void match_colors();
 
     std::shared_ptr<const record::RecordingFile> recording_;
@@ -92,11 +101,11 @@ private:
 
     std::size_t part_ = 0;  // that the decoders belong to
     std::unique_ptr<codec::DepthStreamDecoder> depth_;
-    std::unique_ptr<video::ColorDecoder> color_;  // null for JPEG and without colour
-    std::vector<std::uint32_t> colors_;           // for each depth frame, index of its colour
+    // Where a segment changes, depth and colour of a frame may be on either side: for the segments
+    // of the part and beside it.
+    std::map<std::size_t, ColorOfSegment> color_;
+    std::vector<std::uint32_t> colors_;  // for each depth frame, index of its colour
     std::size_t next_ = 0;
-    std::size_t next_color_ = 0;             // index after the last one given to `color_`
-    std::optional<FrameNumber> last_color_;  // last one decoded
     bool is_decoded_ = false;
     DepthImage decoded_;
     Duration last_offset_{};

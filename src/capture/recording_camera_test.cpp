@@ -174,20 +174,33 @@ TEST_F(RecordingCamera, FramesWhoseReferenceIsMissingAreLeftOut) {
     EXPECT_EQ(played, (std::vector<FrameNumber>{0, 1, 2, 3}));
 }
 
-TEST_F(RecordingCamera, ColourThatRefersToEarlierColourIsTheSameAfterFramesWerePassedOver) {
-    const auto setting = video::parse_color_setting("h264:crf=20").setting;
-    for (const std::string& missing :
-         {video::missing_color_encoder(setting), video::missing_color_decoder(setting)})
-        if (!missing.empty())
-            GTEST_SKIP() << missing;
-    std::vector<ColorImage> expected;
-    {
+// Where this build has no encoder or decoder for the colour, the tests are skipped.
+class RecordingCameraOfVideo : public RecordingCamera {
+protected:
+    void SetUp() override {
+        for (const std::string& missing :
+             {video::missing_color_encoder(setting_), video::missing_color_decoder(setting_)})
+            if (!missing.empty())
+                GTEST_SKIP() << missing;
+    }
+
+    // Records eight frames whose colours refer to one another. The colours are `expected_`. A
+    // second segment begins with these frames of depth and of colour; null: there is none.
+    void record_video(FrameNumber second_depth = 0, FrameNumber second_color = 0) {
         record::RecordedCamera d = description(0, "raw");
-        d.color->codec = setting.text;
+        d.color->codec = setting_.text;
         record::Recorder recorder(path(), {d}, session_begin);
         codec::DepthStreamEncoder depth(codec::parse_depth_setting("raw").setting);
-        const auto encoder = video::make_color_encoder(setting);
-        const auto decoder = video::make_color_decoder(setting.id);
+        const auto encoder = video::make_color_encoder(setting_);
+        const auto decoder = video::make_color_decoder(setting_.id);
+        std::vector<std::pair<wire::MediaHeader, Bytes>> of_second;
+        const auto put = [&](const wire::MediaHeader& header, ByteView payload,
+                             FrameNumber second) {
+            if (second == 0 || header.frame < second)
+                add(recorder, header, payload);
+            else
+                of_second.emplace_back(header, Bytes(payload.begin(), payload.end()));
+        };
         for (FrameNumber n = 0; n < 8; ++n) {
             wire::MediaHeader header;
             header.frame = header.reference = n;
@@ -196,23 +209,56 @@ TEST_F(RecordingCamera, ColourThatRefersToEarlierColourIsTheSameAfterFramesWereP
             header.stream = depth_stream(CameraId(0));
             Bytes encoded(depth.max_encoded_size(depth_size));
             const auto link = depth.encode(depth_of(0, n).view(), n, true, encoded);
-            add(recorder, header, ByteView(encoded).first(link.bytes));
+            put(header, ByteView(encoded).first(link.bytes), second_depth);
 
             ColorData color;
             color.size = color_size;
             color.pixels = ColorImage(color_size);
             for (std::size_t i = 0; i < color_size.area(); ++i)
                 color.pixels.pixels[i] = {std::uint8_t(n * 20 + i), std::uint8_t(i), 50};
-            const auto picture = encoder->encode(color, n == 0);
+            const auto picture = encoder->encode(color, n == 0 || n == second_color);
             ASSERT_TRUE(picture);
             header.stream = color_stream(CameraId(0));
             header.key = picture->key;
             header.reference = picture->key ? n : n - 1;
-            add(recorder, header, picture->bytes);
+            put(header, picture->bytes, second_color);
             ASSERT_EQ(decoder->submit(picture->bytes, n), Status::ok);
-            expected.push_back(decoder->poll()->image);
+            expected_.push_back(decoder->poll()->image);
         }
+        if (of_second.empty())
+            return;
+        recorder.begin_segment({d}, session_begin);
+        for (const auto& [header, payload] : of_second)
+            add(recorder, header, payload);
     }
+
+    const video::ColorSetting setting_ = video::parse_color_setting("h264:crf=20").setting;
+    std::vector<ColorImage> expected_;
+};
+
+TEST_F(RecordingCameraOfVideo, ColourMayChangeTheSegmentBeforeOrAfterItsDepth) {
+    for (const auto& [depth, color] : {std::pair<FrameNumber, FrameNumber>{3, 6}, {6, 3}}) {
+        expected_.clear();
+        record_video(depth, color);
+        RecordedFrames camera = frames(0);
+        Frame frame;
+        for (FrameNumber n = 0; n < 8; ++n) {
+            ASSERT_TRUE(camera.offset());
+            camera.read(frame);
+            EXPECT_EQ(frame.depth, depth_of(0, n)) << n;
+            EXPECT_EQ(frame.color.pixels, expected_[n]) << n << ", depth from " << depth;
+        }
+        EXPECT_EQ(camera.losses().color(), 0u);
+        // One that is only looked up needs those before it.
+        camera.go_to(time_of(5));
+        ASSERT_TRUE(camera.offset());
+        camera.read(frame);
+        EXPECT_EQ(frame.color.pixels, expected_[5]) << "depth from " << depth;
+    }
+}
+
+TEST_F(RecordingCameraOfVideo, ColourIsTheSameAfterFramesWerePassedOver) {
+    record_video();
     RecordedFrames camera = frames(0);
     Frame frame;
     for (int round = 0; round < 2; ++round) {
@@ -223,7 +269,7 @@ TEST_F(RecordingCamera, ColourThatRefersToEarlierColourIsTheSameAfterFramesWereP
                 continue;
             }
             camera.read(frame);
-            EXPECT_EQ(frame.color.pixels, expected[n]) << n;
+            EXPECT_EQ(frame.color.pixels, expected_[n]) << n;
         }
         camera.rewind();
     }

@@ -69,8 +69,8 @@ void Participant::on_visitors() {
     announce();
     for (const wire::Visitor& visitor : session_.visitors())
         if (std::find(before.begin(), before.end(), visitor) == before.end())
-            remark(say(Phrase::asks_to_come_in, visitor.name,
-                       wire::spoken_with_article(visitor.role)));
+            remark(say(visitor.records ? Phrase::asks_to_record : Phrase::asks_to_come_in,
+                       visitor.name, wire::spoken_with_article(visitor.role)));
 }
 
 void Participant::on_managed() {

@@ -124,6 +124,17 @@ private:
     std::string name_, text_;
 };
 
+nlohmann::json visitor_json(const wire::Visitor& visitor) {
+    nlohmann::json json{{"id", std::uint32_t(visitor.participant)},
+                        {"role", wire::text_of(visitor.role)},
+                        {"records", visitor.records}};
+    if (!visitor.name.empty()) {
+        json["name"] = visitor.name;
+        json["person"] = hex_text(visitor.person);
+    }
+    return json;
+}
+
 }  // namespace
 
 nlohmann::json to_json(const HostFigures& figures) {
@@ -184,10 +195,7 @@ nlohmann::json to_json(const HostFigures& figures) {
                              {"bytes", camera.bytes}});
     nlohmann::json visitors = nlohmann::json::array();
     for (const auto& visitor : figures.visitors)
-        visitors.push_back({{"id", std::uint32_t(visitor.participant)},
-                            {"name", visitor.name},
-                            {"person", hex_text(visitor.person)},
-                            {"role", wire::text_of(visitor.role)}});
+        visitors.push_back(visitor_json(visitor));
     nlohmann::json certificates = nlohmann::json::array();
     for (const auto& certificate : figures.certificates)
         certificates.push_back({{"of", certificate.of},
@@ -389,125 +397,6 @@ std::string to_prometheus(const PortFigures& figures_of_all) {
     out.family("uptime_seconds", "counter", "Since the host began.");
     out.value("", host.seconds);
     return out.take();
-}
-
-std::string to_table(const nlohmann::json& figures) {
-    const auto number = [](const nlohmann::json& from, const char* field) {
-        return from.contains(field) && from[field].is_number() ? from[field].get<double>() : 0.0;
-    };
-    const auto text = [](const nlohmann::json& from, const char* field) {
-        return from.contains(field) && from[field].is_string() ? from[field].get<std::string>()
-                                                               : std::string();
-    };
-    const auto list = [](const nlohmann::json& from, const char* field) {
-        return from.contains(field) && from[field].is_array() ? from[field]
-                                                              : nlohmann::json::array();
-    };
-    const auto cameras = list(figures, "cameras"), participants = list(figures, "participants");
-    char line[400];
-    std::snprintf(line, sizeof(line), "%s: %zu camera(s), %zu participant(s), %.0f s\n",
-                  text(figures, "name").c_str(), cameras.size(), participants.size(),
-                  number(figures, "seconds"));
-    std::string table = line;
-    const auto count = [&](const char* field, const char* what) {
-        if (const double value = number(figures, field); value > 0) {
-            std::snprintf(line, sizeof(line), "%s: %.0f\n", what, value);
-            table += line;
-        }
-    };
-    count("faults", "faults inside the host, see its log");
-    count("turned_away", "strangers turned away");
-    if (const std::string problem = text(figures, "page_problem"); !problem.empty())
-        table += problem + "\n";
-    if (figures.contains("problems") && figures["problems"].is_object())
-        for (const char* of : {"audit_log", "room"})
-            if (const std::string problem = text(figures["problems"], of); !problem.empty())
-                table += problem + "\n";
-    for (const auto& certificate : list(figures, "certificates"))
-        if (const std::string problem = text(certificate, "problem"); !problem.empty())
-            table += problem + "\n";
-    for (const auto& problem : list(figures, "case_problems"))
-        if (problem.is_string())
-            table += problem.get<std::string>() + "\n";
-    std::snprintf(line, sizeof(line), "%-24s %-7s %6s %8s %8s %8s %8s %8s  %s\n", "camera", "state",
-                  "fps", "age ms", "lane ms", "p99 ms", "dropped", "reopens", "filter");
-    table += line;
-    for (const auto& camera : cameras) {
-        double p50 = 0, p99 = 0;
-        for (const auto& stage : list(camera, "stages"))
-            if (text(stage, "name") == "lane") {
-                p50 = number(stage, "p50_ms");
-                p99 = number(stage, "p99_ms");
-            }
-        const std::string filter = text(camera, "filter");
-        std::snprintf(
-            line, sizeof(line), "%-24.24s %-7.7s %6.1f %8.0f %8.2f %8.2f %8.0f %8.0f  %s\n",
-            text(camera, "name").c_str(), text(camera, "state").c_str(), number(camera, "fps"),
-            number(camera, "age_ms"), p50, p99, number(camera, "dropped_newest"),
-            number(camera, "reopens"), shown_filter(filter).c_str());
-        table += line;
-        if (const std::string problem = text(camera, "problem"); !problem.empty())
-            table += "    " + problem + "\n";
-        if (const std::string adjusted = text(camera, "adjusted"); !adjusted.empty())
-            table += "    by operators: " + adjusted + "\n";
-    }
-    if (figures.contains("registration") && figures["registration"].is_object()) {
-        const auto& registration = figures["registration"];
-        const std::string made = text(registration, "made"), method = text(registration, "method"),
-                          problem = text(registration, "problem");
-        if (!made.empty() || !method.empty())
-            table += "places of cameras: " + (made.empty() ? "" : made + ", ") + method + "\n";
-        if (!problem.empty())
-            table += problem + "\n";
-    }
-    if (const std::string color = text(figures, "automatic_color"); !color.empty())
-        table += "automatic colour is " + color + "\n";
-    for (const auto& camera : list(figures, "published")) {
-        std::snprintf(line, sizeof(line), "camera %.0f %.100s of participant %.0f: %.7s",
-                      number(camera, "id"), text(camera, "name").c_str(),
-                      number(camera, "publisher"), text(camera, "state").c_str());
-        const std::string adjusted = text(camera, "adjusted");
-        table += line + (adjusted.empty() ? adjusted : "; by operators: " + adjusted) + "\n";
-    }
-    for (const auto& participant : participants) {
-        const std::string renderer = text(participant, "renderer");
-        std::snprintf(line, sizeof(line), "participant %.0f %.100s: ", number(participant, "id"),
-                      text(participant, "name").c_str());
-        table += line;
-        if (const auto age = participant.find("age_ms");
-            age != participant.end() && age->is_number()) {
-            std::snprintf(line, sizeof(line), "newest picture %.0f ms old", age->get<double>());
-            table += line;
-        } else
-            table += "shows no pictures";
-        if (!renderer.empty())
-            table += ", drawn with " + renderer.substr(0, 40);
-        if (const std::string role = text(participant, "role"); !role.empty())
-            table += ", " + role;
-        if (const auto muted = participant.find("muted");
-            muted != participant.end() && muted->is_boolean() && muted->get<bool>())
-            table += ", muted";
-        if (const double denied = number(participant, "denied_messages"); denied > 0) {
-            std::snprintf(line, sizeof(line), ", %.0f messages not allowed", denied);
-            table += line;
-        }
-        if (const double refused = number(participant, "refused_requests"); refused > 0) {
-            std::snprintf(line, sizeof(line), ", %.0f requests refused", refused);
-            table += line;
-        }
-        table += "\n";
-    }
-    for (const auto& visitor : list(figures, "visitors"))
-        table += "waits to be let in: " + text(visitor, "name") + " (" + text(visitor, "role") +
-                 ", person " + text(visitor, "person") + ")\n";
-    for (const auto& session : list(figures, "sessions"))
-        table += "\n" + to_table(session);
-    for (const auto& session : list(figures, "closed_sessions")) {
-        const std::string problem = text(session, "problem");
-        table += "\n" + text(session, "name") + ": " +
-                 (problem.empty() ? "is being opened" : "not open. " + problem) + "\n";
-    }
-    return table;
 }
 
 }  // namespace theatron::host

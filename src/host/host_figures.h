@@ -103,11 +103,12 @@ struct PortFigures {
 // "color_gain":{"red","green","blue","estimated"},
 // "fps","age_ms","stages":[…],"dropped":{…},"lost_pictures",…}],"participants":[{"id","name","age_ms",
 // "renderer","refused_requests","denied_messages","refused_faces","role","muted","direct",…}],"visitors":[{"id","name",
-// "person","role"}],"published":[{"id","name","publisher","state",
+// "person","role","records"}],"published":[{"id","name","publisher","state",
 // "adjusted","dropped_slow","bytes"}],"overlaps":[{"a","b","apart_mm","alarm"}],
 // "registration":{"made","method","problem"},"case_problems":[…],"past_bytes","turned_away",
 // "faults","page_problem","problems":{"audit_log","room"},
 // "certificates":[{"of","fingerprint","expires","seconds_left","problem"}]}
+// Visitors without a name have none in it.
 nlohmann::json to_json(const HostFigures& figures);
 // The same of the first session of a host; those of its further ones are in "sessions", and those
 // that are not open in "closed_sessions":[{"name","problem"}]. Both are missing where there are

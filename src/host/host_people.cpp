@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/fault.h"
 #include "base/log.h"
+#include "base/steady_clock.h"
 #include "host/host_identity.h"
 #include "host/host_impl.h"
 #include "net/certificate.h"
@@ -87,7 +88,7 @@ void Host::follow_links() {
 
 void Host::manage(wire::ManageAction action, ParticipantId person, wire::Role role) {
     impl_->server->post([impl = impl_.get(), action, person, role] {
-        const auto refusal = impl->session->manage({0, action, person, role});
+        const auto refusal = impl->session->manage({0, action, person, role}, steady_now());
         if (refusal != wire::ManageRefusal::none)
             log::say(wire::text_of(refusal));
         impl->carry_out();

@@ -115,6 +115,30 @@ TEST_F(LobbyOfTwo, TheFiguresOfAllAreForTheHostsOperator) {
     EXPECT_EQ(ask("/status", "observer-3").status, 401);
 }
 
+TEST_F(LobbyOfTwo, VisitorsAreNamedToThoseWhoDecideOnThem) {
+    PortSession& first = sessions.at(0).second;
+    first.http_tokens = [] {
+        return std::vector<std::string>{"operator-3", "publisher-3", "metrics-3"};
+    };
+    first.figures = [] {
+        HostFigures figures;
+        figures.visitors.push_back({ParticipantId{7}, "Ada", Bytes(4), wire::Role::expert, true});
+        return figures;
+    };
+    for (const char* token : {"operator-3", "metrics-3"}) {
+        const auto status = nlohmann::json::parse(ask("/status", token).body);
+        EXPECT_EQ(status["visitors"].at(0)["name"], "Ada");
+        EXPECT_NE(to_table(status).find("let in: Ada (expert, records, person 00000000)"),
+                  std::string::npos)
+            << to_table(status);
+    }
+    const auto status = nlohmann::json::parse(ask("/status", "publisher-3").body);
+    EXPECT_EQ(status["visitors"].size(), 1u);
+    EXPECT_EQ(status["visitors"].dump().find("Ada"), std::string::npos);
+    EXPECT_NE(to_table(status).find("waits to be let in: somebody (expert)"), std::string::npos);
+    EXPECT_NE(ask("/metrics", "publisher-3").body.find("visitors{} 1"), std::string::npos);
+}
+
 TEST_F(LobbyOfTwo, MetricsNameFurtherSessionsInALabel) {
     const std::string metrics = ask("/metrics", "operator-3").body;
     EXPECT_NE(metrics.find("\ntheatron_participants{} 0\n"), std::string::npos);

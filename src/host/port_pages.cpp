@@ -33,6 +33,15 @@ bool must_knock(const std::string& secret, const SessionSwitch::Sessions& sessio
     });
 }
 
+// True for an operator's token, and that of the host's monitoring.
+bool decides_on_people(const std::string& secret, const SessionSwitch::Sessions& sessions) {
+    return std::ranges::any_of(sessions, [&](const auto& entry) {
+        const auto token = entry.second.find_token(secret);
+        return net::equal_secrets(secret, entry.second.metrics_token) ||
+               (token && token->role == wire::Role::operator_);
+    });
+}
+
 // The sessions whose figures a token opens.
 struct Opened {
     std::vector<const PortSession*> sessions;
@@ -83,8 +92,13 @@ net::HttpAnswer answer_page(const net::HttpRequest& request, const Page& page,
                                                             : MayRead::no;
     return answer_http(request, may_read, [&] {
         PortFigures figures;
-        for (const PortSession* session : opened.sessions)
+        for (const PortSession* session : opened.sessions) {
             figures.sessions.push_back(session->figures());
+            // Only those who decide on them need to know who waits at the door.
+            if (!decides_on_people(secret, sessions))
+                for (wire::Visitor& visitor : figures.sessions.back().visitors)
+                    visitor = {.role = visitor.role};
+        }
         if (opened.is_all)
             figures.closed = closed;
         return figures;

@@ -58,9 +58,11 @@ void Intake::describe(std::vector<RecordedCamera> cameras, std::map<StreamId, Se
         if (camera.color)
             streams.emplace_back(color_stream(camera.id), &camera);
     }
-    for (auto& [id, entry] : entries_)
+    for (auto& [id, entry] : entries_) {
         entry.ended = std::none_of(streams.begin(), streams.end(),
                                    [&, id = id](const auto& s) { return s.first == id; });
+        entry.has_left |= entry.ended;
+    }
     for (std::size_t i = 0; i < streams.size(); ++i) {
         const auto& [id, camera] = streams[i];
         const auto phase =
@@ -69,6 +71,13 @@ void Intake::describe(std::vector<RecordedCamera> cameras, std::map<StreamId, Se
         Entry& entry = at->second;
         if (is_new)
             entry.gate = StreamGate(phase);
+        // The number of a camera that has left was given to another one.
+        if (entry.has_left && entry.stream.camera != camera->name) {
+            entry.gate.restart();
+            entry.captured.reset();
+            entry.heard = now;
+        }
+        entry.has_left = false;
         entry.stream.id = id;
         entry.stream.camera = camera->name;
         entry.patience =
@@ -352,7 +361,10 @@ std::vector<std::string> Intake::news(TimePoint now) {
             said_ = now;
         }
     }
-    if (recorder_ && !held_up) {
+    // Pictures that waited for the recorder meanwhile came all at once.
+    if (held_up)
+        disk_judged_from_ = now + late_disk;
+    if (recorder_ && now >= disk_judged_from_) {
         const Recorder::Figures figures = recorder_->figures();
         const bool late = figures.late > late_disk;
         if (late && !disk_is_late_)

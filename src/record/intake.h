@@ -147,6 +147,7 @@ private:
         TimePoint heard;                    // of it, or of its description
         std::optional<TimePoint> captured;  // the last one recorded, in session time
         bool ended = false, silent = false;
+        bool has_left = false;   // it was not described once, after it had been
         std::uint64_t said = 0;  // pictures that were reported as missing
     };
     struct Description {
@@ -230,6 +231,7 @@ private:
     TimePoint kept_from_;
     bool wants_segment_ = false;
     TimePoint looked_, said_;
+    TimePoint disk_judged_from_;
     bool disk_is_late_ = false;
     std::uint64_t segments_begun_ = 0, room_segment_ = 0;  // that of the newest part of the room
     FrameNumber room_parts_ = 0;

@@ -177,6 +177,19 @@ TEST_F(IntakeChange, ACameraThatLeavesCostsTheOthersNoFrame) {
     EXPECT_EQ(recording->segments().size(), 1u);
 }
 
+TEST_F(IntakeChange, AnotherCameraInThePlaceOfOneThatLeftIsNoInterruption) {
+    begin_with_both();
+    right_leaves();
+    run(90, {left_});
+    senders_[right_] = {.next = 7'000, .setting = SettingId{2}};
+    describe({camera(0, "left"), camera(1, "guest")});
+    run(20, {left_, right_});
+    EXPECT_EQ(lost(), 0u);
+    for (const Intake::Stream& stream : intake_.streams(local_))
+        EXPECT_TRUE(stream.complete()) << stream.camera;
+    EXPECT_EQ(recorded()->cameras().at(1).depth.frames.size(), 40u);
+}
+
 TEST_F(IntakeChange, ACalibrationThatChangesAfterACameraLeftIsRecorded) {
     begin_with_both();
     right_leaves();
@@ -315,6 +328,25 @@ TEST_F(IntakeChange, ARecorderThatStoodStillTakesWhatWaitsFirst) {
     run(20, {left_, right_});
     EXPECT_EQ(lost(), 0u);
     EXPECT_EQ(numbers(recorded()->cameras().at(0).depth), count_to(41));
+}
+
+TEST_F(IntakeChange, ADiskIsNotCalledSlowWhereTheRecorderStoodStill) {
+    begin_with_left();
+    const auto called_slow = [&] {
+        const auto news = intake_.news(local_);
+        return std::any_of(news.begin(), news.end(), [](const std::string& sentence) {
+            return sentence.find("The disk") != std::string::npos;
+        });
+    };
+    EXPECT_FALSE(called_slow());
+    // Its thread had no time to write the first of these before the second came.
+    run(1, {left_});
+    local_ += 4s;
+    session_ += 4s;
+    run(1, {left_});
+    EXPECT_FALSE(called_slow());
+    local_ += 20ms;
+    EXPECT_FALSE(called_slow());
 }
 
 TEST_F(IntakeChange, ACalibrationMayChangeAfterACameraCameAndWent) {

@@ -114,6 +114,8 @@ Status read_tag(Window& window, const Element& tag, FoundHead& head) {
             head.recovered = value;
         if (name == early_end_tag)
             head.early_end = value;
+        if (name == next_segment_tag)
+            head.has_next = true;
         return status;
     });
 }
@@ -348,6 +350,7 @@ Result<FoundHead> read_head(ByteSource& source, CopySearch search) {
         damaged || copy->tracks != plain.head.tracks || copy->attachments != plain.head.attachments;
     copy->damaged = damaged;
     copy->early_end = plain.head.early_end;
+    copy->has_next = plain.head.has_next;
     copy->closed = plain.head.closed;
     copy->segment_end = plain.head.segment_end;
     copy->duration_us = plain.head.duration_us;

@@ -221,6 +221,21 @@ Bytes MatroskaWriter::render_cues() const {
     return bytes;
 }
 
+// It has its room in the file, with one tag, on a full disk too. Returns 0 or errno.
+int MatroskaWriter::write_seek_head(const std::vector<Tag>& tags) {
+    Bytes seek_head;
+    render_seek_head(places_, segment_, seek_head);
+    render_tags(tags, seek_head);
+    assert(seek_head.size() + void_head_size <= seek_head_space);
+    render_void(seek_head_space - seek_head.size(), seek_head);
+    return write_at(file_, seek_head, segment_);
+}
+
+void MatroskaWriter::name_next(std::uint32_t number) {
+    if (early_end_.empty() && write_seek_head({{next_segment_tag, std::to_string(number)}}) == 0)
+        (void)fdatasync(file_);
+}
+
 std::string MatroskaWriter::finish() {
     const bool was_cut_back = failed_;
     std::string trouble;
@@ -237,13 +252,10 @@ std::string MatroskaWriter::finish() {
     }
 
     // These parts have their room in the file, on a full disk too.
-    Bytes seek_head;
-    render_seek_head(places_, segment_, seek_head);
+    std::vector<Tag> tags;
     if (was_cut_back && !early_end_.empty())
-        render_tags({{early_end_tag, early_end_}}, seek_head);
-    assert(seek_head.size() + void_head_size <= seek_head_space);
-    render_void(seek_head_space - seek_head.size(), seek_head);
-    int error = write_at(file_, seek_head, segment_);
+        tags.push_back({early_end_tag, early_end_});
+    int error = write_seek_head(tags);
     if (error == 0)
         error = write_duration();
     if (error == 0)

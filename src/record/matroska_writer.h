@@ -46,6 +46,10 @@ public:
     // one sentence if it failed; the file can be opened nevertheless.
     std::string finish();
 
+    // After finish(), unless writing failed: notes in the file that segment `number` follows, so
+    // that its absence is noticed. A failure changes nothing else.
+    void name_next(std::uint32_t number);
+
     std::uint64_t bytes() const { return end_; }
     // Bytes that another program has cut off the file meanwhile, as of the last write.
     std::uint64_t cut_bytes() const { return cut_bytes_; }
@@ -58,6 +62,7 @@ private:
     void append_cluster(std::span<const Block> blocks, Bytes& out);
     std::string append(const Bytes& bytes);
     int write_duration();
+    int write_seek_head(const std::vector<Tag>& tags);
     std::string problem(int error) const;
     std::string fail(int error);
 

@@ -84,6 +84,7 @@ Recorder::Recorder(const std::filesystem::path& path, const std::vector<Recorded
     streams_ = streams_of(content);
     last_now_ = clock.session;
     figures_.bytes = writer_->bytes();
+    files_.push_back(path_);
     thread_ = std::thread([this] { run(); });
 }
 
@@ -155,6 +156,11 @@ Recorder::Figures Recorder::figures() const {
     else if (!waiting_.empty())
         figures.late = own_now_ - waiting_.front().came;
     return figures;
+}
+
+std::vector<std::filesystem::path> Recorder::files() const {
+    const std::lock_guard lock(mutex_);
+    return files_;
 }
 
 void Recorder::finish() {
@@ -285,7 +291,10 @@ std::string Recorder::begin_next() {
         duration_before_ += writer_->duration();
         bytes_before_ += writer_->bytes();
         cut_before_ += writer_->cut_bytes();
+        writer_->name_next(info_.number);
         writer_ = std::move(writer);
+        const std::lock_guard lock(mutex_);
+        files_.push_back(file);
     } catch (const Error& problem) {
         return std::string(problem.what()) + " The recording ends here; " + writer_->fate() + ".";
     }

@@ -90,6 +90,8 @@ public:
 
     // From any thread.
     Figures figures() const;
+    // Those of its segments, in order; the last one is being written.
+    std::vector<std::filesystem::path> files() const;
 
     // Writes all added messages and closes the file. Further messages are refused.
     void finish();
@@ -132,6 +134,7 @@ private:
     std::optional<Duration> oldest_;  // arrival of the oldest message that is being written
     bool finishing_ = false;
     Figures figures_;
+    std::vector<std::filesystem::path> files_;
 
     std::thread thread_;
 };

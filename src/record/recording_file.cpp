@@ -91,6 +91,20 @@ std::optional<wire::MediaHeader> header_of(const FoundBlock& block, StreamId id,
     return *header;
 }
 
+// Files beside `path` that hold segments of the same recording under other names, with their
+// numbers.
+std::vector<std::pair<std::filesystem::path, std::uint32_t>> renamed_segments(
+    const std::filesystem::path& path, const SegmentInfo& own) {
+    std::vector<std::pair<std::filesystem::path, std::uint32_t>> renamed;
+    for (const std::filesystem::path& file : files_of_other_names(path)) {
+        // Another program's file may be large: it is not searched for a copy of a head.
+        const auto info = read_segment_info(file, CopySearch::at_the_beginning);
+        if (info && info->recording == own.recording && info->number != own.number)
+            renamed.emplace_back(file, info->number);
+    }
+    return renamed;
+}
+
 void note_filters(StreamContent& stream, const std::string& note) {
     std::string filters = note == no_filters ? "" : clean_text(note, max_note);
     if (filters.size() > max_note)
@@ -439,15 +453,25 @@ Result<std::unique_ptr<RecordingFile>> RecordingFile::read(std::unique_ptr<ByteS
 std::unique_ptr<RecordingFile> RecordingFile::open(const std::filesystem::path& path) {
     std::vector<std::unique_ptr<ByteSource>> sources;
     std::vector<std::string> files;
-    sources.push_back(open_file_source(path));
-    files.push_back(path.string());
-    for (const std::filesystem::path& other : files_of_later_segments(path)) {
-        sources.push_back(open_file_source(other));
-        files.push_back(other.string());
+    const auto add = [&](const std::filesystem::path& file) {
+        sources.push_back(open_file_source(file));
+        files.push_back(file.string());
+    };
+    add(path);
+    for (const std::filesystem::path& other : files_of_later_segments(path))
+        add(other);
+    std::vector<std::filesystem::path> earlier = files_of_earlier_segments(path);
+    if (const auto own = read_segment_info(path, CopySearch::at_the_beginning)) {
+        for (const auto& [file, number] : renamed_segments(path, *own)) {
+            if (number > own->number)
+                add(file);
+            else
+                earlier.push_back(file);
+        }
     }
     auto recording = read(std::move(sources), std::move(files));
     if (recording) {
-        (*recording)->note_earlier(path);
+        (*recording)->note_earlier(earlier);
         return std::move(*recording);
     }
     const std::string name = "'" + path.string() + "'";
@@ -466,13 +490,13 @@ std::unique_ptr<RecordingFile> RecordingFile::open(const std::filesystem::path& 
     }
 }
 
-// Segments before the first one that was opened are missing, unless they lie beside it.
-void RecordingFile::note_earlier(const std::filesystem::path& path) {
+// Segments before the first one that was opened are missing, unless they are among `earlier`.
+void RecordingFile::note_earlier(const std::vector<std::filesystem::path>& earlier) {
     const SegmentInfo& own = segments_.front().info;
     if (!segments_.front().has_info || own.number == 1)
         return;
     std::set<std::uint32_t> found;
-    for (const std::filesystem::path& file : files_of_earlier_segments(path)) {
+    for (const std::filesystem::path& file : earlier) {
         const auto info = read_segment_info(file);
         if (!info || info->recording != own.recording || info->number >= own.number)
             continue;

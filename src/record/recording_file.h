@@ -136,8 +136,8 @@ struct Segment {
 
 class RecordingFile {
 public:
-    // Opens `path` and the segments that follow it in the same folder. Throws Error with one
-    // sentence if it is no recording.
+    // Opens `path` and the segments that follow it in the same folder, also under other names.
+    // Throws Error with one sentence if it is no recording.
     static std::unique_ptr<RecordingFile> open(const std::filesystem::path& path);
 
     // The same without exceptions, for untrusted bytes: segments in any order. The first one must
@@ -153,8 +153,8 @@ public:
     // counted as pictures anywhere.
     const StreamContent& room() const { return room_; }
     const std::vector<Segment>& segments() const { return segments_; }
-    // Segments missing before the first one and between it and the last one, and at least as many
-    // as unreadable_files().
+    // Segments missing before the first one and between it and the last one, one more if the last
+    // one says that another follows, and at least as many as unreadable_files().
     std::uint64_t missing_segments() const { return missing_segments_; }
     // Files that follow by their names, and whose head is damaged in all its copies. Their pictures
     // are not read with the cameras of another segment, because a segment begins wherever
@@ -186,7 +186,7 @@ private:
     // Adds this segment's voice tracks to voices_.
     void add_voices(const FoundHead& head, std::size_t segment);
     void leave_out_repeated(std::size_t segment, std::size_t first_room);
-    void note_earlier(const std::filesystem::path& path);
+    void note_earlier(const std::vector<std::filesystem::path>& earlier);
     void place_segments();
 
     std::vector<std::shared_ptr<ByteSource>> sources_;

@@ -22,6 +22,7 @@ inline constexpr const char* check_name = "theatron.check";
 inline constexpr const char* recovered_tag = "THEATRON_RECOVERED";
 // A tag of a file whose writing failed: the cause, one of the three below.
 inline constexpr const char* early_end_tag = "THEATRON_ENDED";
+inline constexpr const char* next_segment_tag = "THEATRON_NEXT";
 inline constexpr const char* disk_full = "disk full";
 inline constexpr const char* disk_failed = "disk failed";
 inline constexpr const char* file_too_large = "file size";  // the system allows no larger one

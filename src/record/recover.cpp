@@ -294,6 +294,8 @@ Recovered recover(const RecordingFile& recording, const std::filesystem::path& o
         }
         flush();
         require_written(writer.finish(), file);
+        if (s + 1 < recording.segments().size())
+            writer.name_next(recording.segments()[s + 1].info.number);
         check(file, written);
         bytes_before += segment.bytes;
         result.bytes += writer.bytes();

@@ -53,9 +53,9 @@ std::optional<SegmentInfo> segment_info_of(const FoundHead& head) {
     return std::nullopt;
 }
 
-std::optional<SegmentInfo> read_segment_info(const std::filesystem::path& file) {
+std::optional<SegmentInfo> read_segment_info(const std::filesystem::path& file, CopySearch search) {
     try {
-        const Result<FoundHead> head = read_head(*open_file_source(file));
+        const Result<FoundHead> head = read_head(*open_file_source(file), search);
         return head ? segment_info_of(*head) : std::nullopt;
     } catch (const Error&) {
         return std::nullopt;
@@ -102,6 +102,7 @@ std::optional<SegmentChain::Member> SegmentChain::take() {
     Member member = std::move(waiting_.extract(waiting_.begin()).mapped());
     last_ = number_of(member.info);
     ++taken_;
+    has_next_ = member.head.has_next;
     return member;
 }
 
@@ -145,8 +146,8 @@ SegmentChain::Behind SegmentChain::add_behind(const Member& taken, std::uint64_t
 }
 
 std::uint64_t SegmentChain::missing() const {
-    const std::uint64_t between = last_ - number_of(first_) + 1 - taken_;
-    return std::max<std::uint64_t>(between, unreadable_.size());
+    const std::uint64_t absent = last_ - number_of(first_) + 1 - taken_ + has_next_;
+    return std::max<std::uint64_t>(absent, unreadable_.size());
 }
 
 }  // namespace theatron::record

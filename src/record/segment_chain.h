@@ -18,7 +18,8 @@ namespace theatron::record {
 // The segment info of a head; empty for files of version 1.
 std::optional<SegmentInfo> segment_info_of(const FoundHead& head);
 // The segment info of a file; empty also if it is no recording or cannot be read.
-std::optional<SegmentInfo> read_segment_info(const std::filesystem::path& file);
+std::optional<SegmentInfo> read_segment_info(const std::filesystem::path& file,
+                                             CopySearch search = CopySearch::everywhere);
 
 class SegmentChain {
 public:
@@ -64,7 +65,8 @@ public:
     Behind add_behind(const Member& taken, std::uint64_t at);
 
     // After the last one was taken: the number of missing segments between the first and the last,
-    // and at least the number of unreadable() files.
+    // one more if the last one says that another follows, and at least the number of unreadable()
+    // files.
     std::uint64_t missing() const;
     const std::vector<std::string>& unreadable() const { return unreadable_; }
     // Files that can be read, and do not continue the recording.
@@ -77,6 +79,7 @@ private:
     std::map<std::uint32_t, Member> waiting_;
     std::uint32_t last_ = 0;  // number of the segment that was taken last
     std::uint64_t taken_ = 0;
+    bool has_next_ = false;  // likewise: it says that another one follows
     std::vector<std::string> unreadable_, foreign_;
 };
 

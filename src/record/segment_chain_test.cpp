@@ -39,6 +39,40 @@ TEST(SegmentChain, ALaterSegmentSaysWhichEarlierOnesAreMissing) {
     EXPECT_EQ(RecordingFile::open(folder.path() / "a.mkv")->missing_segments(), 0u);
 }
 
+TEST(SegmentChain, FilesThatWereRenamedAreFound) {
+    const testing::TemporaryFolder folder;
+    record_segments(folder.path(), 3);
+    const fs::path first = folder.path() / "Müller.mkv", third = folder.path() / "end.mkv";
+    fs::rename(folder.path() / "a.mkv", first);
+    fs::rename(folder.path() / "a.003.mkv", third);
+    // Neither a second copy nor another recording counts.
+    fs::copy_file(folder.path() / "a.002.mkv", folder.path() / "copy.mkv");
+    record_all(folder.path() / "other.mkv", 1, generated(1, 3, 100));
+    const auto recording = RecordingFile::open(first);
+    EXPECT_EQ(recording->segments().size(), 3u);
+    EXPECT_TRUE(recording->complete());
+    EXPECT_EQ(remarks_on_files(*recording), std::vector<std::string>{});
+    EXPECT_EQ(RecordingFile::open(third)->begins_in(), first.string());
+    EXPECT_EQ(RecordingFile::open(third)->missing_segments(), 0u);
+}
+
+TEST(SegmentChain, ThatTheLastFileIsLostIsSaid) {
+    const testing::TemporaryFolder folder;
+    record_segments(folder.path(), 3);
+    const auto missing = [&] {
+        return RecordingFile::open(folder.path() / "a.mkv")->missing_segments();
+    };
+    EXPECT_EQ(missing(), 0u);
+    const fs::path third = folder.path() / "a.003.mkv";
+    write_bytes(third, Bytes(fs::file_size(third)));
+    EXPECT_EQ(missing(), 1u) << "it cannot be read";
+    fs::remove(third);
+    EXPECT_EQ(missing(), 1u);
+    EXPECT_FALSE(RecordingFile::open(folder.path() / "a.mkv")->complete());
+    fs::remove(folder.path() / "a.002.mkv");
+    EXPECT_EQ(missing(), 1u) << "at least";
+}
+
 TEST(SegmentChain, AFileThatCannotBeReadIsNamed) {
     const testing::TemporaryFolder folder;
     record_segments(folder.path(), 3);

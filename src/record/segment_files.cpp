@@ -31,23 +31,28 @@ Name parse(const std::string& stem) {
     return {stem.substr(0, dot), number};
 }
 
-// Files beside `file` of the same name and ending, whose number is from `least` to `most`.
-std::vector<std::filesystem::path> files_beside(const std::filesystem::path& file, const Name& own,
-                                                std::uint32_t least, std::uint32_t most) {
-    std::map<std::uint32_t, std::filesystem::path> found;
+// Calls `visit(path, name)` with each regular file in the folder of `file` that has its ending.
+template <class Visit>
+void for_each_beside(const std::filesystem::path& file, Visit visit) {
     const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
     std::error_code problem;
     for (std::filesystem::directory_iterator at(folder, problem), end; !problem && at != end;
          at.increment(problem)) {
         const std::filesystem::path& other = at->path();
-        if (other.extension() != file.extension())
-            continue;
-        const Name name = parse(other.stem().string());
         std::error_code ignored;
-        if (name.base == own.base && least <= name.number && name.number <= most &&
-            at->is_regular_file(ignored))
-            found[name.number] = file.parent_path() / other.filename();
+        if (other.extension() == file.extension() && at->is_regular_file(ignored))
+            visit(file.parent_path() / other.filename(), parse(other.stem().string()));
     }
+}
+
+// Files beside `file` of the same name and ending, whose number is from `least` to `most`.
+std::vector<std::filesystem::path> files_beside(const std::filesystem::path& file, const Name& own,
+                                                std::uint32_t least, std::uint32_t most) {
+    std::map<std::uint32_t, std::filesystem::path> found;
+    for_each_beside(file, [&](std::filesystem::path other, const Name& name) {
+        if (name.base == own.base && least <= name.number && name.number <= most)
+            found[name.number] = std::move(other);
+    });
     std::vector<std::filesystem::path> files;
     for (auto& [number, path] : found)
         files.push_back(std::move(path));
@@ -64,6 +69,17 @@ std::vector<std::filesystem::path> files_of_later_segments(const std::filesystem
 std::vector<std::filesystem::path> files_of_earlier_segments(const std::filesystem::path& file) {
     const Name own = parse(file.stem().string());
     return files_beside(file, own, 1, own.number - 1);
+}
+
+std::vector<std::filesystem::path> files_of_other_names(const std::filesystem::path& file) {
+    const std::string base = parse(file.stem().string()).base;
+    std::vector<std::filesystem::path> files;
+    for_each_beside(file, [&](std::filesystem::path other, const Name& name) {
+        if (name.base != base)
+            files.push_back(std::move(other));
+    });
+    std::sort(files.begin(), files.end());
+    return files;
 }
 
 }  // namespace theatron::record

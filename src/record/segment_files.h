@@ -12,5 +12,8 @@ namespace theatron::record {
 std::vector<std::filesystem::path> files_of_later_segments(const std::filesystem::path& file);
 // The same for earlier segments: for "a.003.mkv", "a.mkv" and "a.002.mkv".
 std::vector<std::filesystem::path> files_of_earlier_segments(const std::filesystem::path& file);
+// All other files in the folder of `file` with its ending: of segments that were renamed, and of
+// other recordings. In the order of their names.
+std::vector<std::filesystem::path> files_of_other_names(const std::filesystem::path& file);
 
 }  // namespace theatron::record

@@ -62,6 +62,12 @@ void StreamGate::close() {
     asked_.reset();
 }
 
+void StreamGate::restart() {
+    close();
+    newest_.reset();
+    begun_ = has_references_ = false;
+}
+
 bool StreamGate::has_recorded(FrameNumber frame) const {
     return std::find(recorded_.begin(), recorded_.end(), frame) != recorded_.end();
 }

@@ -39,6 +39,8 @@ public:
     bool on_dropped(TimePoint now);
     // Recording continues with a key frame: a segment or a connection begins.
     void close();
+    // Another stream goes on in place of this one, which has ended.
+    void restart();
 
     // The next frame that refers to another asks for a key frame, although nothing is missing.
     void want_key() { wants_key_ = true; }

@@ -82,6 +82,17 @@ wire::Text Admission::full(const wire::Join& hello, Role role) const {
     return {};
 }
 
+bool Admission::is_door_full(const wire::Join& hello) const {
+    std::size_t all = 0;
+    int by_this_link = 0;
+    for (const auto& [id, there] : participants_)
+        if (there.waits()) {
+            ++all;
+            by_this_link += there.token == hello.token;
+        }
+    return all >= wire::max_visitors || by_this_link >= max_visitors_by_one_link;
+}
+
 bool Admission::knows(const Participant& participant) const {
     return std::any_of(tokens_.begin(), tokens_.end(), [&](const Token& token) {
         return token.link == participant.link && equal_secrets_(participant.token, token.secret);

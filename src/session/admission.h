@@ -47,6 +47,8 @@ public:
     // and one link admits no more than half of all, so that a link in foreign hands shuts out
     // nobody who has another one. Somebody who comes back does not count twice.
     static constexpr int max_participants = 128, kept_for_operators = 8, max_by_one_link = 64;
+    // Half of those who wait may have come by one link.
+    static constexpr int max_visitors_by_one_link = wire::max_visitors / 2;
 
     struct Participant {
         // `streams`: number of streams in the session.
@@ -61,6 +63,7 @@ public:
         }
         bool has(wire::Feature feature) const;
         TimePoint connected;
+        std::optional<TimePoint> admitted;  // by an operator, perhaps on an earlier connection
         std::uint16_t protocol = 0;
         std::string name;                     // as shown, told apart from others
         std::string given_name;               // as the person gave it
@@ -113,6 +116,8 @@ public:
         wire::Text refusal;  // empty: the token is valid
     };
     Verdict judge(const wire::Join& hello, TimePoint now) const;
+    // True if nobody more can wait, or nobody more by this link.
+    bool is_door_full(const wire::Join& hello) const;
     // Notes what the participant says of itself.
     void note(Participant& participant, const wire::Join& hello, const Verdict& verdict) const;
     // Marks the participant as joined, in its role.

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "session/request_kinds.h"
-#include "wire/no_codec.h"
 
 namespace theatron::session {
 namespace {
@@ -13,10 +12,6 @@ namespace {
 constexpr Duration renderer_interval = std::chrono::seconds(1);
 using Kind = RequestBudget::Kind;
 using wire::TextCode;
-
-HostSession::CheckedCodec checked(const HostSession::CheckCodec& check, const std::string& codec) {
-    return codec == wire::no_codec ? HostSession::CheckedCodec{codec, ""} : check(codec);
-}
 
 }  // namespace
 
@@ -27,15 +22,12 @@ HostSession::HostSession(Config config)
       streams_(config_.streams, actions_),
       look_back_(config_.past, streams_, actions_),
       direct_(config_.make_secret, actions_),
-      room_(config_.room, actions_, config_.authors) {
-    std::vector<wire::Camera> cameras = config_.cameras;
-    for (wire::Camera& camera : cameras)
-        camera.session = config_.session;
-    // Screens of a recording, and those at a place that the host's person chose, stay there.
-    const std::vector<PlacedScreen> screens = place_screens({}, cameras, Placing::only_unplaced);
-    streams_.add(host_publisher, std::move(cameras));
-    for (const PlacedScreen& screen : screens)
-        room_.add_screen(screen.camera, screen.offer, screen.chosen);
+      room_(config_.room, actions_, config_.authors),
+      shared_(config_.session, admission_, streams_, room_, look_back_, direct_, actions_),
+      adjusting_(streams_, look_back_, actions_),
+      renderers_(admission_, actions_),
+      cases_(config_.patient_for, admission_, room_, actions_) {
+    shared_.add_own(config_.cameras);
 }
 
 void HostSession::on_connected(ParticipantId id, TimePoint now, const std::string& address) {
@@ -102,15 +94,16 @@ void HostSession::join(ParticipantId id, const wire::Join& hello, TimePoint now)
         return refuse(id, {TextCode::session_has_ended});
     if (hello.records && !may(judged.role, Right::record))
         return refuse(id, {TextCode::observer_records});
-    if (has_ended_)
-        begin_again();
     Participant& participant = *admission_.find(id);
     admission_.note(participant, hello, verdict);
     participant.role = judged.role;
     participant.muted = judged.muted;
+    participant.admitted = judged.admitted;
+    if (has_ended_)
+        begin_again(participant.name);
     if (judged.entry == Membership::Entry::enters)
         return enter(id, hello);
-    if (visitors().size() >= wire::max_visitors)
+    if (admission_.is_door_full(hello))
         return refuse(id, {TextCode::too_many_visitors});
     participant.asked = hello;
     audit(AuditEvent::What::waits, id);
@@ -141,15 +134,14 @@ void HostSession::enter(ParticipantId id, const wire::Join& hello) {
                       hello.records, participant.has(wire::Feature::webcam));
         streams_.set_goal(id, {hello.target_latency_ms, hello.max_kbit_per_s});
     }
-    tell_renderer(id);
+    renderers_.tell(id);
     // A program that only sends cameras is nobody in the room.
     if (!participant.has(wire::Feature::sends_only))
         room_.join(id, facts_of(participant), participant.has(wire::Feature::room),
                    participant.connected, participant.person);
-    if (!room_.cases().empty())
-        tell_cases(id);
+    cases_.tell(id);
     tell_playback(id);
-    tell_patient();
+    cases_.tell_patient();
     if (participant.may(Right::manage))
         tell_operators();
 }
@@ -171,22 +163,6 @@ void HostSession::describe_session(ParticipantId id) {
 
 void HostSession::carry_out(ParticipantId, const wire::Join&, TimePoint) {}
 
-void HostSession::carry_out(ParticipantId id, const wire::ChooseCodecs& wish, TimePoint) {
-    CheckedCodec depth, color;
-    if (!wish.depth_codec.empty())
-        depth = checked(config_.check_depth, wish.depth_codec);
-    if (!wish.color_codec.empty())
-        color = checked(config_.check_color, wish.color_codec);
-    for (const std::string& problem : {depth.problem, color.problem})
-        if (!problem.empty())  // the old codecs stay
-            return send(id, wire::Settings{{}, wire::as_written(problem)});
-    streams_.choose(id, {depth.codec, color.codec}, wish.cameras);
-}
-
-void HostSession::carry_out(ParticipantId id, const wire::RequestKey& lost, TimePoint) {
-    streams_.request_key(id, lost.stream, lost.setting);
-}
-
 void HostSession::carry_out(ParticipantId id, const wire::Ping& ping, TimePoint now) {
     send(id, wire::Pong{ping.sent, now, now});
 }
@@ -204,14 +180,10 @@ void HostSession::carry_out(ParticipantId id, const wire::Report& report, TimePo
     actions_.push_back(action::Drawing{id, report.renderer});
 }
 
-void HostSession::carry_out(ParticipantId id, const wire::ChooseDelivery& goal, TimePoint) {
-    streams_.set_goal(id, goal);
-}
-
 void HostSession::carry_out(ParticipantId id, const wire::RoomRequest& request, TimePoint) {
     if (const auto ended = room_.on_request(id, request))
-        end_share(*ended, id);
-    tell_patient();
+        shared_.end_share(*ended, id);
+    cases_.tell_patient();
 }
 
 void HostSession::carry_out(ParticipantId id, const wire::RequestContent& request, TimePoint) {
@@ -231,38 +203,17 @@ void HostSession::carry_out(ParticipantId id, const wire::VoiceConsent& consent,
     room_.set_person(id, facts_of(person));
 }
 
-void HostSession::set_cases(std::vector<CaseFacts> cases, std::vector<wire::Patient> patients) {
-    room_.set_cases(std::move(cases));
-    patients_ = std::move(patients);
-    for (const auto& [id, participant] : admission_.participants())
-        if (participant.takes_part())
-            tell_cases(id);
-    tell_patient();
-}
-
-void HostSession::tell_cases(ParticipantId id) {
-    if (!admission_.find(id)->has(wire::Feature::cases))
-        return;
-    wire::OfferedCases offer;
-    for (const CaseFacts& facts : room_.cases())
-        offer.cases.push_back(
-            {Bytes(facts.id.bytes.begin(), facts.id.bytes.end()), facts.name, facts.bytes});
-    send(id, std::move(offer));
-}
-
-void HostSession::carry_out_late(ParticipantId id, Participant& participant, TimePoint now) {
-    RequestBudget& budget = participant.budget;
-    if (!participant.late_codecs.empty() && budget.grant_later(Kind::codecs, now))
-        for (const auto& [camera, wish] : std::exchange(participant.late_codecs, {}))
-            if (!wish.depth_codec.empty() || !wish.color_codec.empty())
-                carry_out(id, wish, now);
-    if (participant.late_goal && budget.grant_later(Kind::delivery, now))
-        carry_out(id, *std::exchange(participant.late_goal, std::nullopt), now);
-}
-
 std::vector<ParticipantId> HostSession::on_media(const wire::MediaHeader& header, std::size_t size,
                                                  TimePoint now) {
     return streams_.on_media(header, size, now);
+}
+
+std::vector<ParticipantId> HostSession::on_media_from(ParticipantId id, ByteView message,
+                                                      TimePoint now) {
+    SharedCameras::Received received = shared_.on_media(id, message, now);
+    if (!received.problem.empty())
+        refuse(id, std::move(received.problem));
+    return std::move(received.receivers);
 }
 
 void HostSession::on_link(ParticipantId id, const LinkMeasure& link, TimePoint now) {
@@ -276,7 +227,7 @@ void HostSession::on_closed(ParticipantId id) {
         const bool has_waited = participant->waits();
         if (participant->joined || has_waited)
             audit(AuditEvent::What::left, id);
-        unshare(id, streams_.cameras().of(id));
+        shared_.remove_all(id);
         admission_.remove(id);
         if (has_waited)
             tell_operators();
@@ -286,7 +237,7 @@ void HostSession::on_closed(ParticipantId id) {
     direct_.leave(id);
     streams_.leave(id);
     room_.leave(id);
-    set_budgets();
+    shared_.set_budgets();
 }
 
 void HostSession::on_tick(TimePoint now) {
@@ -297,7 +248,7 @@ void HostSession::on_tick(TimePoint now) {
         if (participant.takes_part())
             carry_out_late(id, participant, now);
     }
-    audit_adjustments(now);
+    adjusting_.on_tick(now);
     look_back_.on_tick(now);
     streams_.on_tick(now);
 }
@@ -308,15 +259,13 @@ void HostSession::resynchronise(ParticipantId id) {
         return;
     look_back_.end(id);
     describe_session(id);
-    tell_renderer(id);
+    renderers_.tell(id);
     streams_.tell_again(id);
     direct_.tell_again(id);
     room_.send_snapshot(id);
-    if (!room_.cases().empty())
-        tell_cases(id);
+    cases_.tell(id);
     tell_playback(id);
-    participant->patient.reset();
-    tell_patient();
+    cases_.tell_patient_again(id);
     if (participant->may(Right::manage))
         tell_operators();
 }
@@ -328,47 +277,12 @@ void HostSession::end(wire::TextCode reason) {
             continue;
         if (participant.waits())
             audit(AuditEvent::What::left, id);
-        unshare(id, streams_.cameras().of(id));
+        shared_.remove_all(id);
         participant.closing = true;
         room_.leave(id);
         actions_.push_back(action::End{id, {{reason}}});
     }
     has_ended_ = true;
-}
-
-// Sends this participant its renderer, if the host has ever set one.
-void HostSession::tell_renderer(ParticipantId id) {
-    if (const auto wish = renderers_.of(id, admission_.find(id)->given_name))
-        send(id, *wish);
-}
-
-void HostSession::set_renderer(const wire::SetRenderer& wish) {
-    renderers_.set(wish);
-    for (const auto& [id, participant] : admission_.participants())
-        if (participant.takes_part())
-            tell_renderer(id);
-}
-
-void HostSession::set_renderer(ParticipantId id, const wire::SetRenderer& wish) {
-    const Participant* participant = admission_.find(id);
-    if (!participant || !participant->takes_part())
-        return;
-    renderers_.set(id, wish);
-    tell_renderer(id);
-}
-
-void HostSession::set_renderer(const std::string& name, const wire::SetRenderer& wish) {
-    renderers_.set(name, wish);
-    for (const auto& [id, participant] : admission_.participants()) {
-        if (!participant.takes_part())
-            continue;
-        if (participant.given_name == name) {
-            renderers_.forget(id);
-            tell_renderer(id);
-        } else if (participant.name == name) {
-            set_renderer(id, wish);
-        }
-    }
 }
 
 const std::vector<ActiveSetting>& HostSession::depth_settings(CameraId camera) const {
@@ -391,7 +305,7 @@ void HostSession::refuse(ParticipantId id, wire::Text reason) {
     wire::Refused refusal = wire::refused(std::move(reason));
     std::string why = refusal.in_english;
     send(id, std::move(refusal));
-    unshare(id, streams_.cameras().of(id));
+    shared_.remove_all(id);
     participant.closing = true;
     look_back_.leave(id);
     direct_.leave(id);

@@ -13,13 +13,15 @@
 #include "base/ids.h"
 #include "base/time.h"
 #include "session/admission.h"
+#include "session/camera_adjusting.h"
 #include "session/direct_paths.h"
-#include "session/face_limits.h"
 #include "session/host_actions.h"
 #include "session/host_room.h"
 #include "session/look_back.h"
 #include "session/membership.h"
-#include "session/renderer_wishes.h"
+#include "session/offered_cases.h"
+#include "session/renderers.h"
+#include "session/shared_cameras.h"
 #include "session/streams.h"
 #include "wire/control.h"
 #include "wire/media_header.h"
@@ -74,7 +76,7 @@ public:
     // them are removed.
     void set_tokens(std::vector<Admission::Token> tokens);
     // Carries out a decision of the person at the host's own machine, as one of an operator.
-    wire::ManageRefusal manage(const wire::Manage& decision);
+    wire::ManageRefusal manage(const wire::Manage& decision, TimePoint now);
     // Everyone who waits for admission.
     std::vector<wire::Visitor> visitors() const;
     // The tokens of links by which those came who were removed and are kept out.
@@ -84,8 +86,7 @@ public:
     std::vector<ParticipantId> on_media(const wire::MediaHeader& header, std::size_t size,
                                         TimePoint now);
     // A participant has sent a media message. Returns its receivers. A message that belongs to no
-    // camera of this participant ends its connection with a reason; one that is late, for a camera
-    // or a setting that is gone, is ignored.
+    // camera of this participant ends its connection with a reason.
     std::vector<ParticipantId> on_media_from(ParticipantId publisher, ByteView message,
                                              TimePoint now);
 
@@ -115,13 +116,17 @@ public:
     }
     // The cases that can be opened from now on, in this order, at most wire::max_offered_cases, and
     // their patients, as far as they are known.
-    void set_cases(std::vector<CaseFacts> cases, std::vector<wire::Patient> patients = {});
+    void set_cases(std::vector<CaseFacts> cases, std::vector<wire::Patient> patients = {}) {
+        cases_.set(std::move(cases), std::move(patients));
+    }
     // False, and counted, if its role does not allow this.
     bool allow(ParticipantId participant, Right right);
 
-    // Adjusts a camera, as an operator of this name does.
+    // See CameraAdjusting.
     wire::ManageRefusal adjust(CameraId camera, const CameraAdjustment& adjustment,
-                               const std::string& by, TimePoint now);
+                               const std::string& by, TimePoint now) {
+        return adjusting_.adjust(camera, adjustment, by, now);
+    }
     // See Streams.
     void set_calibration(CameraId camera, const Bytes& calibration) {
         streams_.set_calibration(camera, calibration);
@@ -143,12 +148,14 @@ public:
         streams_.request_key(stream, setting);
     }
 
-    // Sets the renderer of all participants, also of later ones. Forgets those of single ones.
-    void set_renderer(const wire::SetRenderer& wish);
-    // Sets the renderer of one participant until its connection ends.
-    void set_renderer(ParticipantId participant, const wire::SetRenderer& wish);
-    // Sets the renderer of the participants with this name, now and when they join again.
-    void set_renderer(const std::string& name, const wire::SetRenderer& wish);
+    // See Renderers: that of all participants, of one, or of those with a name.
+    void set_renderer(const wire::SetRenderer& wish) { renderers_.set(wish); }
+    void set_renderer(ParticipantId participant, const wire::SetRenderer& wish) {
+        renderers_.set(participant, wish);
+    }
+    void set_renderer(const std::string& name, const wire::SetRenderer& wish) {
+        renderers_.set(name, wish);
+    }
 
     // Actions for the host to carry out, in order.
     std::vector<Action> take_actions();
@@ -172,9 +179,10 @@ public:
 private:
     using Participant = Admission::Participant;
 
+    static CheckedCodec checked(const CheckCodec& check, const std::string& codec);
     void join(ParticipantId id, const wire::Join& message, TimePoint now);
     void enter(ParticipantId id, const wire::Join& message);
-    void begin_again();
+    void begin_again(const std::string& by);
     // Answers a message that the participant's role does not allow.
     void deny(ParticipantId id, const wire::ToHost& message);
     // One for each kind of message of a participant who has joined.
@@ -196,11 +204,9 @@ private:
     void carry_out(ParticipantId id, const wire::LookBack& message, TimePoint now);
     void carry_out(ParticipantId id, const wire::OfferDirect& message, TimePoint now);
     void follow_paths();
-    void tell_cases(ParticipantId id);
-    void tell_patient();
     void carry_out_late(ParticipantId id, Participant& participant, TimePoint now);
     // `by`: the operator; 0: the person at the host's machine.
-    wire::ManageRefusal manage(const wire::Manage& decision, ParticipantId by);
+    wire::ManageRefusal manage(const wire::Manage& decision, ParticipantId by, TimePoint now);
     void set_role(ParticipantId id, Role role);
     // This connection and the others of the same person.
     std::vector<ParticipantId> connections_of(ParticipantId id);
@@ -209,30 +215,9 @@ private:
     void tell_standing(ParticipantId id);
     void tell_operators();
     void tell_playback(ParticipantId id);
-    void audit_adjustments(TimePoint now);
     void audit(AuditEvent::What what, ParticipantId id, std::string by = "",
                std::string detail = "");
     void describe_session(ParticipantId id);
-    struct PlacedScreen {
-        CameraId camera{};
-        ScreenOffer offer;
-        HostRoom::ChosenPlace chosen;
-    };
-    enum class Placing { all, only_unplaced };
-    // Gives the screens among these cameras their places in the room, one after the other. `offer`
-    // has the facts of their publisher.
-    std::vector<PlacedScreen> place_screens(const ScreenOffer& offer,
-                                            std::vector<wire::Camera>& cameras,
-                                            Placing which = Placing::all) const;
-    // Ends the share of a publisher's camera, of which its publisher is told.
-    void end_share(CameraId camera, ParticipantId by);
-    // Removes cameras of this participant from the session.
-    void unshare(ParticipantId id, const std::vector<CameraId>& cameras);
-    void take_media(ParticipantId publisher);
-    bool lets_face_through(Participant& publisher, const CameraStreams& camera,
-                           const wire::MediaHeader& header, std::size_t size, TimePoint now);
-    void set_budgets();
-    void tell_renderer(ParticipantId id);
     void refuse(ParticipantId id, wire::Text reason);
     void send(ParticipantId id, wire::ToParticipant message);
 
@@ -245,16 +230,12 @@ private:
     DirectPaths direct_;
     std::uint64_t streams_seen_ = 0;  // Streams::changes() at the last follow_paths()
     HostRoom room_;
-    RendererWishes renderers_;
+    SharedCameras shared_;
+    CameraAdjusting adjusting_;
+    Renderers renderers_;
+    OfferedCases cases_;
     bool has_ended_ = false;
     std::optional<wire::Playback> playback_;
-    std::vector<wire::Patient> patients_;       // of offered cases
-    std::map<SettingId, FacePace> face_paces_;  // of active settings
-    struct Adjusting {
-        std::string by;
-        TimePoint at;
-    };
-    std::map<CameraId, Adjusting> adjusted_;  // not yet in the audit log
 };
 
 }  // namespace theatron::session

@@ -1,62 +1,72 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decisions on cameras: they are adjusted, and the recording that they show is played.
+// Requests on cameras: which codecs and how much of them, adjusting, playing, looking back,
+// sharing.
 #include <algorithm>
 #include <utility>
 
 #include "session/host_session.h"
+#include "wire/no_codec.h"
 
 namespace theatron::session {
-namespace {
-
 using wire::ManageRefusal;
+using Kind = RequestBudget::Kind;
 
-// A slider that is moved changes a camera many times; the audit log gets the last one.
-constexpr Duration audited_after = std::chrono::seconds(2);
+HostSession::CheckedCodec HostSession::checked(const CheckCodec& check, const std::string& codec) {
+    return codec == wire::no_codec ? CheckedCodec{codec, ""} : check(codec);
+}
 
-}  // namespace
+void HostSession::carry_out(ParticipantId id, const wire::ChooseCodecs& wish, TimePoint) {
+    CheckedCodec depth, color;
+    if (!wish.depth_codec.empty())
+        depth = checked(config_.check_depth, wish.depth_codec);
+    if (!wish.color_codec.empty())
+        color = checked(config_.check_color, wish.color_codec);
+    for (const std::string& problem : {depth.problem, color.problem})
+        if (!problem.empty())  // the old codecs stay
+            return send(id, wire::Settings{{}, wire::as_written(problem)});
+    streams_.choose(id, {depth.codec, color.codec}, wish.cameras);
+}
+
+void HostSession::carry_out(ParticipantId id, const wire::RequestKey& lost, TimePoint) {
+    streams_.request_key(id, lost.stream, lost.setting);
+}
+
+void HostSession::carry_out(ParticipantId id, const wire::ChooseDelivery& goal, TimePoint) {
+    streams_.set_goal(id, goal);
+}
+
+void HostSession::carry_out_late(ParticipantId id, Participant& participant, TimePoint now) {
+    RequestBudget& budget = participant.budget;
+    if (!participant.late_codecs.empty() && budget.grant_later(Kind::codecs, now))
+        for (const auto& [camera, wish] : std::exchange(participant.late_codecs, {}))
+            if (!wish.depth_codec.empty() || !wish.color_codec.empty())
+                carry_out(id, wish, now);
+    if (participant.late_goal && budget.grant_later(Kind::delivery, now))
+        carry_out(id, *std::exchange(participant.late_goal, std::nullopt), now);
+}
+
+void HostSession::carry_out(ParticipantId id, const wire::Publish& offer, TimePoint) {
+    shared_.publish(id, offer);
+}
+
+void HostSession::carry_out(ParticipantId id, const wire::Unpublish& left, TimePoint) {
+    shared_.unpublish(id, left);
+}
+
+void HostSession::carry_out(ParticipantId id, const wire::CameraState& state, TimePoint) {
+    shared_.on_state(id, state);
+}
+
+void HostSession::carry_out(ParticipantId id, const wire::OfferDirect& offer, TimePoint) {
+    direct_.offer(id, offer);
+}
 
 void HostSession::carry_out(ParticipantId id, const wire::AdjustCamera& wish, TimePoint now) {
     const auto adjustment = decode_adjustment(wish.adjustment);
     const ManageRefusal refusal =
-        adjustment ? adjust(wish.camera, *adjustment, admission_.find(id)->name, now)
+        adjustment ? adjusting_.adjust(wish.camera, *adjustment, admission_.find(id)->name, now)
                    : ManageRefusal::beyond_limits;
     send(id, wire::Managed{wish.number, refusal});
-}
-
-ManageRefusal HostSession::adjust(CameraId camera, const CameraAdjustment& adjustment,
-                                  const std::string& by, TimePoint now) {
-    const CameraStreams* known = streams_.cameras().find(camera);
-    const bool changes_region = known && known->adjustment().region != adjustment.region;
-    const ManageRefusal refusal = streams_.adjust(camera, adjustment);
-    if (refusal != ManageRefusal::none)
-        return refusal;
-    // A region may be there to hide something.
-    if (changes_region)
-        look_back_.forget(camera, now);
-    adjusted_[camera] = {by, now};
-    actions_.push_back(action::Adjusted{camera, !changes_region});
-    return refusal;
-}
-
-void HostSession::audit_adjustments(TimePoint now) {
-    for (auto next = adjusted_.begin(); next != adjusted_.end();) {
-        const auto& [by, at] = next->second;
-        if (now - at < audited_after) {
-            ++next;
-            continue;
-        }
-        if (const CameraStreams* camera = streams_.cameras().find(next->first))
-            actions_.push_back(
-                action::Audit{{AuditEvent::What::adjusted,
-                               {},
-                               "",
-                               {},
-                               {},
-                               "",
-                               by,
-                               camera->description().name + ": " + text_of(camera->adjustment())}});
-        next = adjusted_.erase(next);
-    }
 }
 
 void HostSession::carry_out(ParticipantId id, const wire::Play& wish, TimePoint) {
@@ -69,9 +79,15 @@ void HostSession::carry_out(ParticipantId id, const wire::Play& wish, TimePoint)
 }
 
 void HostSession::carry_out(ParticipantId id, const wire::LookBack& wish, TimePoint now) {
-    const bool may = admission_.find(id)->has(wire::Feature::look_back);
-    send(id, wire::Managed{wish.number, may ? look_back_.begin(id, wish.ago, now)
-                                            : ManageRefusal::nothing_kept});
+    const Participant& person = *admission_.find(id);
+    Duration ago = wish.ago;
+    // Those who had to ask see nothing of the time before they were let in.
+    if (person.admitted)
+        ago = std::min(ago, now - *person.admitted - Past::key_every);
+    const bool may = person.has(wire::Feature::look_back) &&
+                     (wish.ago < LookBack::least || ago >= LookBack::least);
+    send(id, wire::Managed{wish.number,
+                           may ? look_back_.begin(id, ago, now) : ManageRefusal::nothing_kept});
 }
 
 void HostSession::set_playback(const wire::Playback& playback) {
@@ -84,6 +100,20 @@ void HostSession::set_playback(const wire::Playback& playback) {
 void HostSession::tell_playback(ParticipantId id) {
     if (playback_ && admission_.find(id)->has(wire::Feature::playback))
         send(id, *playback_);
+}
+
+// In the same step as the change, so that a receiver that was removed gets nothing more.
+void HostSession::follow_paths() {
+    const bool have_streams_changed =
+        std::exchange(streams_seen_, streams_.changes()) != streams_.changes();
+    if ((!direct_.take_change() && !have_streams_changed) || !direct_.is_used())
+        return;
+    std::vector<StreamUse> uses = streams_.uses();
+    if (!look_back_.is_possible())
+        for (StreamUse& use : uses)
+            use.is_kept = false;
+    for (const KeyRequests::Key& key : direct_.follow(uses))
+        streams_.request_key(key.stream, key.setting);
 }
 
 }  // namespace theatron::session

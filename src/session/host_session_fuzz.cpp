@@ -305,7 +305,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                 break;
             case 14:
                 (void)host.manage(
-                    {choice, wire::ManageAction(1 + choice % 8), id, wire::Role(choice / 64)});
+                    {choice, wire::ManageAction(1 + choice % 8), id, wire::Role(choice / 64)}, now);
                 break;
             case 15:
                 host.set_tokens(tokens(choice % 5));

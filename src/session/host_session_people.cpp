@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "session/audit_action.h"
 #include "session/host_session.h"
 
 namespace theatron::session {
@@ -50,18 +51,18 @@ void HostSession::deny(ParticipantId id, const wire::ToHost& message) {
         send(id, wire::Managed{play->number, ManageRefusal::playing_role});
 }
 
-void HostSession::carry_out(ParticipantId id, const wire::Manage& decision, TimePoint) {
-    const ManageRefusal refusal = manage(decision, id);
+void HostSession::carry_out(ParticipantId id, const wire::Manage& decision, TimePoint now) {
+    const ManageRefusal refusal = manage(decision, id, now);
     // Perhaps the decision has ended the sender's own connection.
     if (const Participant* sender = admission_.find(id); sender && sender->takes_part())
         send(id, wire::Managed{decision.number, refusal});
 }
 
-ManageRefusal HostSession::manage(const wire::Manage& decision) {
-    return manage(decision, the_host);
+ManageRefusal HostSession::manage(const wire::Manage& decision, TimePoint now) {
+    return manage(decision, the_host, now);
 }
 
-ManageRefusal HostSession::manage(const wire::Manage& decision, ParticipantId by) {
+ManageRefusal HostSession::manage(const wire::Manage& decision, ParticipantId by, TimePoint now) {
     const std::string by_name = by == the_host ? at_the_host : admission_.find(by)->name;
     if (decision.action == ManageAction::end_session) {
         actions_.push_back(action::Audit{{What::ended, {}, "", {}, {}, "", by_name, ""}});
@@ -89,10 +90,16 @@ ManageRefusal HostSession::manage(const wire::Manage& decision, ParticipantId by
 
     switch (decision.action) {
         case ManageAction::admit: {
-            membership_.admit(person.person);
-            audit(What::admitted, id, by_name);
-            const wire::Join hello = std::move(*person.asked);
-            enter(id, hello);
+            membership_.admit(person.person, now);
+            for (const ParticipantId own : connections_of(id)) {
+                Participant& here = *admission_.find(own);
+                if (!here.waits())
+                    continue;
+                here.admitted = now;
+                audit(What::admitted, own, by_name);
+                const wire::Join hello = std::move(*here.asked);
+                enter(own, hello);
+            }
             tell_operators();
             break;
         }
@@ -156,13 +163,13 @@ std::vector<ParticipantId> HostSession::connections_of(ParticipantId id) {
     return own;
 }
 
-void HostSession::begin_again() {
+void HostSession::begin_again(const std::string& by) {
     has_ended_ = false;
     membership_.forget_all();
     room_.clear();
-    tell_patient();
+    cases_.tell_patient();
     look_back_.clear();
-    actions_.push_back(action::Audit{{What::began, {}, "", {}, {}, "", at_the_host, config_.name}});
+    actions_.push_back(action::Audit{{What::began, {}, "", {}, {}, "", by, config_.name}});
 }
 
 void HostSession::set_role(ParticipantId id, Role role) {
@@ -179,7 +186,7 @@ void HostSession::set_role(ParticipantId id, Role role) {
         std::erase_if(forbidden, [&](CameraId camera) {
             return person.may(needed_right(streams_.cameras().find(camera)->description().frame));
         });
-        unshare(id, forbidden);
+        shared_.remove(id, forbidden);
     } else if (person.asks_to_publish && !could_publish) {
         person.features.push_back(wire::Feature::publish);
     }
@@ -188,30 +195,9 @@ void HostSession::set_role(ParticipantId id, Role role) {
         resynchronise(id);
     else
         tell_standing(id);
-    tell_patient();
+    cases_.tell_patient();
     if (could_manage != person.may(Right::manage))
         tell_operators();
-}
-
-// Tells those who may know it the patient of the open case, and withdraws it from the others.
-void HostSession::tell_patient() {
-    const auto open = room_.open_case();
-    const auto found = std::find_if(patients_.begin(), patients_.end(), [&](const auto& patient) {
-        return open && to_content_hash(patient.of_case) == open;
-    });
-    const wire::Patient known = found == patients_.end() ? wire::Patient{} : *found;
-    const std::vector<Role>& roles = config_.patient_for;
-    for (auto& [id, person] : admission_.participants()) {
-        if (!person.takes_part() || !person.has(wire::Feature::patient))
-            continue;
-        const bool may_know = may_know_patient(person.role) && !person.records &&
-                              std::find(roles.begin(), roles.end(), person.role) != roles.end();
-        const wire::Patient now = may_know ? known : wire::Patient{};
-        if (person.patient == now)
-            continue;
-        person.patient = now;
-        send(id, now);
-    }
 }
 
 void HostSession::set_tokens(std::vector<Admission::Token> tokens) {
@@ -242,8 +228,8 @@ std::vector<wire::Visitor> HostSession::visitors() const {
     std::vector<wire::Visitor> visitors;
     for (const auto& [id, participant] : admission_.participants())
         if (participant.waits())
-            visitors.push_back(
-                {id, participant.name, shown_person(participant.person), participant.role});
+            visitors.push_back({id, participant.name, shown_person(participant.person),
+                                participant.role, participant.records});
     return visitors;
 }
 
@@ -255,9 +241,7 @@ void HostSession::tell_operators() {
 }
 
 void HostSession::audit(What what, ParticipantId id, std::string by, std::string detail) {
-    const Participant& person = *admission_.find(id);
-    actions_.push_back(action::Audit{{what, id, person.name, person.person, person.role,
-                                      person.link, std::move(by), std::move(detail)}});
+    actions_.push_back(audit_of(what, id, *admission_.find(id), std::move(by), std::move(detail)));
 }
 
 }  // namespace theatron::session

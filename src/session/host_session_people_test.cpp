@@ -335,6 +335,7 @@ TEST_F(People, AnOperatorWhoComesAfterTheEndBeginsANewSessionWithAnEmptyRoom) {
     come(alice, "or");
     EXPECT_TRUE(is_in(alice));
     EXPECT_EQ(audited(), (std::vector{What::began, What::joined}));
+    EXPECT_EQ(actions_of<action::Audit>(taken).at(0).event.by, "P1");
     EXPECT_EQ(session_->room().snapshot().objects.size(), 1u) << "Alice";
     come(bob, "secret");
     EXPECT_FALSE(to<wire::Standing>(bob).at(0).muted);
@@ -383,9 +384,8 @@ TEST_F(AskedPeople, WhoKnocksGetsNothingUntilAnOperatorAdmits) {
 
 TEST_F(AskedPeople, WhoWaitsIsNotToldThatItsOtherConnectionIsMuted) {
     come(alice, "or");
-    come(bob, "secret");
+    come(bob, "send");
     come(carol, "secret", int(bob));
-    EXPECT_EQ(manage(alice, ManageAction::admit, bob), ManageRefusal::none);
     EXPECT_EQ(manage(alice, ManageAction::mute, bob), ManageRefusal::none);
     EXPECT_TRUE(to<wire::Standing>(bob).at(0).muted);
     EXPECT_TRUE(to<wire::Standing>(carol).empty());
@@ -442,17 +442,47 @@ TEST_F(AskedPeople, WhoWaitsWhenTheSessionEndsHasLeftInTheAuditLog) {
     EXPECT_TRUE(audited().empty()) << "once";
 }
 
-TEST_F(AskedPeople, TooManyVisitorsAreRefused) {
-    for (std::uint32_t i = 1; i <= wire::max_visitors + 1; ++i)
-        come(ParticipantId{i}, "secret");
+TEST_F(AskedPeople, TooManyVisitorsAreRefusedAndHalfOfThemMayComeByOneLink) {
+    constexpr std::uint32_t of_a_link = Admission::max_visitors_by_one_link;
+    static_assert(2 * of_a_link == wire::max_visitors);
+    std::uint32_t id = 0;
+    for (const char* link : {"secret", "other"}) {
+        for (std::uint32_t i = 0; i < of_a_link; ++i) {
+            come(ParticipantId{++id}, link);
+            EXPECT_EQ(refusal_of(ParticipantId{id}), "") << id;
+        }
+        come(ParticipantId{++id}, link);
+        EXPECT_NE(refusal_of(ParticipantId{id}).find("Too many people"), std::string::npos);
+    }
     EXPECT_EQ(session_->visitors().size(), wire::max_visitors);
-    EXPECT_NE(refusal_of(ParticipantId{wire::max_visitors + 1}).find("Too many people"),
-              std::string::npos);
+    come(ParticipantId{++id}, "see");
+    EXPECT_NE(refusal_of(ParticipantId{id}).find("Too many people"), std::string::npos);
+}
+
+TEST_F(AskedPeople, AllConnectionsOfAPersonThatWaitComeInTogether) {
+    come(alice, "or");
+    come(bob, "secret");
+    come(carol, "secret", int(bob));
+    come(dave, "secret");
+    EXPECT_EQ(manage(alice, ManageAction::admit, carol), ManageRefusal::none);
+    EXPECT_EQ(audited(), (std::vector{What::admitted, What::joined, What::admitted, What::joined}));
+    EXPECT_TRUE(is_in(bob) && is_in(carol));
+    EXPECT_FALSE(is_in(dave)) << "another person";
+}
+
+TEST_F(AskedPeople, OperatorsAreToldThatAVisitorWouldRecord) {
+    come(alice, "or");
+    come(bob, "secret");
+    come(carol, "secret", 0, true);
+    const auto visitors = to<wire::Visitors>(alice).at(0).visitors;
+    ASSERT_EQ(visitors.size(), 2u);
+    EXPECT_FALSE(visitors[0].records);
+    EXPECT_TRUE(visitors[1].records);
 }
 
 TEST_F(AskedPeople, ThePersonAtTheHostDecidesWithoutAnOperator) {
     come(bob, "secret");
-    EXPECT_EQ(session_->manage({0, ManageAction::admit, bob, {}}), ManageRefusal::none);
+    EXPECT_EQ(session_->manage({0, ManageAction::admit, bob, {}}, now), ManageRefusal::none);
     taken = session_->take_actions();
     EXPECT_EQ(to<wire::Welcome>(bob).size(), 1u);
     EXPECT_EQ(actions_of<action::Audit>(taken).at(0).event.by, "host");

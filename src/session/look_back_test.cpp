@@ -28,9 +28,10 @@ protected:
         return session_->take_actions();
     }
     void come(ParticipantId id, bool can_look_back, bool records = false,
-              const char* token = "secret") {
+              const char* token = "secret", const Bytes& person = {}) {
         session_->on_connected(id, now);
         wire::Join hello;
+        hello.person = person;
         hello.token = token;
         hello.depth_codec = "trvl";
         hello.color_codec = "jpeg";
@@ -135,6 +136,30 @@ TEST_F(LookingBack, ALatecomerSeesThePastAndTheOthersThePresent) {
     EXPECT_EQ(told(bob)[0].setting, session_->depth_settings({}).at(0).id);
     EXPECT_EQ(film(seconds(1)), (std::vector{alice, bob}));
     EXPECT_TRUE(got_.empty());
+}
+
+TEST_F(LookingBack, DoesNotGoBehindTheMomentAtWhichAnOperatorLetsIn) {
+    HostSession::Config c = config();
+    c.past.reach = seconds(60);
+    c.admission.asks = true;
+    session_.emplace(std::move(c));
+    come(alice, true, false, "publish");  // has not to ask
+    film(seconds(20));
+    const FrameNumber first_to_see = frame_;
+    const auto come_again = [&] { come(bob, true, false, "secret", Bytes(16, std::byte(7))); };
+    come_again();
+    EXPECT_EQ(session_->manage({0, wire::ManageAction::admit, bob, {}}, now), ManageRefusal::none);
+    EXPECT_EQ(look_back(bob, seconds(10)), ManageRefusal::nothing_kept);
+    film(seconds(10));
+    // Nor on a later connection, which sees what came since.
+    session_->on_closed(bob);
+    come_again();
+    EXPECT_EQ(look_back(bob, seconds(60)), ManageRefusal::none);
+    film(seconds(1));
+    ASSERT_FALSE(got_.empty());
+    EXPECT_GE(got_.at(0).header.frame, first_to_see);
+    EXPECT_LE(got_.at(0).header.frame, first_to_see + 20);
+    EXPECT_EQ(look_back(bob, Duration(0)), ManageRefusal::none) << "back to the present";
 }
 
 TEST_F(LookingBack, EveryLookHasNumbersOfItsOwn) {

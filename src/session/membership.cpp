@@ -29,12 +29,14 @@ Membership::Known* Membership::note(const Bytes& person) {
 
 Membership::Judged Membership::judge(const Bytes& person, Role of_link) const {
     const bool must_ask = asks_ && (of_link == Role::expert || of_link == Role::observer);
-    Judged judged{must_ask ? Entry::waits : Entry::enters, of_link, false};
+    Judged judged{must_ask ? Entry::waits : Entry::enters, of_link, false, {}};
     const Known* known = person.empty() ? nullptr : find(person);
     if (!known)
         return judged;
-    if (known->admitted)
+    if (known->admitted && must_ask) {
         judged.entry = Entry::enters;
+        judged.admitted = known->admitted;
+    }
     if (known->removed)
         judged.entry = Entry::was_removed;
     if (const auto role = known->roles.find(of_link); role != known->roles.end())
@@ -43,9 +45,9 @@ Membership::Judged Membership::judge(const Bytes& person, Role of_link) const {
     return judged;
 }
 
-void Membership::admit(const Bytes& person) {
+void Membership::admit(const Bytes& person, TimePoint now) {
     if (Known* known = note(person)) {
-        known->admitted = true;
+        known->admitted = known->admitted.value_or(now);
         known->removed = false;
     }
 }

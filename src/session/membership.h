@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "base/bytes.h"
+#include "base/time.h"
 #include "session/permissions.h"
 
 namespace theatron::session {
@@ -35,11 +36,13 @@ public:
         Entry entry{};
         Role role{};
         bool muted = false;
+        // When an operator let the person in; empty: it needed no one's permission, or waits.
+        std::optional<TimePoint> admitted;
     };
     // Someone comes by a link of the role `of_link`.
     Judged judge(const Bytes& person, Role of_link) const;
 
-    void admit(const Bytes& person);
+    void admit(const Bytes& person, TimePoint now);
     // `token`: of the link by which the person came.
     void remove(const Bytes& person, const std::string& token);
     void set_muted(const Bytes& person, bool muted);
@@ -54,7 +57,8 @@ public:
 private:
     struct Known {
         Bytes person;
-        bool admitted = false, removed = false, muted = false;
+        std::optional<TimePoint> admitted;
+        bool removed = false, muted = false;
         std::map<Role, Role> roles;  // by that of the link
         std::string token;           // of a removed one
     };

@@ -79,7 +79,7 @@ protected:
                 return ask(by, request::Remove{id});
     }
     void set_role(ParticipantId id, Role role) {
-        ASSERT_EQ(all_->manage({1, wire::ManageAction::set_role, id, role}),
+        ASSERT_EQ(all_->manage({1, wire::ManageAction::set_role, id, role}, now),
                   wire::ManageRefusal::none);
         collect();
     }

@@ -127,7 +127,7 @@ bool drawing_is_slow(const Facts& facts) {
 // The one that the keys decide on, and the number of the others.
 std::string visitors_text(const std::vector<wire::Visitor>& visitors) {
     return say(visitors.size() > 1 ? Phrase::visitor_and_more : Phrase::visitor,
-               visitors.front().name, wire::spoken(visitors.front().role),
+               visitors.front().name, wire::spoken(visitors.front()),
                std::to_string(visitors.size() - 1));
 }
 

@@ -118,7 +118,7 @@ RoomPanel room_panel(const RoomPanelFacts& facts) {
         for (const wire::Visitor& visitor : facts.visitors)
             door.rows.push_back(
                 {visitor.name,
-                 wire::spoken(visitor.role),
+                 wire::spoken(visitor),
                  {button(Phrase::let_in, Decide{Action::admit, visitor.participant, {}}),
                   button(Phrase::refuse, Decide{Action::turn_away, visitor.participant, {}})}});
         panel.panels.push_back(std::move(door));

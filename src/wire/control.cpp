@@ -363,6 +363,10 @@ Refused refused(Text reason) {
     return {std::move(sentence), std::move(reason)};
 }
 
+std::string spoken(const Visitor& visitor) {
+    return spoken(visitor.role) + (visitor.records ? ", " + say(Phrase::records) : "");
+}
+
 std::string sent_part(const Delivery& delivery) {
     return sent_part(delivery, Language::english);
 }

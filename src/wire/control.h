@@ -613,6 +613,7 @@ struct Visitor {
     std::string name;
     Bytes person;  // the first bytes of Join::person, by which a person is told from another
     Role role{};   // of its link
+    bool records = false;  // it would record the session
     bool operator==(const Visitor&) const = default;
 
     static void fields(auto& m, auto&& field) {
@@ -620,6 +621,7 @@ struct Visitor {
         field(m.name, max_name);
         field(m.person, person_id_size);
         field(m.role);
+        field(m.records);
     }
 };
 

@@ -12,6 +12,7 @@
 namespace theatron::wire {
 
 struct Delivery;
+struct Visitor;
 
 // As english() and english_without_advice() of text.h.
 std::string sentence(const Text& text, Language which = language());
@@ -47,5 +48,7 @@ inline std::string spoken_with_article(Role role) {
     }
     return say(Phrase::unknown);
 }
+// "expert", or "expert, records" for somebody who would record.
+std::string spoken(const Visitor& visitor);
 
 }  // namespace theatron::wire

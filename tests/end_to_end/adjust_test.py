@@ -65,6 +65,20 @@ class Adjusting(unittest.TestCase):
             viewer.wait_for(is_at(0, 1.6, 0), 20)
             self.assertEqual(camera(viewer.newest_json())["adjusted"], "")
 
+        # Its pictures before and after have calibrations of their own, and all places are named.
+        png, after = self.folder / "png", self.folder / "png.2"
+        code, out, errors = run("export", recording, "--png", png)
+        self.assertEqual(code, 0, errors)
+        self.assertIn(f"{png}: ", out)
+        self.assertIn(f"{after}: ", out)
+        self.assertNotEqual((png / "calibration.json").read_text(), (after / "calibration.json").read_text())
+        code, out, errors = run("export", recording, "--png", png, "--overwrite", "--json")
+        exported = json.loads(out)
+        self.assertEqual([p["path"] for p in exported["places"]], [str(png), str(after)])
+        for place in exported["places"]:
+            self.assertEqual(len(list((pathlib.Path(place["path"]) / "depth").iterdir())), place["count"])
+        self.assertEqual(sum(p["count"] for p in exported["places"]), exported["count"])
+
         # The recording is played through, and the camera stands where it then stood.
         with host(self.folder / "replay", f"recording:{recording}") as h, \
                 Process("join", h.greeting["link"], "--every", "0.05") as viewer:

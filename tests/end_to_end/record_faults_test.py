@@ -252,6 +252,38 @@ class RecordFaults(unittest.TestCase):
             self.ends(recorder, INCOMPLETE)
         self.assertGreater(second.stat().st_size, 3000)
 
+    def test_an_earlier_file_that_is_deleted_is_told_at_once_and_changes_nothing_else(self):
+        second = self.folder / "a.002.mkv"
+        with host(self.state, self.camera) as h, \
+                self.recorder(h.greeting["link"], self.file, "--depth-codec", "strata") as recorder:
+            self.begun(recorder)
+            with Process("publish", h.greeting["publish_link"], "--camera", self.camera, "--may-record"):
+                self.begun(recorder, second)
+                time.sleep(1)
+                self.file.unlink()
+                self.says(recorder, f"'{self.file}' was deleted or renamed; it is a part of this recording")
+            figures = self.ends(recorder, INCOMPLETE)
+        self.assertEqual((figures["segments"], figures["gone_files"]), (2, [str(self.file)]))
+        self.assertEqual(figures["lost"] + figures["dropped"], 0)
+
+    def test_the_last_file_that_is_lost_is_missed(self):
+        second = self.folder / "a.002.mkv"
+        with host(self.state, self.camera) as h, \
+                self.recorder(h.greeting["link"], self.file, "--depth-codec", "strata") as recorder:
+            self.begun(recorder)
+            with Process("publish", h.greeting["publish_link"], "--camera", self.camera, "--may-record"):
+                self.begun(recorder, second)
+                self.ends(recorder, COMPLETE)
+        self.assertEqual(run("inspect", self.file, "--verify")[0], COMPLETE)
+        renamed = self.folder / "Müller, Operation 3.mkv"
+        self.file.rename(renamed)
+        code, out, errors = run("inspect", renamed, "--json")
+        self.assertEqual((code, len(json.loads(out)["segments"])), (COMPLETE, 2), errors)
+        second.unlink()
+        code, out, errors = run("inspect", renamed, "--verify")
+        self.assertEqual(code, INCOMPLETE, errors)
+        self.assertIn("1 segment is missing", out + errors)
+
     def test_a_folder_that_is_deleted_meanwhile_is_named_and_made_anew(self):
         folder = self.folder / "operation"
         folder.mkdir()

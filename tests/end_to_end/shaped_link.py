@@ -20,8 +20,10 @@ def missing():
     name = f"theatron{uuid.uuid4().hex[:8]}"
     if subprocess.run(["ip", "netns", "add", name], capture_output=True).returncode != 0:
         return "network namespaces cannot be made here"
+    # Not where the root is no mount of its own.
+    joined = subprocess.run(["ip", "-n", name, "link", "set", "lo", "up"], capture_output=True).returncode == 0
     subprocess.run(["ip", "netns", "del", name], check=False)
-    return None
+    return None if joined else "network namespaces cannot be joined here"
 
 
 class ShapedLink:

@@ -113,6 +113,11 @@ class HostileHost(unittest.TestCase):
                 self.assertLess(self.page.evaluate("theatron.memory()") - before, 64 << 20)
                 self.assertEqual(self.page.problems, [])
 
+    def test_entering_again_while_a_picture_is_drawn_shows_the_next_visits_pictures(self):
+        for _ in range(12):
+            self.enter(lambda guest: None)
+            self.picture()
+
     def test_voices_of_any_number_make_few_speakers_and_no_fault(self):
         def script(guest):
             honest(guest)

@@ -282,7 +282,7 @@ function run({ client, voice, face, module, flat }) {
             voice.hands_free = false;
             client.redraw();
             if (page.state.phase !== "left")
-                requestAnimationFrame(draw);
+                go_on_drawing();
         },
     });
     headset_kinds().then(kinds => page.headset_kinds = kinds);
@@ -291,16 +291,24 @@ function run({ client, voice, face, module, flat }) {
             $("headset_hint").textContent = text("no_headset", { why: error.message });
             $("headset_hint").hidden = false;
         }));
+    let draws_again = false;
+    const go_on_drawing = () => {
+        if (!draws_again)
+            requestAnimationFrame(draw);
+        draws_again = true;
+    };
     const draw = now => {
+        draws_again = false;
         if (headset.is_on)
             return;  // it has a rhythm of its own
         show_texts(now);
         if (page.state.phase === "left")
             return;
+        go_on_drawing();
         if (page.way === "flat") {
             if (flat.draw(now))
                 note_picture();
-            return void requestAnimationFrame(draw);
+            return;
         }
         const ratio = Math.min(devicePixelRatio, 2);
         const width = Math.max(1, Math.round(canvas.clientWidth * ratio));
@@ -313,11 +321,13 @@ function run({ client, voice, face, module, flat }) {
         prepare_room(now);
         if (!is_drawing && client.draw(width, height))
             wait_for_picture();
-        requestAnimationFrame(draw);
     };
     return () => {
         next_texts = 0;
-        requestAnimationFrame(draw);
+        // The picture of a visit before went with it, and nobody is to wait for it.
+        ++page.visit;
+        is_drawing = false;
+        go_on_drawing();
     };
 }
 

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// The cameras that participants share with a session, and the screens among them: how they come
+// and leave, and the pictures that their publishers send.
+//
+// A pure state machine on the parts of a HostSession, of which it gets references: they must
+// outlive it. Messages are appended to the list of actions.
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "base/bytes.h"
+#include "base/ids.h"
+#include "base/time.h"
+#include "session/admission.h"
+#include "session/direct_paths.h"
+#include "session/face_limits.h"
+#include "session/host_actions.h"
+#include "session/host_room.h"
+#include "session/look_back.h"
+#include "session/streams.h"
+#include "wire/control.h"
+#include "wire/media_header.h"
+
+namespace theatron::session {
+
+class SharedCameras {
+public:
+    SharedCameras(wire::SessionId session, Admission& admission, Streams& streams, HostRoom& room,
+                  LookBack& look_back, DirectPaths& direct, std::vector<Action>& actions)
+        : session_(session),
+          admission_(admission),
+          streams_(streams),
+          room_(room),
+          look_back_(look_back),
+          direct_(direct),
+          actions_(actions) {}
+
+    // The host's own, at the beginning. Screens of a recording, and those at a place that the
+    // host's person chose, stay where they are.
+    void add_own(std::vector<wire::Camera> cameras);
+    // Answers the offer of a participant.
+    void publish(ParticipantId id, const wire::Publish& offer);
+    // Removes cameras of this participant.
+    void unpublish(ParticipantId id, const wire::Unpublish& left);
+    void remove(ParticipantId id, const std::vector<CameraId>& cameras);
+    void remove_all(ParticipantId id) { remove(id, streams_.cameras().of(id)); }
+    // Ends the share of a publisher's camera, of which its publisher is told.
+    void end_share(CameraId camera, ParticipantId by);
+    // The condition of a camera, if it is the participant's.
+    void on_state(ParticipantId id, const wire::CameraState& state);
+
+    struct Received {
+        std::vector<ParticipantId> receivers;
+        wire::Text problem;  // the participant must be refused for this reason; empty: none
+    };
+    // A media message of a participant. One that is late, for a camera or a setting that is gone,
+    // has no receivers.
+    Received on_media(ParticipantId id, ByteView message, TimePoint now);
+
+    // The budgets of requests follow the number of streams.
+    void set_budgets();
+
+private:
+    struct PlacedScreen {
+        CameraId camera{};
+        ScreenOffer offer;
+        HostRoom::ChosenPlace chosen;
+    };
+    enum class Placing { all, only_unplaced };
+    // Gives the screens among these cameras their places in the room, one after the other. `offer`
+    // has the facts of their publisher.
+    std::vector<PlacedScreen> place_screens(const ScreenOffer& offer,
+                                            std::vector<wire::Camera>& cameras,
+                                            Placing which) const;
+    void take_media(ParticipantId publisher);
+    bool lets_face_through(Admission::Participant& publisher, const CameraStreams& camera,
+                           const wire::MediaHeader& header, std::size_t size, TimePoint now);
+    void audit(AuditEvent::What what, ParticipantId id, CameraId camera,
+               const std::string& by = "");
+    void send(ParticipantId id, wire::ToParticipant message) {
+        actions_.push_back(action::Send{id, std::move(message)});
+    }
+
+    const wire::SessionId session_;
+    Admission& admission_;
+    Streams& streams_;
+    HostRoom& room_;
+    LookBack& look_back_;
+    DirectPaths& direct_;
+    std::vector<Action>& actions_;
+    std::map<SettingId, FacePace> face_paces_;  // of active settings
+};
+
+}  // namespace theatron::session
