@@ -272,6 +272,8 @@ std::string RecordedFrames::problem_at_end() const {
     // A camera that left earlier has nothing to do with the recording's end.
     if (parts_.back().segment + 1 != recording_->segments().size())
         return "";
+    if (last.next != 0)
+        return "The recording '" + file_ + "' goes on in a segment that is missing.";
     const std::string remark = last.lacks_end() ? record::end_of(last) : record::early_end_of(last);
     constexpr std::string_view subject = "it ";
     return remark.empty() ? ""

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "client/person_id.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #include <optional>
 #include <string>
 
@@ -11,6 +15,24 @@
 
 namespace theatron::client {
 namespace {
+
+// Holds the folder's lock, so that programs that begin at the same time agree on the person.
+class FolderLock {
+public:
+    explicit FolderLock(const std::filesystem::path& folder)
+        : folder_(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+        if (folder_ >= 0)
+            (void)flock(folder_, LOCK_EX);
+    }
+    FolderLock(const FolderLock&) = delete;
+    ~FolderLock() {
+        if (folder_ >= 0)
+            close(folder_);
+    }
+
+private:
+    const int folder_;
+};
 
 constexpr const char* file_name = "person.id";
 
@@ -36,6 +58,7 @@ Bytes load_or_make_person_id(const std::filesystem::path& folder) {
     try {
         if (!folder.empty()) {
             files::open_private_folder(folder);
+            const FolderLock lock(folder);
             const auto kept = files::read_private_file(folder / file_name, files::Privacy::secret);
             if (const auto id = kept ? parse(*kept) : std::nullopt)
                 return *id;

@@ -89,10 +89,16 @@ void clear(const fs::path& folder, bool overwrite) {
 fs::path place_of(const fs::path& place, std::size_t calibration) {
     if (calibration == 0)
         return place;
-    fs::path name = place.stem();
+    // "png/" and "." have names of their own, beside which the others belong.
+    fs::path named = place.lexically_normal();
+    if (!named.has_filename())
+        named = named.parent_path();
+    if (named.empty() || named == "." || named.filename() == "..")
+        named = fs::weakly_canonical(fs::absolute(place));
+    fs::path name = named.stem();
     name += "." + std::to_string(calibration + 1);
-    name += place.extension();
-    return place.parent_path() / name;
+    name += named.extension();
+    return named.parent_path() / name;
 }
 
 void clear_folder(const fs::path& folder, bool overwrite) {

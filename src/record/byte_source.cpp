@@ -17,7 +17,8 @@ namespace {
 class FileSource final : public ByteSource {
 public:
     explicit FileSource(const std::filesystem::path& path)
-        : file_(open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
+        // Without waiting for a writer, where it is a pipe.
+        : file_(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
         struct stat found {};
         if (file_ < 0 || fstat(file_, &found) != 0) {
             const std::string why = std::strerror(errno);

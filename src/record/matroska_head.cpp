@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <charconv>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "record/matroska_reader.h"
 #include "record/matroska_writer.h"
 #include "record/recording_layout.h"
+#include "record/segment_info.h"
 
 namespace theatron::record {
 namespace {
@@ -100,6 +102,14 @@ Status read_duration(Window& window, const Element& element, std::int64_t& durat
     return status;
 }
 
+// 0 for what is no number of a segment.
+std::uint32_t number_of(const std::string& text) {
+    std::uint32_t number = 0;
+    const auto parsed = std::from_chars(text.data(), text.data() + text.size(), number);
+    const bool is_whole = parsed.ec == std::errc() && parsed.ptr == text.data() + text.size();
+    return is_whole && number <= max_segments ? number : 0;
+}
+
 Status read_tag(Window& window, const Element& tag, FoundHead& head) {
     return for_each_child(window, tag, [&](const Element& simple) {
         if (simple.id != ids::simple_tag)
@@ -115,7 +125,7 @@ Status read_tag(Window& window, const Element& tag, FoundHead& head) {
         if (name == early_end_tag)
             head.early_end = value;
         if (name == next_segment_tag)
-            head.has_next = true;
+            head.next_segment = number_of(value);
         return status;
     });
 }
@@ -350,7 +360,7 @@ Result<FoundHead> read_head(ByteSource& source, CopySearch search) {
         damaged || copy->tracks != plain.head.tracks || copy->attachments != plain.head.attachments;
     copy->damaged = damaged;
     copy->early_end = plain.head.early_end;
-    copy->has_next = plain.head.has_next;
+    copy->next_segment = plain.head.next_segment;
     copy->closed = plain.head.closed;
     copy->segment_end = plain.head.segment_end;
     copy->duration_us = plain.head.duration_us;

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "record/recorder.h"
 
+#include <fcntl.h>
 #include <pthread.h>
 #include <signal.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 
 #include "base/error.h"
 #include "base/time_between.h"
@@ -28,17 +32,36 @@ std::size_t cost_of(const std::shared_ptr<const Bytes>& message) {
     return message_overhead + (message ? message->size() : 0);
 }
 
-// The files of the later segments of the recording in `path`; none if there is no recording.
+// True if another program records into the file or plays it.
+bool is_in_use(const fs::path& path) {
+    const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    if (file < 0)
+        return false;
+    const bool in_use = flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    close(file);
+    return in_use;
+}
+
+// The files of the later segments of the recording in `path`, which is to be replaced with them;
+// none if there is no recording. Throws Error if they must not be.
 std::vector<fs::path> later_segments_of(const fs::path& path) {
     std::error_code ignored;
     const auto first = fs::is_regular_file(path, ignored) ? read_segment_info(path) : std::nullopt;
     std::vector<fs::path> files;
     if (!first)
         return files;
+    if (first->number > 1)
+        throw Error("'" + path.string() + "' is segment " + std::to_string(first->number) +
+                    " of a recording, which would end there; name its first file or another one.");
     for (const fs::path& file : files_of_later_segments(path))
         if (const auto info = read_segment_info(file);
             info && info->recording == first->recording && info->number > first->number)
             files.push_back(file);
+    for (const fs::path& file : files)
+        if (is_in_use(file))
+            throw Error("'" + file.string() +
+                        "', a part of the recording to be replaced, is being "
+                        "recorded or played; name another file, or end that first.");
     return files;
 }
 

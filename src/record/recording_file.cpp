@@ -92,16 +92,26 @@ std::optional<wire::MediaHeader> header_of(const FoundBlock& block, StreamId id,
 }
 
 // Files beside `path` that hold segments of the same recording under other names, with their
-// numbers.
+// numbers. Where there are several of one, as after copying, the best is first: one that was not
+// recovered, then the largest.
 std::vector<std::pair<std::filesystem::path, std::uint32_t>> renamed_segments(
     const std::filesystem::path& path, const SegmentInfo& own) {
-    std::vector<std::pair<std::filesystem::path, std::uint32_t>> renamed;
+    std::map<std::tuple<std::uint32_t, bool, std::int64_t, std::filesystem::path>, int> found;
     for (const std::filesystem::path& file : files_of_other_names(path)) {
-        // Another program's file may be large: it is not searched for a copy of a head.
-        const auto info = read_segment_info(file, CopySearch::at_the_beginning);
-        if (info && info->recording == own.recording && info->number != own.number)
-            renamed.emplace_back(file, info->number);
+        try {
+            // Another program's file may be large: it is not searched for a copy of a head.
+            const auto source = open_file_source(file);
+            const auto head = read_head(*source, CopySearch::at_the_beginning);
+            const auto info = head ? segment_info_of(*head) : std::nullopt;
+            if (info && info->recording == own.recording && info->number != own.number)
+                found[{info->number, !head->recovered.empty(), -std::int64_t(source->size()),
+                       file}] = 0;
+        } catch (const Error&) {  // not to be read: unknown
+        }
     }
+    std::vector<std::pair<std::filesystem::path, std::uint32_t>> renamed;
+    for (const auto& [key, unused] : found)
+        renamed.emplace_back(std::get<3>(key), std::get<0>(key));
     return renamed;
 }
 
@@ -307,6 +317,7 @@ void RecordingFile::add_segment(SegmentChain::Member member, SegmentChain& chain
         }
     }
     segment.early_end = clean_text(head.early_end, max_note);
+    segment.next = head.next_segment;
     segment.recovered = clean_text(head.recovered, max_note);
     segments_.push_back(std::move(segment));
     sources_.push_back(std::move(member.source));
@@ -458,8 +469,14 @@ std::unique_ptr<RecordingFile> RecordingFile::open(const std::filesystem::path& 
         files.push_back(file.string());
     };
     add(path);
-    for (const std::filesystem::path& other : files_of_later_segments(path))
-        add(other);
+    std::vector<std::string> closed;  // that must not be read
+    for (const std::filesystem::path& other : files_of_later_segments(path)) {
+        try {
+            add(other);
+        } catch (const Error&) {
+            closed.push_back(other.string());
+        }
+    }
     std::vector<std::filesystem::path> earlier = files_of_earlier_segments(path);
     if (const auto own = read_segment_info(path, CopySearch::at_the_beginning)) {
         for (const auto& [file, number] : renamed_segments(path, *own)) {
@@ -472,6 +489,10 @@ std::unique_ptr<RecordingFile> RecordingFile::open(const std::filesystem::path& 
     auto recording = read(std::move(sources), std::move(files));
     if (recording) {
         (*recording)->note_earlier(earlier);
+        auto& unreadable = (*recording)->unreadable_files_;
+        unreadable.insert(unreadable.end(), closed.begin(), closed.end());
+        auto& missing = (*recording)->missing_segments_;
+        missing = std::max<std::uint64_t>(missing, closed.size());
         return std::move(*recording);
     }
     const std::string name = "'" + path.string() + "'";
@@ -500,8 +521,7 @@ void RecordingFile::note_earlier(const std::vector<std::filesystem::path>& earli
         const auto info = read_segment_info(file);
         if (!info || info->recording != own.recording || info->number >= own.number)
             continue;
-        found.insert(info->number);
-        if (info->number == 1)
+        if (found.insert(info->number).second && info->number == 1)
             begins_in_ = file.string();
     }
     missing_segments_ += own.number - 1 - found.size();

@@ -117,6 +117,7 @@ struct Segment {
     // Bytes at the end that cannot be read although the file was closed, in which pictures may be.
     // They count as a damaged place.
     std::uint64_t unread_end = 0;
+    std::uint32_t next = 0;     // of the segment that follows, as it says; 0: none
     std::string early_end;      // its writing failed: the tag's text (early_end_tag)
     std::string recovered;      // a recovered file: losses_of() of the original
     bool head_damaged = false;  // and found whole elsewhere

@@ -294,8 +294,9 @@ Recovered recover(const RecordingFile& recording, const std::filesystem::path& o
         }
         flush();
         require_written(writer.finish(), file);
-        if (s + 1 < recording.segments().size())
-            writer.name_next(recording.segments()[s + 1].info.number);
+        // It may be missing; then it is missing from the new recording as well.
+        if (segment.next != 0)
+            writer.name_next(segment.next);
         check(file, written);
         bytes_before += segment.bytes;
         result.bytes += writer.bytes();

@@ -122,7 +122,8 @@ std::vector<std::string> remarks_on_files(const RecordingFile& recording) {
         remarks.push_back(quoted(file) +
                           " lies beside it, but does not continue this recording, and is left out");
     if (const std::uint64_t missing = recording.missing_segments(); missing > 0)
-        remarks.push_back(count_of(missing, "segment") + (missing == 1 ? " is" : " are") +
+        remarks.push_back((recording.segments().back().next != 0 ? "at least " : "") +
+                          count_of(missing, "segment") + (missing == 1 ? " is" : " are") +
                           " missing");
     if (!recording.begins_in().empty())
         remarks.push_back("earlier segments are left out: the recording begins in " +

@@ -102,7 +102,8 @@ std::optional<SegmentChain::Member> SegmentChain::take() {
     Member member = std::move(waiting_.extract(waiting_.begin()).mapped());
     last_ = number_of(member.info);
     ++taken_;
-    has_next_ = member.head.has_next;
+    has_next_ = member.head.next_segment != 0;
+    knows_extent_ |= has_next_;
     return member;
 }
 
@@ -133,12 +134,17 @@ SegmentChain::Behind SegmentChain::add_behind(const Member& taken, std::uint64_t
             behind.goes_on_at = begin + size;
             next.reset();
         }
-        const bool is_new = follows(info, last_) && !waiting_.contains(info->number);
+        const bool is_further = follows(info, last_);
+        const auto known = is_further ? waiting_.find(info->number) : waiting_.end();
+        // The same segment may lie beside the file in a file of its own.
+        const bool is_copy = known != waiting_.end() && known->second.file != taken.file;
+        const bool is_new = is_further && (known == waiting_.end() ||
+                                           (is_copy && known->second.source->size() <= size));
         if (is_new) {
             auto own = std::make_shared<PartSource>(taken.source, begin, begin + size);
-            waiting_.emplace(info->number, Member{std::move(own), std::move(*head), info,
-                                                  taken.file, taken.begin + begin});
-        } else {
+            waiting_.insert_or_assign(info->number, Member{std::move(own), std::move(*head), info,
+                                                           taken.file, taken.begin + begin});
+        } else if (!is_copy) {
             foreign.add({1, size, taken.begin + begin, size, head && is_recording(*head)});
         }
     }
@@ -147,7 +153,7 @@ SegmentChain::Behind SegmentChain::add_behind(const Member& taken, std::uint64_t
 
 std::uint64_t SegmentChain::missing() const {
     const std::uint64_t absent = last_ - number_of(first_) + 1 - taken_ + has_next_;
-    return std::max<std::uint64_t>(absent, unreadable_.size());
+    return knows_extent_ ? absent : std::max<std::uint64_t>(absent, unreadable_.size());
 }
 
 }  // namespace theatron::record

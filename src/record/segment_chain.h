@@ -65,8 +65,8 @@ public:
     Behind add_behind(const Member& taken, std::uint64_t at);
 
     // After the last one was taken: the number of missing segments between the first and the last,
-    // one more if the last one says that another follows, and at least the number of unreadable()
-    // files.
+    // one more if the last one says that another follows. Where none says so, as in old files, at
+    // least the number of unreadable() files.
     std::uint64_t missing() const;
     const std::vector<std::string>& unreadable() const { return unreadable_; }
     // Files that can be read, and do not continue the recording.
@@ -79,7 +79,8 @@ private:
     std::map<std::uint32_t, Member> waiting_;
     std::uint32_t last_ = 0;  // number of the segment that was taken last
     std::uint64_t taken_ = 0;
-    bool has_next_ = false;  // likewise: it says that another one follows
+    bool has_next_ = false;      // likewise: it says that another one follows
+    bool knows_extent_ = false;  // segments say which one follows them
     std::vector<std::string> unreadable_, foreign_;
 };
 

@@ -2,6 +2,10 @@
 // Recordings of several files, of which some are missing, cannot be read, or are of another one.
 #include "record/segment_chain.h"
 
+#include <sys/stat.h>
+
+#include "base/error.h"
+#include "record/recover.h"
 #include "record/remarks.h"
 #include "record/test_recordings.h"
 
@@ -45,8 +49,10 @@ TEST(SegmentChain, FilesThatWereRenamedAreFound) {
     const fs::path first = folder.path() / "Müller.mkv", third = folder.path() / "end.mkv";
     fs::rename(folder.path() / "a.mkv", first);
     fs::rename(folder.path() / "a.003.mkv", third);
-    // Neither a second copy nor another recording counts.
+    // Neither second copies nor another recording count. The best copy is taken.
     fs::copy_file(folder.path() / "a.002.mkv", folder.path() / "copy.mkv");
+    const Bytes whole = bytes_of(third);
+    write_bytes(folder.path() / "cut.mkv", Bytes(whole.begin(), whole.end() - 100));
     record_all(folder.path() / "other.mkv", 1, generated(1, 3, 100));
     const auto recording = RecordingFile::open(first);
     EXPECT_EQ(recording->segments().size(), 3u);
@@ -71,6 +77,9 @@ TEST(SegmentChain, ThatTheLastFileIsLostIsSaid) {
     EXPECT_FALSE(RecordingFile::open(folder.path() / "a.mkv")->complete());
     fs::remove(folder.path() / "a.002.mkv");
     EXPECT_EQ(missing(), 1u) << "at least";
+    // The file that is saved from it is as incomplete.
+    recover(*RecordingFile::open(folder.path() / "a.mkv"), folder.path() / "saved.mkv", {});
+    EXPECT_EQ(RecordingFile::open(folder.path() / "saved.mkv")->missing_segments(), 1u);
 }
 
 TEST(SegmentChain, AFileThatCannotBeReadIsNamed) {
@@ -109,6 +118,50 @@ TEST(SegmentChain, AForeignFileBesideIsNamedAndNotMissing) {
     ASSERT_EQ(remarks_on_files(*recording).size(), 2u);
     EXPECT_NE(remarks_on_files(*recording)[0].find("does not continue this recording"),
               std::string::npos);
+}
+
+TEST(SegmentChain, WhereAllSegmentsAreThereAnotherFileIsNoneOfThem) {
+    const testing::TemporaryFolder folder;
+    record_segments(folder.path(), 3);
+    write_bytes(folder.path() / "a.007.mkv", Bytes(1));
+    const auto recording = RecordingFile::open(folder.path() / "a.mkv");
+    EXPECT_EQ(recording->missing_segments(), 0u);
+    EXPECT_EQ(recording->unreadable_files().size(), 1u);
+}
+
+TEST(SegmentChain, FilesThatWereJoinedMayLieBesideTheirParts) {
+    const testing::TemporaryFolder folder;
+    record_segments(folder.path(), 3);
+    Bytes all;
+    for (const char* name : {"a.mkv", "a.002.mkv", "a.003.mkv"}) {
+        const Bytes part = bytes_of(folder.path() / name);
+        all.insert(all.end(), part.begin(), part.end());
+    }
+    write_bytes(folder.path() / "all.mkv", all);
+    const auto recording = RecordingFile::open(folder.path() / "all.mkv");
+    EXPECT_EQ(recording->segments().size(), 3u);
+    EXPECT_TRUE(recording->complete());
+    EXPECT_EQ(recording->cameras().at(0).depth.frames.size(), 3u);
+}
+
+TEST(SegmentChain, APipeIsNoRecording) {
+    const testing::TemporaryFolder folder;
+    const fs::path pipe = folder.path() / "a.mkv";
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    EXPECT_THROW((void)RecordingFile::open(pipe), Error);
+}
+
+TEST(Recorder, ReplacesNoRecordingOfWhichAPartIsInUseNorALaterPart) {
+    const testing::TemporaryFolder folder;
+    record_segments(folder.path(), 3);
+    const Bytes before = bytes_of(folder.path() / "a.mkv");
+    {
+        const auto played = RecordingFile::open(folder.path() / "a.003.mkv");
+        EXPECT_THROW(record_all(folder.path() / "a.mkv", 1, generated(1, 3, 100)), Error);
+    }
+    EXPECT_THROW(record_all(folder.path() / "a.002.mkv", 1, generated(1, 3, 100)), Error);
+    EXPECT_EQ(bytes_of(folder.path() / "a.mkv"), before);
+    EXPECT_EQ(RecordingFile::open(folder.path() / "a.mkv")->segments().size(), 3u);
 }
 
 TEST(Recorder, ReplacesARecordingWithAllItsSegments) {

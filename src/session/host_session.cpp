@@ -87,7 +87,7 @@ void HostSession::join(ParticipantId id, const wire::Join& hello, TimePoint now)
         if (!problem.empty())
             return refuse(id, wire::as_written(problem));
 
-    const Membership::Judged judged = membership_.judge(hello.person, verdict.role);
+    const Membership::Judged judged = membership_.judge(hello.person, verdict.role, hello.records);
     if (judged.entry == Membership::Entry::was_removed)
         return refuse(id, {TextCode::removed_by_operator});
     if (has_ended_ && !may(verdict.role, Right::manage))

@@ -90,10 +90,11 @@ ManageRefusal HostSession::manage(const wire::Manage& decision, ParticipantId by
 
     switch (decision.action) {
         case ManageAction::admit: {
-            membership_.admit(person.person, now);
+            membership_.admit(person.person, person.records, now);
             for (const ParticipantId own : connections_of(id)) {
                 Participant& here = *admission_.find(own);
-                if (!here.waits())
+                // To record is a question of its own.
+                if (!here.waits() || (own != id && here.records && !person.records))
                     continue;
                 here.admitted = now;
                 audit(What::admitted, own, by_name);

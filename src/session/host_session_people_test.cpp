@@ -470,6 +470,23 @@ TEST_F(AskedPeople, AllConnectionsOfAPersonThatWaitComeInTogether) {
     EXPECT_FALSE(is_in(dave)) << "another person";
 }
 
+TEST_F(AskedPeople, ARecorderOfAnAdmittedPersonMustBeAdmittedToo) {
+    come(alice, "or");
+    come(bob, "secret");
+    come(carol, "secret", int(bob), true);
+    EXPECT_EQ(manage(alice, ManageAction::admit, bob), ManageRefusal::none);
+    EXPECT_TRUE(is_in(bob));
+    EXPECT_FALSE(is_in(carol));
+    EXPECT_EQ(manage(alice, ManageAction::turn_away, carol), ManageRefusal::none);
+    session_->on_closed(carol);
+    come(carol, "secret", int(bob), true);
+    EXPECT_FALSE(is_in(carol)) << "refused before, it asks again";
+    EXPECT_EQ(manage(alice, ManageAction::admit, carol), ManageRefusal::none);
+    session_->on_closed(carol);
+    come(carol, "secret", int(bob), true);
+    EXPECT_TRUE(is_in(carol)) << "after a lost connection";
+}
+
 TEST_F(AskedPeople, OperatorsAreToldThatAVisitorWouldRecord) {
     come(alice, "or");
     come(bob, "secret");

@@ -27,13 +27,13 @@ Membership::Known* Membership::note(const Bytes& person) {
     return &known_.back();
 }
 
-Membership::Judged Membership::judge(const Bytes& person, Role of_link) const {
+Membership::Judged Membership::judge(const Bytes& person, Role of_link, bool records) const {
     const bool must_ask = asks_ && (of_link == Role::expert || of_link == Role::observer);
     Judged judged{must_ask ? Entry::waits : Entry::enters, of_link, false, {}};
     const Known* known = person.empty() ? nullptr : find(person);
     if (!known)
         return judged;
-    if (known->admitted && must_ask) {
+    if (known->admitted && must_ask && (!records || known->may_record)) {
         judged.entry = Entry::enters;
         judged.admitted = known->admitted;
     }
@@ -45,9 +45,10 @@ Membership::Judged Membership::judge(const Bytes& person, Role of_link) const {
     return judged;
 }
 
-void Membership::admit(const Bytes& person, TimePoint now) {
+void Membership::admit(const Bytes& person, bool records, TimePoint now) {
     if (Known* known = note(person)) {
         known->admitted = known->admitted.value_or(now);
+        known->may_record |= records;
         known->removed = false;
     }
 }

@@ -39,10 +39,11 @@ public:
         // When an operator let the person in; empty: it needed no one's permission, or waits.
         std::optional<TimePoint> admitted;
     };
-    // Someone comes by a link of the role `of_link`.
-    Judged judge(const Bytes& person, Role of_link) const;
+    // Someone comes by a link of the role `of_link`; `records`: to record the session, for which a
+    // person must be admitted apart.
+    Judged judge(const Bytes& person, Role of_link, bool records = false) const;
 
-    void admit(const Bytes& person, TimePoint now);
+    void admit(const Bytes& person, bool records, TimePoint now);
     // `token`: of the link by which the person came.
     void remove(const Bytes& person, const std::string& token);
     void set_muted(const Bytes& person, bool muted);
@@ -58,6 +59,7 @@ private:
     struct Known {
         Bytes person;
         std::optional<TimePoint> admitted;
+        bool may_record = false;  // admitted as a recorder
         bool removed = false, muted = false;
         std::map<Role, Role> roles;  // by that of the link
         std::string token;           // of a removed one

@@ -282,7 +282,10 @@ class RecordFaults(unittest.TestCase):
         second.unlink()
         code, out, errors = run("inspect", renamed, "--verify")
         self.assertEqual(code, INCOMPLETE, errors)
-        self.assertIn("1 segment is missing", out + errors)
+        self.assertIn("at least 1 segment is missing", out + errors)
+        code, out, errors = run("record", "--camera", f"recording:{renamed}", self.folder / "copy.mkv", "--json")
+        self.assertEqual((code, json.loads(out)["complete"]), (INCOMPLETE, False), errors)
+        self.assertIn("goes on in a segment that is missing", errors)
 
     def test_a_folder_that_is_deleted_meanwhile_is_named_and_made_anew(self):
         folder = self.folder / "operation"
