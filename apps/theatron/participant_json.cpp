@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "base/hex_text.h"
 #include "base/utc.h"
+#include "host/host_figures.h"
 #include "viewer/age_text.h"
 #include "viewer/playing.h"
 
@@ -96,11 +96,7 @@ nlohmann::json playback_json(const client::Participant& participant) {
 nlohmann::json visitors_json(const std::vector<wire::Visitor>& visitors) {
     nlohmann::json list = nlohmann::json::array();
     for (const wire::Visitor& visitor : visitors)
-        list.push_back({{"id", std::uint32_t(visitor.participant)},
-                        {"name", visitor.name},
-                        {"person", hex_text(visitor.person)},
-                        {"role", wire::text_of(visitor.role)},
-                        {"records", visitor.records}});
+        list.push_back(host::visitor_json(visitor));
     return list;
 }
 

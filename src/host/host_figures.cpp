@@ -124,6 +124,8 @@ private:
     std::string name_, text_;
 };
 
+}  // namespace
+
 nlohmann::json visitor_json(const wire::Visitor& visitor) {
     nlohmann::json json{{"id", std::uint32_t(visitor.participant)},
                         {"role", wire::text_of(visitor.role)},
@@ -134,8 +136,6 @@ nlohmann::json visitor_json(const wire::Visitor& visitor) {
     }
     return json;
 }
-
-}  // namespace
 
 nlohmann::json to_json(const HostFigures& figures) {
     nlohmann::json cameras = nlohmann::json::array(), participants = nlohmann::json::array(),

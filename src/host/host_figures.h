@@ -108,8 +108,9 @@ struct PortFigures {
 // "registration":{"made","method","problem"},"case_problems":[…],"past_bytes","turned_away",
 // "faults","page_problem","problems":{"audit_log","room"},
 // "certificates":[{"of","fingerprint","expires","seconds_left","problem"}]}
-// Visitors without a name have none in it.
 nlohmann::json to_json(const HostFigures& figures);
+// One of its visitors; who has no name there has none here.
+nlohmann::json visitor_json(const wire::Visitor& visitor);
 // The same of the first session of a host; those of its further ones are in "sessions", and those
 // that are not open in "closed_sessions":[{"name","problem"}]. Both are missing where there are
 // none.

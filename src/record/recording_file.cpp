@@ -2,19 +2,15 @@
 #include "record/recording_file.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
 #include <optional>
-#include <set>
 #include <tuple>
 
-#include "base/error.h"
 #include "base/frame_order.h"
 #include "base/outside_text.h"
 #include "record/recording_layout.h"
-#include "record/segment_files.h"
 
 namespace theatron::record {
 namespace {
@@ -89,30 +85,6 @@ std::optional<wire::MediaHeader> header_of(const FoundBlock& block, StreamId id,
         block.side_at - payload_end > max_side_gap)
         return std::nullopt;
     return *header;
-}
-
-// Files beside `path` that hold segments of the same recording under other names, with their
-// numbers. Where there are several of one, as after copying, the best is first: one that was not
-// recovered, then the largest.
-std::vector<std::pair<std::filesystem::path, std::uint32_t>> renamed_segments(
-    const std::filesystem::path& path, const SegmentInfo& own) {
-    std::map<std::tuple<std::uint32_t, bool, std::int64_t, std::filesystem::path>, int> found;
-    for (const std::filesystem::path& file : files_of_other_names(path)) {
-        try {
-            // Another program's file may be large: it is not searched for a copy of a head.
-            const auto source = open_file_source(file);
-            const auto head = read_head(*source, CopySearch::at_the_beginning);
-            const auto info = head ? segment_info_of(*head) : std::nullopt;
-            if (info && info->recording == own.recording && info->number != own.number)
-                found[{info->number, !head->recovered.empty(), -std::int64_t(source->size()),
-                       file}] = 0;
-        } catch (const Error&) {  // not to be read: unknown
-        }
-    }
-    std::vector<std::pair<std::filesystem::path, std::uint32_t>> renamed;
-    for (const auto& [key, unused] : found)
-        renamed.emplace_back(std::get<3>(key), std::get<0>(key));
-    return renamed;
 }
 
 void note_filters(StreamContent& stream, const std::string& note) {
@@ -459,72 +431,6 @@ Result<std::unique_ptr<RecordingFile>> RecordingFile::read(std::unique_ptr<ByteS
     std::vector<std::unique_ptr<ByteSource>> sources;
     sources.push_back(std::move(source));
     return read(std::move(sources));
-}
-
-std::unique_ptr<RecordingFile> RecordingFile::open(const std::filesystem::path& path) {
-    std::vector<std::unique_ptr<ByteSource>> sources;
-    std::vector<std::string> files;
-    const auto add = [&](const std::filesystem::path& file) {
-        sources.push_back(open_file_source(file));
-        files.push_back(file.string());
-    };
-    add(path);
-    std::vector<std::string> closed;  // that must not be read
-    for (const std::filesystem::path& other : files_of_later_segments(path)) {
-        try {
-            add(other);
-        } catch (const Error&) {
-            closed.push_back(other.string());
-        }
-    }
-    std::vector<std::filesystem::path> earlier = files_of_earlier_segments(path);
-    if (const auto own = read_segment_info(path, CopySearch::at_the_beginning)) {
-        for (const auto& [file, number] : renamed_segments(path, *own)) {
-            if (number > own->number)
-                add(file);
-            else
-                earlier.push_back(file);
-        }
-    }
-    auto recording = read(std::move(sources), std::move(files));
-    if (recording) {
-        (*recording)->note_earlier(earlier);
-        auto& unreadable = (*recording)->unreadable_files_;
-        unreadable.insert(unreadable.end(), closed.begin(), closed.end());
-        auto& missing = (*recording)->missing_segments_;
-        missing = std::max<std::uint64_t>(missing, closed.size());
-        return std::move(*recording);
-    }
-    const std::string name = "'" + path.string() + "'";
-    switch (recording.error()) {
-        case Status::malformed:
-            throw Error(name + " is not a recording: it is no Matroska file.");
-        case Status::truncated:
-            throw Error(name + " ends before its first frame.");
-        case Status::unsupported:
-            throw Error(name +
-                        " is a Matroska file, but not one that Theatron recorded; for an Azure "
-                        "Kinect's recording, use mkv:FILE.");
-        default:
-            throw Error(name + " cannot be read as a recording: it is " +
-                        std::string(to_text(recording.error())) + ".");
-    }
-}
-
-// Segments before the first one that was opened are missing, unless they are among `earlier`.
-void RecordingFile::note_earlier(const std::vector<std::filesystem::path>& earlier) {
-    const SegmentInfo& own = segments_.front().info;
-    if (!segments_.front().has_info || own.number == 1)
-        return;
-    std::set<std::uint32_t> found;
-    for (const std::filesystem::path& file : earlier) {
-        const auto info = read_segment_info(file);
-        if (!info || info->recording != own.recording || info->number >= own.number)
-            continue;
-        if (found.insert(info->number).second && info->number == 1)
-            begins_in_ = file.string();
-    }
-    missing_segments_ += own.number - 1 - found.size();
 }
 
 bool RecordingFile::intact() const {

@@ -68,6 +68,10 @@ Result<SegmentChain> SegmentChain::read(std::vector<std::unique_ptr<ByteSource>>
     SegmentChain chain;
     for (std::size_t i = 0; i < sources.size(); ++i) {
         const std::shared_ptr<ByteSource> source = std::move(sources[i]);
+        if (!source) {
+            chain.unreadable_.push_back(std::move(files[i]));
+            continue;
+        }
         Result<FoundHead> head = read_own_head(source);
         if (!head) {
             if (i == 0)

@@ -32,7 +32,8 @@ public:
     };
 
     // Reads the heads of `sources`, named `files`; the first one identifies the recording. Files of
-    // another recording, those with a smaller number, and second copies are left out.
+    // another recording, those with a smaller number, and second copies are left out. Null, but not
+    // as the first: a file that cannot be opened.
     static Result<SegmentChain> read(std::vector<std::unique_ptr<ByteSource>> sources,
                                      std::vector<std::string> files);
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Recordings under faults: other clocks, slow and full disks, restarts, guests, cameras that are unplugged."""
+import contextlib
 import json
 import os
 import pathlib
@@ -252,34 +253,34 @@ class RecordFaults(unittest.TestCase):
             self.ends(recorder, INCOMPLETE)
         self.assertGreater(second.stat().st_size, 3000)
 
-    def test_an_earlier_file_that_is_deleted_is_told_at_once_and_changes_nothing_else(self):
-        second = self.folder / "a.002.mkv"
+    @contextlib.contextmanager
+    def two_segments(self):
+        """A recorder that writes its second file, since a guest has come."""
         with host(self.state, self.camera) as h, \
                 self.recorder(h.greeting["link"], self.file, "--depth-codec", "strata") as recorder:
             self.begun(recorder)
             with Process("publish", h.greeting["publish_link"], "--camera", self.camera, "--may-record"):
-                self.begun(recorder, second)
-                time.sleep(1)
-                self.file.unlink()
-                self.says(recorder, f"'{self.file}' was deleted or renamed; it is a part of this recording")
+                self.begun(recorder, self.folder / "a.002.mkv")
+                yield recorder
+
+    def test_an_earlier_file_that_is_deleted_is_told_at_once_and_changes_nothing_else(self):
+        with self.two_segments() as recorder:
+            time.sleep(1)
+            self.file.unlink()
+            self.says(recorder, f"'{self.file}' was deleted or renamed; it is a part of this recording")
             figures = self.ends(recorder, INCOMPLETE)
         self.assertEqual((figures["segments"], figures["gone_files"]), (2, [str(self.file)]))
         self.assertEqual(figures["lost"] + figures["dropped"], 0)
 
     def test_the_last_file_that_is_lost_is_missed(self):
-        second = self.folder / "a.002.mkv"
-        with host(self.state, self.camera) as h, \
-                self.recorder(h.greeting["link"], self.file, "--depth-codec", "strata") as recorder:
-            self.begun(recorder)
-            with Process("publish", h.greeting["publish_link"], "--camera", self.camera, "--may-record"):
-                self.begun(recorder, second)
-                self.ends(recorder, COMPLETE)
+        with self.two_segments() as recorder:
+            self.ends(recorder, COMPLETE)
         self.assertEqual(run("inspect", self.file, "--verify")[0], COMPLETE)
         renamed = self.folder / "Müller, Operation 3.mkv"
         self.file.rename(renamed)
         code, out, errors = run("inspect", renamed, "--json")
         self.assertEqual((code, len(json.loads(out)["segments"])), (COMPLETE, 2), errors)
-        second.unlink()
+        (self.folder / "a.002.mkv").unlink()
         code, out, errors = run("inspect", renamed, "--verify")
         self.assertEqual(code, INCOMPLETE, errors)
         self.assertIn("at least 1 segment is missing", out + errors)

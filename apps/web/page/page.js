@@ -232,13 +232,17 @@ function run({ client, voice, face, module, flat }) {
         if (is_complete(page.state))
             page.complete_ms = performance.now();
     };
+    // The picture of a visit before goes with it, and nobody is to wait for it.
+    const forget_picture = () => {
+        ++page.visit;
+        is_drawing = false;
+    };
     // The same person enters again, in the other way of seeing.
     const change_way = (way, why) => {
         page.way = way;
         page.why = why;
         patience = new Patience();
-        ++page.visit;
-        is_drawing = false;
+        forget_picture();
         enter(client);
         follow_way(face);
     };
@@ -324,9 +328,7 @@ function run({ client, voice, face, module, flat }) {
     };
     return () => {
         next_texts = 0;
-        // The picture of a visit before went with it, and nobody is to wait for it.
-        ++page.visit;
-        is_drawing = false;
+        forget_picture();
         go_on_drawing();
     };
 }
