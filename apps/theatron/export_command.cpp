@@ -168,12 +168,14 @@ void run(const Flags& flags) {
         throw Error(
             "'" + flags.file +
             "' has no voices: only recordings of sessions have those of people who agreed.");
-    for (const std::string& file : {flags.k4a, flags.room}) {
+    std::vector<std::filesystem::path> sources;
+    for (const record::Segment& segment : recording->segments())
+        sources.emplace_back(segment.file);
+    for (const auto& [file, count] :
+         {std::pair(flags.k4a, calibrations), std::pair(flags.room, std::size_t(1))}) {
         if (file.empty())
             continue;
-        for (const record::Segment& segment : recording->segments())
-            files::require_other_file(file, segment.file);
-        exporting::require_free(file, flags.overwrite);
+        exporting::require_free(file, count, flags.overwrite, sources);
         files::require_writable(file);
     }
     for (const std::string& folder : {flags.ply, flags.png})

@@ -32,21 +32,36 @@ std::string trimmed(const std::string& text) {
 ParticipantId find_person(const std::string& who, const std::vector<SomePerson>& people,
                           bool waits) {
     std::vector<const SomePerson*> found;
+    const auto number_of = [](const SomePerson& person) {
+        return "#" + std::to_string(std::uint32_t(person.id));
+    };
+    const auto add = [&](std::string& list, const SomePerson& person) {
+        list += (list.empty() ? "" : ", ") + number_of(person) + " " + person.name +
+                (person.records ? " (records)" : "");
+    };
     std::string present;
     for (const SomePerson& person : people) {
-        const std::string number = "#" + std::to_string(std::uint32_t(person.id));
-        if (who == number)
+        if (who == number_of(person))
             return person.id;
         if (person.name == who)
             found.push_back(&person);
-        present += (present.empty() ? "" : ", ") + number + " " + person.name;
+        add(present, person);
     }
     // The same name inside and at the door is no doubt.
     if (found.size() > 1)
         std::erase_if(found, [&](const SomePerson* person) { return person->waits != waits; });
-    if (found.size() > 1)
-        throw Error("There is more than one '" + who + "'; say the number, one of " + present +
+    // Nor are the windows of one person who asks for the same.
+    const auto is_the_same = [&](const SomePerson* person) {
+        return !person->person.empty() && person->person == found.front()->person &&
+               person->records == found.front()->records;
+    };
+    if (found.size() > 1 && !std::ranges::all_of(found, is_the_same)) {
+        std::string matching;
+        for (const SomePerson* person : found)
+            add(matching, *person);
+        throw Error("There is more than one '" + who + "'; say the number, one of " + matching +
                     ".");
+    }
     if (found.empty())
         throw Error("There is no '" + who + "' here; " +
                     (present.empty() ? "nobody is." : "there are " + present + "."));
@@ -107,11 +122,12 @@ std::optional<PersonDecision> parse_people_line(const std::string& line,
 bool obey_people_line(client::Participant& participant, const std::string& line) {
     std::vector<SomePerson> people;
     for (const wire::Visitor& visitor : participant.visitors())
-        people.push_back({visitor.participant, visitor.name, true});
+        people.push_back(
+            {visitor.participant, visitor.name, true, visitor.person, visitor.records});
     for (const auto& [id, object] : participant.room().objects)
         if (object.kind == session::ObjectKind::person && !session::is_recorded(id))
             if (const auto facts = session::decode_person(object.properties))
-                people.push_back({object.creator, facts->name, false});
+                people.push_back({object.creator, facts->name, false, {}, facts->records});
     return obey(line, people, [&](const PersonDecision& decision) {
         if (participant.manage(decision.action, decision.person, decision.role) == 0)
             throw Error("You have not joined yet.");
@@ -122,9 +138,10 @@ bool obey_people_line(host::Host& host, const std::string& line) {
     const host::HostFigures figures = host.figures();
     std::vector<SomePerson> people;
     for (const wire::Visitor& visitor : figures.visitors)
-        people.push_back({visitor.participant, visitor.name, true});
+        people.push_back(
+            {visitor.participant, visitor.name, true, visitor.person, visitor.records});
     for (const auto& participant : figures.participants)
-        people.push_back({participant.id, participant.name, false});
+        people.push_back({participant.id, participant.name, false, {}, false});
     return obey(line, people, [&](const PersonDecision& decision) {
         host.manage(decision.action, decision.person, decision.role);
     });

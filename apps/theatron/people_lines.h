@@ -18,6 +18,8 @@ struct SomePerson {
     ParticipantId id{};
     std::string name;
     bool waits = false;  // for admission
+    Bytes person;        // as in wire::Visitor; empty: not known
+    bool records = false;
 };
 
 struct PersonDecision {

@@ -49,9 +49,27 @@ TEST(PeopleLines, TakeTheOneAtTheDoorForAdmissionAndTheOneInsideForTheRest) {
 
 TEST(PeopleLines, SayWhoIsMeantWhereANameFitsTwoOrNobody) {
     EXPECT_THAT(problem_of("mute Eve"), HasSubstr("more than one 'Eve'; say the number"));
+    EXPECT_THAT(problem_of("mute Eve"), Not(HasSubstr("Ada"))) << "only those of the name";
     EXPECT_EQ(parsed("mute #5").person, ParticipantId{5});
     EXPECT_THAT(problem_of("mute Zoe"), HasSubstr("no 'Zoe' here; there are #1 Dr. Ada, #2 Ben"));
     EXPECT_THAT(problem_of("mute"), HasSubstr("Say 'mute NAME'"));
+}
+
+TEST(PeopleLines, TakeTwoWindowsOfOnePersonForOneUnlessOneOfThemRecords) {
+    const Bytes zoe(16, std::byte(1)), other(16, std::byte(2));
+    const auto admitted = [](const std::vector<SomePerson>& waiting) {
+        return parse_people_line("admit Zoe", waiting).value().person;
+    };
+    SomePerson first{ParticipantId{6}, "Zoe", true, zoe, false}, second = first;
+    second.id = ParticipantId{7};
+    EXPECT_EQ(admitted({first, second}), first.id);
+    second.records = true;
+    EXPECT_THROW(admitted({first, second}), Error);
+    second.records = false;
+    second.person = other;
+    EXPECT_THROW(admitted({first, second}), Error) << "somebody else of that name";
+    first.person = second.person = {};
+    EXPECT_THROW(admitted({first, second}), Error) << "not known to be one";
 }
 
 TEST(PeopleLines, LeaveOtherLinesAlone) {

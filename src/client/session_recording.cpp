@@ -28,6 +28,8 @@ constexpr Duration room_interval = std::chrono::milliseconds(10),
                    room_part = std::chrono::milliseconds(100);
 // The room is known at once after the first pictures.
 constexpr Duration room_patience = std::chrono::seconds(1);
+// A camera that has left is let go when none of its pictures has come for this time.
+constexpr Duration last_pictures = std::chrono::seconds(3);
 // Pictures may come before the session's clock is known, on a connection of long delay.
 constexpr std::size_t max_early_bytes = std::size_t(64) << 20;
 
@@ -101,7 +103,7 @@ public:
             end_ = End{"", false};  // the participant has said it
         if (status.phase == Participant::Phase::joined) {
             note_states();
-            if (settles())
+            if (settles() || let_go())
                 on_described();
         }
         on_room(true);
@@ -171,6 +173,22 @@ private:
         return clock_known_ && places_.is_settling();
     }
 
+    // A camera of the session as it is recorded.
+    struct Described {
+        record::RecordedCamera camera;
+        std::map<StreamId, SettingId> settings;
+        TimePoint heard;  // when it left or its last picture came; null: it is there
+    };
+
+    // True if a camera that has left sends no pictures any more.
+    bool let_go() {
+        const std::lock_guard lock(mutex_);
+        return std::erase_if(described_, [](const auto& entry) {
+                   const TimePoint heard = entry.second.heard;
+                   return heard != TimePoint{} && steady_now() - heard > last_pictures;
+               }) > 0;
+    }
+
     struct Early {
         StreamId stream{};         // in the session
         wire::MediaHeader header;  // as it is recorded
@@ -209,13 +227,18 @@ private:
             intake_.describe_voices({});
             room_.forget();
             places_.clear();
+            described_.clear();
             room_version_ = 0;
             early_.clear();
             early_bytes_ = 0;
         }
+        note_left();
         std::vector<CameraId> recorded;
         for (const Participant::Camera& camera : recordable_cameras())
             recorded.push_back(camera.description.id);
+        for (const auto& [id, left] : described_)
+            if (left.heard != TimePoint{})
+                recorded.push_back(id);
         numbers_.set_cameras(recorded);
         places_.keep_only([this](CameraId camera) { return numbers_.of(camera).has_value(); });
         std::vector<record::RecordedCamera> cameras;
@@ -224,6 +247,7 @@ private:
             intake_.describe(std::move(cameras), std::move(settings), new_connection_,
                              steady_now());
             new_connection_ = false;
+            end_left();
         }
         if (status.clock_known && !clock_known_)
             clock_known_at_ = steady_now();
@@ -245,21 +269,46 @@ private:
         early_bytes_ = 0;
     }
 
+    // The message that a camera has left overtakes its last pictures, which may wait for a slow
+    // link or a recorder that stood still.
+    void note_left() {
+        std::uint64_t generation = 0;
+        std::set<CameraId> there;
+        for (const Participant::Camera& camera : participant_->cameras(generation))
+            there.insert(camera.description.id);
+        for (auto& [id, known] : described_)
+            if (known.heard == TimePoint{} && !there.contains(id))
+                known.heard = steady_now();
+    }
+    // Nothing is missing of them.
+    void end_left() {
+        for (const auto& [id, left] : described_)
+            if (left.heard != TimePoint{})
+                intake_.on_end(left.camera.id);
+    }
+
     // False as long as the settings are still on their way.
     bool describe(std::vector<record::RecordedCamera>& cameras,
                   std::map<StreamId, SettingId>& settings) {
         const auto sent = participant_->settings();
+        std::map<CameraId, Described> described = described_;
+        std::erase_if(described, [](const auto& e) { return e.second.heard == TimePoint{}; });
+        for (const auto& [id, left] : described) {
+            cameras.push_back(left.camera);
+            settings.insert(left.settings.begin(), left.settings.end());
+        }
         for (const Participant::Camera& camera : recordable_cameras()) {
             const wire::Camera& d = camera.description;
             const auto number = numbers_.of(d.id);
             if (!number)
                 continue;
+            std::map<StreamId, SettingId> own;
             const auto codec_of = [&](StreamId id, StreamId recorded) -> std::string {
                 const auto found = std::find_if(sent.begin(), sent.end(),
                                                 [&](const auto& s) { return s.stream == id; });
                 if (found == sent.end())
                     return "";
-                settings[recorded] = found->setting;
+                own[recorded] = found->setting;
                 return found->codec;
             };
             const Size depth = camera.calibration.depth.size, color = camera.calibration.color.size;
@@ -279,8 +328,11 @@ private:
                                                  color.width, color.height};
             if (r.depth.codec.empty() || (r.color && r.color->codec.empty()))
                 return false;
+            settings.insert(own.begin(), own.end());
+            described[d.id] = {r, std::move(own), {}};
             cameras.push_back(std::move(r));
         }
+        described_ = std::move(described);
         return true;
     }
 
@@ -390,6 +442,9 @@ private:
         if (stopped_ || !number)
             return;
         const StreamId stream = header.stream;
+        if (const auto left = described_.find(camera_of(stream));
+            left != described_.end() && left->second.heard != TimePoint{})
+            left->second.heard = steady_now();
         header.stream = is_depth(stream) ? depth_stream(*number) : color_stream(*number);
         wire::write_media_header(header, message->data());
         if (is_ready()) {
@@ -430,6 +485,7 @@ private:
     std::vector<Early> early_;  // came before the clock and the room were known
     std::size_t early_bytes_ = 0;
     RecordedNumbers numbers_;
+    std::map<CameraId, Described> described_;  // by the session's numbers
     SettledPlaces places_;
     std::map<StreamId, std::string> filters_;  // that run on each camera's depth
     session::RoomTrackWriter room_;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "files/file_bytes.h"
 
 namespace theatron::exporting {
 namespace {
@@ -84,6 +85,12 @@ void clear(const fs::path& folder, bool overwrite) {
     }
 }
 
+fs::path draft_of(const fs::path& file, std::size_t calibration) {
+    const fs::path one = place_of(file, calibration);
+    fs::path draft = one.parent_path() / (one.stem() += ".part");
+    return draft += one.extension();
+}
+
 }  // namespace
 
 fs::path place_of(const fs::path& place, std::size_t calibration) {
@@ -115,6 +122,16 @@ void require_free(const fs::path& file, bool overwrite) {
                     "' exists already; name another file, or give --overwrite.");
 }
 
+void require_free(const fs::path& file, std::size_t count, bool overwrite,
+                  const std::vector<fs::path>& sources) {
+    for (std::size_t n = 0; n < count; ++n)
+        for (const fs::path& written : {place_of(file, n), draft_of(file, n)}) {
+            for (const fs::path& source : sources)
+                files::require_other_file(written, source);
+            require_free(written, overwrite);
+        }
+}
+
 void replace_files(const fs::path& file, std::size_t count,
                    const std::function<void(const fs::path&, std::size_t)>& write) {
     std::vector<fs::path> drafts;
@@ -125,9 +142,7 @@ void replace_files(const fs::path& file, std::size_t count,
     };
     try {
         for (std::size_t n = 0; n < count; ++n) {
-            const fs::path one = place_of(file, n);
-            drafts.push_back(one.parent_path() / (one.stem() += ".part"));
-            drafts.back() += one.extension();
+            drafts.push_back(draft_of(file, n));
             std::error_code ignored;
             fs::remove(drafts.back(), ignored);  // of an export that was killed
             write(drafts.back(), n);
@@ -143,11 +158,6 @@ void replace_files(const fs::path& file, std::size_t count,
             throw Error("Cannot write '" + place_of(file, n).string() + "': " + problem.message() +
                         "; its content is in '" + drafts[n].string() + "'.");
     }
-    // Those of an earlier export that had more.
-    std::error_code ignored;
-    for (std::size_t n = std::max<std::size_t>(count, 1); fs::exists(place_of(file, n), ignored);
-         ++n)
-        fs::remove(place_of(file, n), ignored);
 }
 
 }  // namespace theatron::exporting

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <vector>
 
 namespace theatron::exporting {
 
@@ -17,9 +18,13 @@ void clear_folder(const std::filesystem::path& folder, bool overwrite);
 
 // Error with one sentence if the file is there already, unless `overwrite`.
 void require_free(const std::filesystem::path& file, bool overwrite);
+// The same for all files that replace_files() writes for `count` calibrations, its drafts included.
+// None of them may be a file of `sources`.
+void require_free(const std::filesystem::path& file, std::size_t count, bool overwrite,
+                  const std::vector<std::filesystem::path>& sources);
 
 // Calls `write(draft, n)` for calibrations 0 to `count` - 1, then gives the drafts their names.
-// If a call throws, the files of an earlier export are as before.
+// If a call throws, the files of an earlier export are as before. Other files stay.
 void replace_files(const std::filesystem::path& file, std::size_t count,
                    const std::function<void(const std::filesystem::path&, std::size_t)>& write);
 

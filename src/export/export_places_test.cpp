@@ -3,6 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+
+#include "base/error.h"
+#include "testing/temporary_folder.h"
+
 namespace theatron::exporting {
 namespace {
 
@@ -15,6 +20,27 @@ TEST(ExportPlaces, OfLaterCalibrationsLieBesideTheFirst) {
     const auto here = std::filesystem::current_path();
     EXPECT_EQ(place_of(".", 1), here.parent_path() / (here.filename().string() + ".2"));
     EXPECT_EQ(place_of("./", 1), place_of(".", 1));
+}
+
+TEST(ExportPlaces, NoFileIsReplacedUnasked) {
+    const testing::TemporaryFolder folder;
+    const auto path = [&](const char* name) { return folder.path() / name; };
+    const auto make = [&](const char* name) { std::ofstream(path(name)) << name; };
+    const auto write = [](const std::filesystem::path& draft, std::size_t n) {
+        std::ofstream(draft) << n;
+    };
+    require_free(path("a.mkv"), 2, false, {});
+    for (const char* name : {"a.2.mkv", "a.part.mkv", "a.2.part.mkv"}) {
+        make(name);
+        EXPECT_THROW(require_free(path("a.mkv"), 2, false, {}), Error) << name;
+        require_free(path("a.mkv"), 2, true, {});
+        EXPECT_THROW(require_free(path("a.mkv"), 2, true, {path(name)}), Error) << "the source";
+        std::filesystem::remove(path(name));
+    }
+    make("a.3.mkv");
+    replace_files(path("a.mkv"), 2, write);
+    for (const char* name : {"a.mkv", "a.2.mkv", "a.3.mkv"})
+        EXPECT_TRUE(std::filesystem::exists(path(name))) << name;
 }
 
 }  // namespace

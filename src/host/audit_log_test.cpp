@@ -2,16 +2,15 @@
 #include "host/audit_log.h"
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 
-#include <csignal>
 #include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "base/error.h"
+#include "testing/full_disk.h"
 #include "testing/temporary_folder.h"
 
 namespace theatron::host {
@@ -118,25 +117,6 @@ TEST(Audit, WhatWasLeftOutIsCountedAlsoWhereNoLineFollows) {
     EXPECT_EQ(lines_of(path)[0]["events"]["waits"], 1);
 }
 
-// Until it is destroyed no file of this process becomes larger, as on a full disk.
-class FullDisk {
-public:
-    explicit FullDisk(std::size_t bytes) {
-        getrlimit(RLIMIT_FSIZE, &before_);
-        handler_ = std::signal(SIGXFSZ, SIG_IGN);
-        const rlimit limit{bytes, before_.rlim_max};
-        setrlimit(RLIMIT_FSIZE, &limit);
-    }
-    ~FullDisk() {
-        setrlimit(RLIMIT_FSIZE, &before_);
-        std::signal(SIGXFSZ, handler_);
-    }
-
-private:
-    rlimit before_{};
-    void (*handler_)(int) = nullptr;
-};
-
 bool wait_for(const std::function<bool()>& is_true) {
     for (int i = 0; i < 1000 && !is_true(); ++i)
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -151,7 +131,7 @@ TEST(Audit, AFullDiskIsAProblemUntilItHasRoomAgainAndNothingIsLost) {
     ASSERT_TRUE(wait_for([&] { return std::filesystem::file_size(path) > 0; }));
     constexpr std::size_t more = 20;  // lines than wait
     {
-        const FullDisk disk(std::filesystem::file_size(path) + 10);
+        const testing::FullDisk disk(std::filesystem::file_size(path) + 10);
         log.add(event(What::left), "");
         ASSERT_TRUE(wait_for([&] { return !log.problem().empty(); }));
         for (std::size_t i = 0; i < AuditLog::max_waiting_lines + more; ++i)

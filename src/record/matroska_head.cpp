@@ -253,6 +253,8 @@ std::optional<FoundHead> find_copy(ByteSource& source) {
 
 struct PlainHead {
     Status status = Status::ok;
+    // The elements before Info are not as the writer leaves them.
+    bool is_front_damaged = false;
     FoundHead head;                 // the parts before the damage
     std::optional<FoundHead> copy;  // found while reading
 };
@@ -311,6 +313,13 @@ PlainHead read_plain(ByteSource& source) {
             found.status = read_part(window, *part, found.head);
         if (found.status != Status::ok)
             break;
+        if (part->end <= segment->begin + seek_head_space) {
+            const bool says_something =
+                !found.head.early_end.empty() || found.head.next_segment != 0;
+            found.is_front_damaged |=
+                part->id == ids::tags ? !says_something
+                                      : part->id != ids::seek_head && part->id != ids::void_element;
+        }
         // A damaged size of that element would skip clusters, perhaps up to another copy.
         if (part->id == ids::void_element && !found.head.tracks.empty() &&
             !std::exchange(has_passed_copy, true))
@@ -356,8 +365,8 @@ Result<FoundHead> read_head(ByteSource& source, CopySearch search) {
         plain.head.damaged = true;
         return plain.head;
     }
-    damaged =
-        damaged || copy->tracks != plain.head.tracks || copy->attachments != plain.head.attachments;
+    damaged = damaged || plain.is_front_damaged || copy->tracks != plain.head.tracks ||
+              copy->attachments != plain.head.attachments;
     copy->damaged = damaged;
     copy->early_end = plain.head.early_end;
     copy->next_segment = plain.head.next_segment;

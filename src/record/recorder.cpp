@@ -42,6 +42,8 @@ bool is_in_use(const fs::path& path) {
     return in_use;
 }
 
+constexpr const char* part_of = "is a part of the recording to be replaced";
+
 // The files of the later segments of the recording in `path`, which is to be replaced with them;
 // none if there is no recording. Throws Error if they must not be.
 std::vector<fs::path> later_segments_of(const fs::path& path) {
@@ -50,18 +52,28 @@ std::vector<fs::path> later_segments_of(const fs::path& path) {
     std::vector<fs::path> files;
     if (!first)
         return files;
+    const std::string name = "'" + path.string() + "'";
+    if (fs::is_symlink(path, ignored))
+        throw Error(name + " is a link to a recording; name the file itself, or another one.");
     if (first->number > 1)
-        throw Error("'" + path.string() + "' is segment " + std::to_string(first->number) +
+        throw Error(name + " is segment " + std::to_string(first->number) +
                     " of a recording, which would end there; name its first file or another one.");
-    for (const fs::path& file : files_of_later_segments(path))
-        if (const auto info = read_segment_info(file);
-            info && info->recording == first->recording && info->number > first->number)
-            files.push_back(file);
-    for (const fs::path& file : files)
+    for (const fs::path& file : files_of_later_segments(path)) {
+        if (access(file.c_str(), R_OK) != 0)
+            throw Error("'" + file.string() + "' may not be read, so it is not known whether it " +
+                        part_of + "; name another file.");
+        const auto info = read_segment_info(file);
+        if (!info || info->recording != first->recording || info->number <= first->number)
+            continue;
         if (is_in_use(file))
-            throw Error("'" + file.string() +
-                        "', a part of the recording to be replaced, is being "
-                        "recorded or played; name another file, or end that first.");
+            throw Error("'" + file.string() + "', which " + part_of +
+                        ", is being recorded or played; name another file, or end that first.");
+        files.push_back(file);
+    }
+    const fs::path folder = path.has_parent_path() ? path.parent_path() : ".";
+    if (!files.empty() && access(folder.c_str(), W_OK | X_OK) != 0)
+        throw Error("'" + files[0].string() + "', which " + part_of +
+                    ", may not be removed; name another file.");
     return files;
 }
 
@@ -101,8 +113,10 @@ Recorder::Recorder(const std::filesystem::path& path, const std::vector<Recorded
     writer_ = std::make_unique<SegmentWriter>(path_, content, info_, options.replace);
     // Later segments of the replaced recording must not remain beside the new one.
     for (const fs::path& later : replaced) {
-        std::error_code ignored;
-        fs::remove(later, ignored);
+        std::error_code problem;
+        if (!fs::remove(later, problem) && problem)
+            throw Error("Cannot remove '" + later.string() + "', which " + part_of + ": " +
+                        problem.message() + ".");
     }
     streams_ = streams_of(content);
     last_now_ = clock.session;

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // How recordings are written, and how they end.
-#include <signal.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+#include <csignal>
 
 #include "base/error.h"
 #include "record/remarks.h"
 #include "record/test_recordings.h"
+#include "testing/full_disk.h"
 
 namespace theatron::record {
 namespace {
@@ -99,27 +100,13 @@ TEST(Recording, KilledWhileRecordingLosesAtMostTheLastSecond) {
     }
 }
 
-// Stands for a full disk: the system lets the file grow to this size only.
-
-class SizeLimit {
-public:
-    explicit SizeLimit(rlim_t bytes) {
-        getrlimit(RLIMIT_FSIZE, &before_);
-        const rlimit limit{bytes, before_.rlim_max};
-        setrlimit(RLIMIT_FSIZE, &limit);
-    }
-    ~SizeLimit() { setrlimit(RLIMIT_FSIZE, &before_); }
-
-private:
-    rlimit before_;
-};
-
 TEST(Recording, AFullDiskEndsItWithASentenceAndKeepsWhatCameBefore) {
     const testing::TemporaryFolder folder;
     const fs::path path = folder.path() / "full.mkv";
     const auto messages = generated(1, 90, 10'000);
     {
-        const SizeLimit limit(500'000);
+        const testing::FullDisk disk(500'000);
+        std::signal(SIGXFSZ, SIG_DFL);  // the writing thread blocks it
         Recorder recorder(path, cameras(1), session_begin);
         // The first thirty have room, all of them do not.
         for (const std::size_t end : {30, 90}) {
@@ -169,8 +156,7 @@ TEST(Recording, APictureThatIsSentAgainStaysBehindTheFirst) {
 TEST(Recording, ADiskThatIsFullAtTheBeginningLeavesNoFile) {
     const testing::TemporaryFolder folder;
     const fs::path path = folder.path() / "full.mkv";
-    const auto before = ::signal(SIGXFSZ, SIG_IGN);
-    const SizeLimit limit(100);
+    const testing::FullDisk disk(100);
     try {
         Recorder recorder(path, cameras(1), session_begin);
         FAIL() << "the head does not fit";
@@ -179,7 +165,6 @@ TEST(Recording, ADiskThatIsFullAtTheBeginningLeavesNoFile) {
             << error.what();
     }
     EXPECT_FALSE(fs::exists(path));
-    ::signal(SIGXFSZ, before);
 }
 
 TEST(Recorder, NeverTakesAFileFromAnotherRecorderOrAPlayer) {

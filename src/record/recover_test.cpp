@@ -2,14 +2,11 @@
 // Recovery of damaged files, and of files that contain one another.
 #include "record/recover.h"
 
-#include <sys/resource.h>
-
-#include <csignal>
-
 #include "base/error.h"
 #include "record/recording_layout.h"
 #include "record/remarks.h"
 #include "record/test_recordings.h"
+#include "testing/full_disk.h"
 
 namespace theatron::record {
 namespace {
@@ -125,20 +122,13 @@ TEST(Recovery, AFullDiskLeavesNothingAndSaysSo) {
     const testing::TemporaryFolder folder;
     write_bytes(folder.path() / "a.mkv", recording_of(with_keys(90, 10'000)));
     const auto recording = RecordingFile::open(folder.path() / "a.mkv");
-    // Stands for a full disk: the system lets the file grow to this size only.
-    rlimit before;
-    getrlimit(RLIMIT_FSIZE, &before);
-    const rlimit limit{300'000, before.rlim_max};
-    const auto signal_before = std::signal(SIGXFSZ, SIG_IGN);
-    setrlimit(RLIMIT_FSIZE, &limit);
     std::string problem;
     try {
+        const testing::FullDisk disk(300'000);
         (void)recover(*recording, folder.path() / "saved.mkv", {});
     } catch (const Error& error) {
         problem = error.what();
     }
-    setrlimit(RLIMIT_FSIZE, &before);
-    std::signal(SIGXFSZ, signal_before);
     EXPECT_NE(problem.find("What was copied is removed"), std::string::npos) << problem;
     EXPECT_EQ(problem.find("is kept"), std::string::npos) << problem;
     EXPECT_FALSE(fs::exists(folder.path() / "saved.mkv"));

@@ -116,8 +116,8 @@ std::vector<std::string> remarks_on_files(const RecordingFile& recording) {
     std::vector<std::string> remarks;
     for (const std::string& file : recording.unreadable_files())
         remarks.push_back(quoted(file) +
-                          " follows by its name, but cannot be read: it is no recording, or its "
-                          "beginning and all copies of that are damaged");
+                          " follows by its name, but cannot be read: it may not be opened, is no "
+                          "recording, or its beginning and all copies of that are damaged");
     for (const std::string& file : recording.foreign_files())
         remarks.push_back(quoted(file) +
                           " lies beside it, but does not continue this recording, and is left out");

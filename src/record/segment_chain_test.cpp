@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 
 #include "base/error.h"
+#include "record/recording_layout.h"
 #include "record/recover.h"
 #include "record/remarks.h"
 #include "record/test_recordings.h"
@@ -80,6 +81,27 @@ TEST(SegmentChain, ThatTheLastFileIsLostIsSaid) {
     // The file that is saved from it is as incomplete.
     recover(*RecordingFile::open(folder.path() / "a.mkv"), folder.path() / "saved.mkv", {});
     EXPECT_EQ(RecordingFile::open(folder.path() / "saved.mkv")->missing_segments(), 1u);
+}
+
+// In the tag, whose bytes no checksum protects.
+TEST(SegmentChain, ThatTheLastFileIsLostIsSaidInSpiteOfAFlippedBit) {
+    const testing::TemporaryFolder folder;
+    record_segments(folder.path(), 2);
+    fs::remove(folder.path() / "a.002.mkv");
+    const fs::path first = folder.path() / "a.mkv";
+    const Bytes whole = bytes_of(first);
+    const ByteView name = as_bytes(std::string_view(next_segment_tag));
+    const auto tag = std::search(whole.begin(), whole.end(), name.begin(), name.end());
+    ASSERT_NE(tag, whole.end());
+    for (int at = -12; at < int(name.size()) + 5; ++at)
+        for (int bit = 0; bit < 8; ++bit) {
+            Bytes flipped = whole;
+            *(flipped.begin() + (tag - whole.begin()) + at) ^= std::byte(1 << bit);
+            write_bytes(first, flipped);
+            const auto recording = RecordingFile::open(first);
+            EXPECT_FALSE(recording->complete()) << at << " " << bit;
+            EXPECT_EQ(recording->cameras().at(0).depth.frames.size(), 1u);
+        }
 }
 
 TEST(SegmentChain, AFileThatCannotBeReadIsNamed) {
@@ -160,6 +182,8 @@ TEST(Recorder, ReplacesNoRecordingOfWhichAPartIsInUseNorALaterPart) {
         EXPECT_THROW(record_all(folder.path() / "a.mkv", 1, generated(1, 3, 100)), Error);
     }
     EXPECT_THROW(record_all(folder.path() / "a.002.mkv", 1, generated(1, 3, 100)), Error);
+    fs::create_symlink(folder.path() / "a.mkv", folder.path() / "link.mkv");
+    EXPECT_THROW(record_all(folder.path() / "link.mkv", 1, generated(1, 3, 100)), Error);
     EXPECT_EQ(bytes_of(folder.path() / "a.mkv"), before);
     EXPECT_EQ(RecordingFile::open(folder.path() / "a.mkv")->segments().size(), 3u);
 }

@@ -360,6 +360,27 @@ class RecordFaults(unittest.TestCase):
         self.assertEqual(depth["frames"], figures["cameras"][0]["depth"]["pictures"])
         self.assertLess(depth["longest_gap_ms"], 1500)
 
+    def test_the_last_pictures_of_a_camera_that_left_come_although_the_recorder_stood_still(self):
+        names = [self.folder / name for name in ("a.mkv", "b.mkv")]
+        with host(self.state, self.camera) as h, contextlib.ExitStack() as stack:
+            recorders = [stack.enter_context(self.recorder(h.greeting["link"], name, "--depth-codec", "strata")) for name in names]
+            for recorder, name in zip(recorders, names):
+                self.begun(recorder, name)
+            with Process("publish", h.greeting["publish_link"], "--camera", self.camera, "--may-record") as guest:
+                for recorder, name in zip(recorders, names):
+                    self.begun(recorder, name.with_suffix(".002.mkv"))
+                recorders[1].send(signal.SIGSTOP)
+                time.sleep(1)
+                guest.send(signal.SIGINT)
+                guest.end()
+            time.sleep(1)
+            recorders[1].send(signal.SIGCONT)
+            time.sleep(2)
+            figures = [self.ends(recorder, COMPLETE) for recorder in recorders]
+        guests = [f["cameras"][1]["depth"]["pictures"] for f in figures]
+        self.assertGreater(guests[0], 20)
+        self.assertEqual(guests[0], guests[1])
+
     def test_a_restarted_host_begins_a_segment_that_plays(self):
         second = self.folder / "a.002.mkv"
         later = clock_ahead(DAY_S) or ()
