@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 # Eight sources of a target are compiled at once, in about half the processor time. In builds without sanitizers the
-# modules below are not. Tests are compiled with few optimisations there: what they test is not, and `make test` from
-# nothing is faster by three minutes on two cores.
+# modules below are not. Tests are compiled with few optimisations, and with none where there are sanitizers: what they
+# test is not, and `make test` from nothing is faster by five minutes on two cores.
 
 # Their inner loops take most of the time of every figure in docs/, or measure it. The compiler limits inlining by
 # the size of what it compiles at once, so a source that is added elsewhere must not change how a loop is compiled.
 set(THEATRON_FAST_MODULES image geometry codec filter video render medical bench_library)
+
+# Inline functions of headers take most of the time of these.
+set(THEATRON_LONG_TESTS registration_test synthetic_test)
 
 # A source whose file-local names another source of its target also has is compiled alone. The compiler
 # says "redefinition" or "ambiguous" then: rename one of the two, or add a source here. So is one that takes the
@@ -127,14 +130,22 @@ function(theatron_compile_together target)
   if(NOT ARGN)
     return()
   endif()
-  if(NOT THEATRON_SANITIZE)
-    string(REGEX REPLACE "^theatron_" "" module ${target})
-    if(module IN_LIST THEATRON_FAST_MODULES)
-      return()
-    endif()
+  string(REGEX REPLACE "^theatron_" "" module ${target})
+  if(NOT THEATRON_SANITIZE AND module IN_LIST THEATRON_FAST_MODULES)
+    return()
   endif()
-  if(NOT THEATRON_SANITIZE AND target MATCHES "_test$")
-    target_compile_options(${target} PRIVATE $<$<AND:$<CONFIG:Release>,$<COMPILE_LANGUAGE:CXX>>:-O1>)
+  if(target MATCHES "_test$")
+    if(THEATRON_SANITIZE)
+      if(NOT target IN_LIST THEATRON_LONG_TESTS)
+        target_compile_options(${target} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:-O0>)
+      endif()
+    else()
+      target_compile_options(${target} PRIVATE $<$<AND:$<CONFIG:Release>,$<COMPILE_LANGUAGE:CXX>>:-O1>)
+    endif()
+    if(THEATRON_FUZZ)
+      # The fuzzer's coverage is of the modules only.
+      target_compile_options(${target} PRIVATE -fno-sanitize=fuzzer-no-link)
+    endif()
   endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
   # A name of one source shadows no name of another, and no class of a header is of one source only. GCC 12 takes

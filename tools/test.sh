@@ -37,7 +37,7 @@ step "Build: release" build release
 step "Build: assertions, ASan, UBSan, fuzz targets" build dev --target unit_tests fuzzers
 step "Build: web modules with em++" build web
 # Long scenarios of images and geometry: the release build runs them, and here their parts are in other tests.
-long='CamerasOnOneArm.*:BlockRoom.AFarMotion*:BlockRoom.ACovered*:Watching.*:RaisedTable.*:LatticeDetectorOnRealData.*:RecordedBackground.*:Synth.TheCase*:BlockRoom.APersonBefore*'
+long='CamerasOnOneArm.*:BlockRoom.AFarMotion*:BlockRoom.ACovered*:Watching.*:RaisedTable.*:LatticeDetectorOnRealData.*:RecordedBackground.*:Synth.TheCase*:BlockRoom.APersonBefore*:Synth.ALiverHas*:WatchedCamera.AnHour*'
 [ "$all" = --all ] && long=
 step "Unit tests with assertions, ASan and UBSan" env GTEST_FILTER="-$long" ctest --preset dev
 if [ "$all" = --all ]; then
@@ -46,7 +46,7 @@ if [ "$all" = --all ]; then
     step "Every fuzz target for a minute" tools/fuzz.sh 60
 else
     step "Some threaded modules under TSan" tools/test_tsan.sh base net record send
-    step "Every fuzz target for a few seconds" tools/fuzz.sh 3
+    step "Every fuzz target for two seconds" tools/fuzz.sh 2
 fi
 if [ "$all" = --all ]; then
     step "Cameras that come and go for ten minutes" tools/test_many.sh release 600

@@ -65,7 +65,8 @@ class Browser:
             os.write(self.commands, json.dumps(message).encode() + b"\0")
         result = answer.get(timeout=timeout)
         if "error" in result:
-            raise AssertionError(f"{method}: {result['error']}")
+            problem = f"{method}: {result['error']}"
+            raise Navigated(problem) if "navigated" in problem or "context" in problem else AssertionError(problem)
         return result["result"]
 
     def open(self, url, size=(640, 360)):
@@ -81,6 +82,10 @@ class Browser:
         os.close(self.commands)
         os.close(self.answers)
         self.profile.cleanup()
+
+
+class Navigated(AssertionError):
+    """The page loads another one, and cannot answer."""
 
 
 class Page:
@@ -129,7 +134,10 @@ class Page:
         """Waits until the JavaScript `condition` is true; returns its value."""
         deadline = time.monotonic() + timeout
         while True:
-            value = self.evaluate(condition)
+            try:
+                value = self.evaluate(condition)
+            except Navigated:
+                value = None  # the page that was asked has gone; the next one answers
             if value:
                 return value
             if time.monotonic() > deadline:

@@ -30,8 +30,12 @@
         if (loads() + 1 >= most_loads)
             return;
         note_loads(loads() + 1);
-        setTimeout(() => location.reload(), wait_ms);
+        reload();
     };
+
+    // Once the host answers: where the page itself did not come, the browser's own page would take its place for good.
+    const reload = () => setTimeout(() => fetch(location.pathname, { method: "HEAD", cache: "no-store" })
+        .then(() => location.reload(), reload), wait_ms);
 
     const is_styled = () => new Promise((resolve, reject) => {
         const look = () => document.querySelector("link[rel=stylesheet]").sheet ? resolve() : reject(new Error("the style"));
