@@ -8,6 +8,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "client/left_cameras.h"
 #include "client/participant.h"
 #include "client/person_id.h"
 #include "client/recorded_numbers.h"
@@ -28,8 +29,6 @@ constexpr Duration room_interval = std::chrono::milliseconds(10),
                    room_part = std::chrono::milliseconds(100);
 // The room is known at once after the first pictures.
 constexpr Duration room_patience = std::chrono::seconds(1);
-// A camera that has left is let go when none of its pictures has come for this time.
-constexpr Duration last_pictures = std::chrono::seconds(3);
 // Pictures may come before the session's clock is known, on a connection of long delay.
 constexpr std::size_t max_early_bytes = std::size_t(64) << 20;
 
@@ -177,16 +176,15 @@ private:
     struct Described {
         record::RecordedCamera camera;
         std::map<StreamId, SettingId> settings;
-        TimePoint heard;  // when it left or its last picture came; null: it is there
     };
 
     // True if a camera that has left sends no pictures any more.
     bool let_go() {
         const std::lock_guard lock(mutex_);
-        return std::erase_if(described_, [](const auto& entry) {
-                   const TimePoint heard = entry.second.heard;
-                   return heard != TimePoint{} && steady_now() - heard > last_pictures;
-               }) > 0;
+        const std::vector<CameraId> silent = left_.forget_silent(steady_now());
+        for (const CameraId camera : silent)
+            described_.erase(camera);
+        return !silent.empty();
     }
 
     struct Early {
@@ -228,6 +226,7 @@ private:
             room_.forget();
             places_.clear();
             described_.clear();
+            left_.clear();
             room_version_ = 0;
             early_.clear();
             early_bytes_ = 0;
@@ -236,9 +235,8 @@ private:
         std::vector<CameraId> recorded;
         for (const Participant::Camera& camera : recordable_cameras())
             recorded.push_back(camera.description.id);
-        for (const auto& [id, left] : described_)
-            if (left.heard != TimePoint{})
-                recorded.push_back(id);
+        for (const CameraId camera : left_.all())
+            recorded.push_back(camera);
         numbers_.set_cameras(recorded);
         places_.keep_only([this](CameraId camera) { return numbers_.of(camera).has_value(); });
         std::vector<record::RecordedCamera> cameras;
@@ -247,7 +245,9 @@ private:
             intake_.describe(std::move(cameras), std::move(settings), new_connection_,
                              steady_now());
             new_connection_ = false;
-            end_left();
+            // Nothing is missing of those that have left.
+            for (const CameraId camera : left_.all())
+                intake_.on_end(described_.at(camera).camera.id);
         }
         if (status.clock_known && !clock_known_)
             clock_known_at_ = steady_now();
@@ -269,33 +269,29 @@ private:
         early_bytes_ = 0;
     }
 
-    // The message that a camera has left overtakes its last pictures, which may wait for a slow
-    // link or a recorder that stood still.
     void note_left() {
         std::uint64_t generation = 0;
         std::set<CameraId> there;
         for (const Participant::Camera& camera : participant_->cameras(generation))
             there.insert(camera.description.id);
-        for (auto& [id, known] : described_)
-            if (known.heard == TimePoint{} && !there.contains(id))
-                known.heard = steady_now();
-    }
-    // Nothing is missing of them.
-    void end_left() {
-        for (const auto& [id, left] : described_)
-            if (left.heard != TimePoint{})
-                intake_.on_end(left.camera.id);
+        for (const auto& [camera, known] : described_)
+            if (!there.contains(camera))
+                left_.add(camera, steady_now());
+        std::erase_if(described_, [&](const auto& entry) {
+            return !there.contains(entry.first) && !left_.contains(entry.first);
+        });
     }
 
     // False as long as the settings are still on their way.
     bool describe(std::vector<record::RecordedCamera>& cameras,
                   std::map<StreamId, SettingId>& settings) {
         const auto sent = participant_->settings();
-        std::map<CameraId, Described> described = described_;
-        std::erase_if(described, [](const auto& e) { return e.second.heard == TimePoint{}; });
-        for (const auto& [id, left] : described) {
+        std::map<CameraId, Described> described;
+        for (const CameraId camera : left_.all()) {
+            const Described& left = described_.at(camera);
             cameras.push_back(left.camera);
             settings.insert(left.settings.begin(), left.settings.end());
+            described[camera] = left;
         }
         for (const Participant::Camera& camera : recordable_cameras()) {
             const wire::Camera& d = camera.description;
@@ -329,7 +325,7 @@ private:
             if (r.depth.codec.empty() || (r.color && r.color->codec.empty()))
                 return false;
             settings.insert(own.begin(), own.end());
-            described[d.id] = {r, std::move(own), {}};
+            described[d.id] = {r, std::move(own)};
             cameras.push_back(std::move(r));
         }
         described_ = std::move(described);
@@ -442,9 +438,7 @@ private:
         if (stopped_ || !number)
             return;
         const StreamId stream = header.stream;
-        if (const auto left = described_.find(camera_of(stream));
-            left != described_.end() && left->second.heard != TimePoint{})
-            left->second.heard = steady_now();
+        left_.on_picture(camera_of(stream), steady_now());
         header.stream = is_depth(stream) ? depth_stream(*number) : color_stream(*number);
         wire::write_media_header(header, message->data());
         if (is_ready()) {
@@ -486,6 +480,7 @@ private:
     std::size_t early_bytes_ = 0;
     RecordedNumbers numbers_;
     std::map<CameraId, Described> described_;  // by the session's numbers
+    LeftCameras left_;                         // of them
     SettledPlaces places_;
     std::map<StreamId, std::string> filters_;  // that run on each camera's depth
     session::RoomTrackWriter room_;

@@ -11,29 +11,35 @@
 namespace theatron::session {
 namespace {
 
-bool is_sound(const Pose& pose, double scale) {
-    const Vec3 p = pose.translation;
-    for (const double coordinate : {p.x, p.y, p.z})
-        if (!(std::abs(coordinate) <= RoomState::max_coordinate_m))
-            return false;
-    const Quat q = pose.rotation;
-    const double norm = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
-    return std::abs(norm - 1) < 1e-3 && scale >= RoomState::min_scale &&
-           scale <= RoomState::max_scale;
-}
-
 // A shared screen whose source is here.
 bool shows_camera(const RoomObject& object) {
     const auto screen = decode_shared_screen(object.kind, object.properties);
     return screen && screen->camera;
 }
 
-// The scale of a shared screen is its width.
-bool may_have(const RoomObject& object, double scale) {
-    return !is_shared_screen(object) || is_screen_width(scale);
+std::size_t property_bytes(const RoomObjects& objects) {
+    std::size_t bytes = 0;
+    for (const auto& [id, object] : objects)
+        bytes += object.properties.size();
+    return bytes;
 }
 
 }  // namespace
+
+bool RoomState::is_sound(const Pose& pose, double scale) {
+    const Vec3 p = pose.translation;
+    for (const double coordinate : {p.x, p.y, p.z})
+        if (!(std::abs(coordinate) <= max_coordinate_m))
+            return false;
+    const Quat q = pose.rotation;
+    const double norm = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
+    return std::abs(norm - 1) < 1e-3 && scale >= min_scale && scale <= max_scale;
+}
+
+bool RoomState::may_be_at(const RoomObject& object, const Pose& pose, double scale) {
+    // The scale of a shared screen is its width.
+    return is_sound(pose, scale) && (!is_shared_screen(object) || is_screen_width(scale));
+}
 
 RoomState::RoomState(const RoomSnapshot& snapshot)
     : revision_(snapshot.revision), objects_(snapshot.objects) {
@@ -61,10 +67,8 @@ RoomChange RoomState::on_joined(ParticipantId participant, Bytes properties, Tim
 }
 
 bool RoomState::has_room_for(std::size_t bytes, std::size_t before) const {
-    std::size_t all = bytes;
-    for (const auto& [id, object] : objects_)
-        all += object.properties.size();
-    return bytes <= max_property_bytes && all - before <= max_property_bytes_of_all;
+    return bytes <= max_property_bytes &&
+           property_bytes(objects_) - before + bytes <= max_property_bytes_of_all;
 }
 
 std::vector<RoomChange> RoomState::on_person(ParticipantId participant, Bytes properties) {
@@ -145,25 +149,6 @@ std::vector<RoomChange> RoomState::on_left(ParticipantId participant) {
     return changes;
 }
 
-RoomState::Decision RoomState::on_request(ParticipantId from, std::uint32_t number,
-                                          const Request& request, bool may_change) {
-    Decision decision;
-    if (!may_change)
-        decision.refusal = Refusal::role;
-    else if (number == 0 || number >= given_grip)
-        decision.refusal = Refusal::malformed;
-    else
-        decision.refusal =
-            std::visit([&](const auto& wanted) { return apply(from, number, wanted); }, request);
-    if (decision.refusal != Refusal::none)
-        return decision;
-    if (const auto* clear = std::get_if<request::ClearMarks>(&request))
-        decision.changes = remove(marks_of(objects_, from, clear->of_all));
-    else
-        decision.changes.push_back(changed(touched_));
-    return decision;
-}
-
 RoomState::Decision RoomState::replace_case(ParticipantId by, std::vector<RoomObject> objects) {
     const auto is_of_case = [](const RoomObject& object) {
         return object.kind == ObjectKind::organ ||
@@ -181,11 +166,8 @@ RoomState::Decision RoomState::replace_case(ParticipantId by, std::vector<RoomOb
         if (!is_sound(object.room_from_object, object.scale))
             return {Refusal::malformed, {}};
     }
-    std::size_t all = bytes;
-    for (const auto& [id, object] : objects_)
-        all += object.properties.size();
     if (objects_.size() - old.size() + objects.size() > max_objects ||
-        all - old_bytes > max_property_bytes_of_all)
+        property_bytes(objects_) - old_bytes + bytes > max_property_bytes_of_all)
         return {Refusal::too_many, {}};
     Decision decision;
     decision.changes = remove(old);
@@ -200,111 +182,12 @@ RoomState::Decision RoomState::replace_case(ParticipantId by, std::vector<RoomOb
     return decision;
 }
 
-Refusal RoomState::apply(ParticipantId from, std::uint32_t, const request::Create& request) {
-    if (!is_known(request.kind) || !is_sound(request.room_from_object, request.scale))
-        return Refusal::malformed;
-    if (request.kind == ObjectKind::person)
-        return Refusal::role;
-    const auto own = std::count_if(objects_.begin(), objects_.end(),
-                                   [&](const auto& entry) { return entry.second.creator == from; });
-    if (objects_.size() >= max_objects || std::size_t(own) >= max_objects_of_one ||
-        !has_room_for(request.properties.size(), 0))
-        return Refusal::too_many;
-    touched_ = ObjectId(++newest_id_);
-    objects_[touched_] = {request.kind,      from, {}, {}, request.room_from_object, request.scale,
-                          request.properties};
-    return Refusal::none;
-}
-
-Refusal RoomState::apply(ParticipantId from, std::uint32_t, const request::Remove& request) {
-    const auto found = objects_.find(request.object);
-    if (found == objects_.end())
-        return Refusal::no_such_object;
-    if (found->second.kind == ObjectKind::person)
-        return Refusal::role;
-    const ParticipantId holder = found->second.grip.holder;
-    if (holder != ParticipantId{} && holder != from)
-        return Refusal::held_by_another;
-    objects_.erase(found);
-    touched_ = request.object;
-    return Refusal::none;
-}
-
-Refusal RoomState::apply(ParticipantId from, std::uint32_t number, const request::Grab& request) {
-    const auto found = objects_.find(request.object);
-    if (found == objects_.end() || found->second.kind == ObjectKind::person)
-        return Refusal::no_such_object;
-    RoomObject& object = found->second;
-    if (object.grip.holder != ParticipantId{} && object.grip.holder != from)
-        return Refusal::held_by_another;
-    object.grip = {from, number};
-    object.moved_at = {};
-    touched_ = request.object;
-    return Refusal::none;
-}
-
-std::pair<Refusal, RoomObject*> RoomState::find_held(ObjectId object, const Grip& grip) {
-    const auto found = objects_.find(object);
-    if (found == objects_.end())
-        return {Refusal::no_such_object, nullptr};
-    if (found->second.grip != grip)
-        return {Refusal::not_held_by_you, nullptr};
-    return {Refusal::none, &found->second};
-}
-
-Refusal RoomState::apply(ParticipantId from, std::uint32_t, const request::Release& request) {
-    const auto [refusal, held] = find_held(request.object, {from, request.grip});
-    if (!held)
-        return refusal;
-    RoomObject& object = *held;
-    if (!is_sound(request.room_from_object, request.scale) || !may_have(object, request.scale))
-        return Refusal::malformed;
-    object.grip = {};
-    object.room_from_object = request.room_from_object;
-    object.scale = request.scale;
-    touched_ = request.object;
-    return Refusal::none;
-}
-
-Refusal RoomState::apply(ParticipantId from, std::uint32_t number,
-                         const request::HandOver& request) {
-    const auto [refusal, held] = find_held(request.object, {from, request.grip});
-    if (!held)
-        return refusal;
-    RoomObject& object = *held;
-    if (participants_.count(request.to) == 0)
-        return Refusal::no_such_participant;
-    object.grip = {request.to, number | given_grip};
-    object.moved_at = {};
-    touched_ = request.object;
-    return Refusal::none;
-}
-
-Refusal RoomState::apply(ParticipantId, std::uint32_t, const request::SetProperties& request) {
-    const auto found = objects_.find(request.object);
-    if (found == objects_.end())
-        return Refusal::no_such_object;
-    RoomObject& object = found->second;
-    if (object.kind == ObjectKind::person)
-        return Refusal::role;
-    if (!has_room_for(request.properties.size(), object.properties.size()))
-        return Refusal::too_many;
-    object.properties = request.properties;
-    touched_ = request.object;
-    return Refusal::none;
-}
-
-Refusal RoomState::apply(ParticipantId, std::uint32_t, const request::ClearMarks&) {
-    return Refusal::none;
-}
-
 bool RoomState::on_pose(ParticipantId from, const ObjectPose& pose) {
     const auto found = objects_.find(pose.object);
-    if (found == objects_.end() || pose.grip.holder != from || found->second.grip != pose.grip ||
-        !is_sound(pose.room_from_object, pose.scale))
+    if (found == objects_.end() || pose.grip.holder != from || found->second.grip != pose.grip)
         return false;
     RoomObject& object = found->second;
-    if (pose.at <= object.moved_at || !may_have(object, pose.scale))
+    if (pose.at <= object.moved_at || !may_be_at(object, pose.room_from_object, pose.scale))
         return false;
     object.moved_at = pose.at;
     object.room_from_object = pose.room_from_object;

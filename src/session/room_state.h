@@ -67,6 +67,8 @@ public:
     const RoomObjects& objects() const { return objects_; }
 
 private:
+    static bool is_sound(const Pose& pose, double scale);
+    static bool may_be_at(const RoomObject& object, const Pose& pose, double scale);
     RoomChange changed(ObjectId object);
     // True if an object may have `bytes` bytes of properties instead of `before`.
     bool has_room_for(std::size_t bytes, std::size_t before) const;

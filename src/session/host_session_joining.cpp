@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// The way of a participant from its first message into the session.
+#include <utility>
+
+#include "session/host_session.h"
+
+namespace theatron::session {
+
+using wire::TextCode;
+
+void HostSession::join(ParticipantId id, const wire::Join& hello, TimePoint now) {
+    const Admission::Verdict verdict = admission_.judge(hello, now);
+    if (!verdict.refusal.empty())
+        return refuse(id, verdict.refusal);
+    const CheckedCodec depth = checked(config_.check_depth, hello.depth_codec);
+    const CheckedCodec color = checked(config_.check_color, hello.color_codec);
+    for (const std::string& problem : {depth.problem, color.problem})
+        if (!problem.empty())
+            return refuse(id, wire::as_written(problem));
+
+    const Membership::Judged judged = membership_.judge(hello.person, verdict.role, hello.records);
+    if (judged.entry == Membership::Entry::was_removed)
+        return refuse(id, {TextCode::removed_by_operator});
+    if (has_ended_ && !may(verdict.role, Right::manage))
+        return refuse(id, {TextCode::session_has_ended});
+    if (hello.records && !may(judged.role, Right::record))
+        return refuse(id, {TextCode::observer_records});
+    Participant& participant = *admission_.find(id);
+    admission_.note(participant, hello, verdict);
+    participant.role = judged.role;
+    participant.muted = judged.muted;
+    participant.admitted = judged.admitted;
+    if (has_ended_)
+        begin_again(participant.name);
+    if (judged.entry == Membership::Entry::enters)
+        return enter(id, hello);
+    if (admission_.is_door_full(hello))
+        return refuse(id, {TextCode::too_many_visitors});
+    participant.asked = hello;
+    audit(AuditEvent::What::waits, id);
+    send(id, wire::Waiting{config_.name});
+    tell_operators();
+}
+
+// `hello` was judged; it is a copy where the participant has waited.
+void HostSession::enter(ParticipantId id, const wire::Join& hello) {
+    Participant& participant = *admission_.find(id);
+    Admission::admit(participant, hello);
+    // A recording is of the present.
+    if (!look_back_.is_possible() || hello.records || participant.has(wire::Feature::sends_only))
+        std::erase(participant.features, wire::Feature::look_back);
+    if (!direct_.is_possible())
+        std::erase(participant.features, wire::Feature::direct);
+    if (participant.has(wire::Feature::direct))
+        direct_.join(id);
+    actions_.push_back(action::Joined{id, participant.name, participant.person});
+    audit(AuditEvent::What::joined, id, "", hello.records ? "records" : "");
+    describe_session(id);
+    if (hello.records)
+        actions_.push_back(action::KeepEverything{id});
+    if (!participant.has(wire::Feature::sends_only)) {
+        streams_.join(id,
+                      {checked(config_.check_depth, hello.depth_codec).codec,
+                       checked(config_.check_color, hello.color_codec).codec},
+                      hello.records, participant.has(wire::Feature::webcam));
+        streams_.set_goal(id, {hello.target_latency_ms, hello.max_kbit_per_s});
+    }
+    renderers_.tell(id);
+    // A program that only sends cameras is nobody in the room.
+    if (!participant.has(wire::Feature::sends_only))
+        room_.join(id, facts_of(participant), participant.has(wire::Feature::room),
+                   participant.connected, participant.person);
+    cases_.tell(id);
+    tell_playback(id);
+    cases_.tell_patient();
+    if (participant.may(Right::manage))
+        tell_operators();
+}
+
+void HostSession::describe_session(ParticipantId id) {
+    const Participant& participant = *admission_.find(id);
+    const bool sends_only = participant.has(wire::Feature::sends_only);
+    const bool takes_faces = participant.has(wire::Feature::webcam);
+    send(id, wire::Welcome{participant.protocol, id, config_.name,
+                           sends_only ? std::vector<wire::Camera>()
+                                      : streams_.cameras().seen_by(id, takes_faces),
+                           participant.features, config_.session});
+    tell_standing(id);
+    if (sends_only)
+        return;
+    for (const wire::CameraState& state : streams_.cameras().states_seen_by(id, takes_faces))
+        send(id, state);
+}
+
+}  // namespace theatron::session

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// Versions, optional parts and limits of the protocol.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace theatron::wire {
+
+// Versions of the protocol that this build speaks.
+inline constexpr std::uint16_t protocol_min = 3;
+inline constexpr std::uint16_t protocol_max = 3;
+
+// Limits of decoding, in characters and elements. Decoding makes every text clean
+// (base/outside_text.h) and cuts it to its limit; a longer list makes its message malformed.
+inline constexpr std::size_t max_name = 64;                // of a participant, a host, a camera
+inline constexpr std::size_t max_token = 256;              // the host compares it whole
+inline constexpr std::size_t max_codec = 200;              // one codec in its spelling
+inline constexpr std::size_t max_renderer = 40;            // one renderer's name
+inline constexpr std::size_t max_filter = 1000;            // a chain of filters in its spelling
+inline constexpr std::size_t max_cameras = 63;             // at once, as many as a recording holds
+inline constexpr std::size_t max_calibration_size = 4096;  // bytes of one camera's
+// Most bytes in one message: of a request, of a changed object, of a part of a snapshot.
+inline constexpr std::size_t max_room_request_size = 4352;
+inline constexpr std::size_t max_room_object_size = 4352;
+inline constexpr std::size_t max_room_part_size = 48 * 1024;
+inline constexpr std::size_t max_streams = 2 * max_cameras;
+// Settings of all cameras of one publisher together.
+inline constexpr std::size_t max_encodings = 64;
+
+// Numbers of optional parts of the protocol. A program skips numbers that it does
+// not know.
+enum class Feature : std::uint16_t {
+    publish = 1,        // sends cameras
+    sends_only = 2,     // is sent no cameras of others
+    room = 3,           // keeps the objects of the room (session/room_replica.h)
+    cases = 4,          // is told of the host's cases, and takes their content
+    voice_consent = 5,  // says with VoiceConsent if others may record its voice
+    adjusting = 6,      // cameras are adjusted: AdjustCamera, CameraChanged
+    playback = 7,       // is told where the host's recording is, and may play it
+    screens = 8,        // is told with ShareEnded that others have ended its screens
+    look_back = 9,      // may look back at the last minute: LookBack
+    webcam = 10,        // is told of faces (CameraFrame::face), and may send its own
+    patient = 11,       // shows who the patient of the open case is, to a person who may know it
+    direct = 12,        // pictures go from publisher to receiver: OfferDirect, DirectGrants
+};
+inline constexpr std::size_t max_features = 32;
+inline constexpr std::size_t person_id_size = 16;
+inline constexpr std::size_t max_visitors = 32;  // people who wait for admission at once
+inline constexpr std::size_t max_offered_cases = 64;
+inline constexpr std::size_t max_patient_text = 200;             // of a patient's name, of an id
+inline constexpr std::size_t max_adjustment_size = 64;           // bytes of one camera's
+inline constexpr std::size_t content_hash_size = 32;             // base/content_hash.h
+inline constexpr std::size_t max_content_piece = 16 * 1024;      // bytes of content in one message
+inline constexpr std::size_t max_content_request = 1024 * 1024;  // bytes that one request asks for
+
+// Direct sending (docs/decisions/direct-sending.md): addresses of one publisher, receivers of one
+// publisher, publishers that one receiver may connect to.
+inline constexpr std::size_t max_direct_addresses = 6;
+inline constexpr std::size_t max_direct_receivers = 32;
+inline constexpr std::size_t max_direct_grants = 32;
+inline constexpr std::size_t direct_secret_size = 32;
+inline constexpr std::size_t fingerprint_size = 32;  // SHA-256 of a certificate
+
+// A run of a host; random. Numbers of cameras and participants are of one session.
+enum class SessionId : std::uint32_t {};
+
+}  // namespace theatron::wire

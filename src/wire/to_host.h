@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: Apache-2.0
+// The messages of participants to the host (wire/control.h).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/bytes.h"
+#include "base/ids.h"
+#include "base/time.h"
+#include "wire/protocol.h"
+#include "wire/role.h"
+#include "wire/text.h"
+
+namespace theatron::wire {
+
+// The first message of a participant.
+struct Join {
+    std::uint16_t protocol_min = wire::protocol_min;
+    std::uint16_t protocol_max = wire::protocol_max;
+    std::string token;
+    std::string name;
+    std::string depth_codec;  // as on the command line: "trvl"
+    std::string color_codec;
+    std::uint32_t target_latency_ms = 0;  // as in ChooseDelivery
+    std::uint32_t max_kbit_per_s = 0;
+    // The participant records: it gets everything in order, however late, and no other participant
+    // changes its encodings while it stays.
+    bool records = false;
+    // The optional parts of the protocol that this program supports.
+    std::vector<Feature> features;
+    // 16 random bytes that this person's program keeps; empty: it keeps none. They are equal in all
+    // of its connections, whereas a participant's number changes.
+    Bytes person;
+
+    static void fields(auto& m, auto&& field) {
+        field(m.protocol_min);
+        field(m.protocol_max);
+        field(m.token, max_token);
+        field(m.name, max_name);
+        field(m.depth_codec, max_codec);
+        field(m.color_codec, max_codec);
+        field(m.target_latency_ms);
+        field(m.max_kbit_per_s);
+        field(m.records);
+        field(m.features, max_features);
+        field(m.person, person_id_size);
+    }
+};
+
+// The participant requests other codecs. An empty text keeps its codec.
+struct ChooseCodecs {
+    std::string depth_codec;
+    std::string color_codec;
+    // For these cameras only. Empty: for all, also for later ones; choices for single cameras are
+    // then removed.
+    std::vector<CameraId> cameras;
+
+    static void fields(auto& m, auto&& field) {
+        field(m.depth_codec, max_codec);
+        field(m.color_codec, max_codec);
+        field(m.cameras, max_cameras);
+    }
+};
+
+// The frame that a camera's calibration calls the room.
+enum class CameraFrame : std::uint8_t {
+    room = 0,
+    // The head of the person who publishes the camera: the origin is between the eyes, y is up, -z
+    // points where the person looks, without its slope. The person's pose moves it through the
+    // room.
+    person = 1,
+    // None: the camera is the picture of its publisher's face, a small screen (geometry/screen.h)
+    // that is drawn on the head. For those who have Feature::webcam; others cannot read it.
+    face = 2,
+};
+
+// A camera that a participant offers. The host gives it its number.
+struct OfferedCamera {
+    std::string name;
+    bool has_color = false;
+    double frames_per_second = 0;
+    Bytes calibration;  // geometry/calibration.h
+    // Its participant agrees that others record it; else the host sends it to no recorder.
+    bool may_record = false;
+    CameraFrame frame{};
+
+    static void fields(auto& m, auto&& field) {
+        field(m.name, max_name);
+        field(m.has_color);
+        field(m.frames_per_second);
+        field(m.calibration, max_calibration_size);
+        field(m.may_record);
+        field(m.frame);
+    }
+};
+
+// The participant offers to send these cameras. The host answers with Published.
+struct Publish {
+    std::vector<OfferedCamera> cameras;
+
+    static void fields(auto& m, auto&& field) { field(m.cameras, max_cameras); }
+};
+
+// The participant takes these of its cameras out of the session.
+struct Unpublish {
+    std::vector<CameraId> cameras;
+
+    static void fields(auto& m, auto&& field) { field(m.cameras, max_cameras); }
+};
+
+// The participant lost the reference frame of this stream.
+struct RequestKey {
+    StreamId stream{};
+    SettingId setting{};
+
+    static void fields(auto& m, auto&& field) {
+        field(m.stream);
+        field(m.setting);
+    }
+};
+
+struct Ping {
+    TimePoint sent;  // the participant's own steady clock
+
+    static void fields(auto& m, auto&& field) { field(m.sent); }
+};
+
+struct StreamReport {
+    StreamId stream{};
+    FrameNumber newest_frame = 0;
+    std::uint32_t frames = 0;
+    std::uint64_t bytes = 0;
+    Duration age{};  // of the newest frame when it was decoded
+    // The setting whose frames come directly from the publisher now; {}: none.
+    SettingId direct{};
+
+    static void fields(auto& m, auto&& field) {
+        field(m.stream);
+        field(m.newest_frame);
+        field(m.frames);
+        field(m.bytes);
+        field(m.age);
+        field(m.direct);
+    }
+};
+
+// Sent by participants a few times a second.
+struct Report {
+    std::vector<StreamReport> streams;
+    std::string renderer;  // the current one; empty: it does not draw, or does not report it
+
+    static void fields(auto& m, auto&& field) {
+        field(m.streams, max_streams);
+        field(m.renderer, max_renderer);
+    }
+};
+
+// The goal of the host for this participant from now on.
+struct ChooseDelivery {
+    std::uint32_t target_latency_ms = 0;  // age of the shown picture; 0: leave nothing out
+    std::uint32_t max_kbit_per_s = 0;     // 0: no ceiling
+
+    static void fields(auto& m, auto&& field) {
+        field(m.target_latency_ms);
+        field(m.max_kbit_per_s);
+    }
+};
+
+// A request to change the room. The host answers with the changes and then with RoomDecision.
+// Number 0 without a request asks for a snapshot.
+struct RoomRequest {
+    std::uint32_t number = 0;  // counts this participant's requests from 1
+    Bytes request;             // session/room_bytes.h
+
+    static void fields(auto& m, auto&& field) {
+        field(m.number);
+        field(m.request, max_room_request_size);
+    }
+};
+
+enum class ManageAction : std::uint8_t {
+    admit = 1,      // a visitor
+    turn_away = 2,  // a visitor
+    mute = 3,
+    unmute = 4,
+    set_role = 5,     // to Manage::role
+    remove = 6,       // until the session ends
+    revoke_link = 7,  // the link of this participant: all who came by it are removed
+    end_session = 8,  // for all; without a participant
+};
+
+// A decision of an operator on a participant. The host answers with Managed.
+struct Manage {
+    std::uint32_t number = 0;  // counts this participant's decisions from 1
+    ManageAction action{};
+    ParticipantId participant{};
+    Role role{};
+
+    static void fields(auto& m, auto&& field) {
+        field(m.number);
+        field(m.action);
+        field(m.participant);
+        field(m.role);
+    }
+};
+
+// An operator adjusts a camera. The host answers with CameraChanged to all, and with Managed.
+struct AdjustCamera {
+    std::uint32_t number = 0;  // counts on with those of Manage
+    CameraId camera{};
+    Bytes adjustment;  // session/camera_adjustment.h; empty: none any more
+
+    static void fields(auto& m, auto&& field) {
+        field(m.number);
+        field(m.camera);
+        field(m.adjustment, max_adjustment_size);
+    }
+};
+
+enum class PlayAction : std::uint8_t {
+    pause = 1,
+    resume = 2,
+    seek = 3,  // to Play::position; goes on, or stays paused
+};
+
+// The participant plays the recording that the host shows to all. The host answers with Managed,
+// and with Playback to all.
+struct Play {
+    std::uint32_t number = 0;  // as in AdjustCamera
+    PlayAction action{};
+    Duration position{};  // since the recording's first picture; kept within its length
+
+    static void fields(auto& m, auto&& field) {
+        field(m.number);
+        field(m.action);
+        field(m.position);
+    }
+};
+
+// The participant is shown the cameras of the room as they were `ago`, which goes on from there, or
+// with 0 the present again; the others are not concerned. The host answers with Settings and with
+// Managed.
+struct LookBack {
+    std::uint32_t number = 0;  // as in AdjustCamera
+    Duration ago{};
+
+    static void fields(auto& m, auto&& field) {
+        field(m.number);
+        field(m.ago);
+    }
+};
+
+// The participant asks for `count` bytes of this content from `offset` on. The host answers with
+// Content messages, in order.
+struct RequestContent {
+    Bytes hash;
+    std::uint64_t offset = 0;
+    std::uint32_t count = 0;
+
+    static void fields(auto& m, auto&& field) {
+        field(m.hash, content_hash_size);
+        field(m.offset);
+        field(m.count);
+    }
+};
+
+// The participant agrees that others record its voice from now on, or no longer. Until it agrees
+// the host sends its voice to no recorder.
+struct VoiceConsent {
+    bool may_record = false;
+
+    static void fields(auto& m, auto&& field) { field(m.may_record); }
+};
+
+// The participant listens for receivers of its cameras. The host sends receivers there, and answers
+// with DirectReceivers. Port 0: it no longer listens.
+struct OfferDirect {
+    std::vector<std::string> addresses;  // IPv4 or IPv6, of its machine
+    std::uint16_t port = 0;
+    Bytes fingerprint;  // of the certificate that it shows
+
+    static void fields(auto& m, auto&& field) {
+        field(m.addresses, max_direct_addresses);
+        field(m.port);
+        field(m.fingerprint, fingerprint_size);
+    }
+};
+
+enum class CameraCondition : std::uint8_t { live = 0, stale = 1, ended = 2, failed = 3 };
+
+// Said by the host about any camera, by a publisher about its own.
+struct CameraState {
+    CameraId camera{};
+    CameraCondition condition{};
+    Text problem;
+    std::string filter;  // the filters that run on its depth (docs/filters.md); empty: none
+
+    static void fields(auto& m, auto&& field) {
+        field(m.camera);
+        field(m.condition);
+        field(m.problem);
+        field(m.filter, max_filter);
+    }
+};
+
+}  // namespace theatron::wire
