@@ -71,8 +71,8 @@ void Intake::describe(std::vector<RecordedCamera> cameras, std::map<StreamId, Se
         Entry& entry = at->second;
         if (is_new)
             entry.gate = StreamGate(phase);
-        // The number of a camera that has left was given to another one.
-        if (entry.has_left && entry.stream.camera != camera->name) {
+        // The number of a camera that has left was given to another one, or the camera is new.
+        if (entry.has_left) {
             entry.gate.restart();
             entry.captured.reset();
             entry.heard = now;

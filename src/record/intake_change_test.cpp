@@ -190,6 +190,22 @@ TEST_F(IntakeChange, AnotherCameraInThePlaceOfOneThatLeftIsNoInterruption) {
     EXPECT_EQ(recorded()->cameras().at(1).depth.frames.size(), 40u);
 }
 
+TEST_F(IntakeChange, NorIsOneOfTheSameName) {
+    begin_with_both();
+    (void)intake_.news(local_);
+    right_leaves();
+    run(90, {left_});
+    (void)intake_.news(local_);
+    senders_[right_] = {.next = 0, .setting = SettingId{2}};
+    right_joins();
+    for (const std::string& sentence : intake_.news(local_))
+        EXPECT_EQ(sentence.find("No picture"), std::string::npos) << sentence;
+    run(20, {left_, right_});
+    for (const Intake::Stream& stream : intake_.streams(local_))
+        EXPECT_TRUE(stream.complete()) << stream.camera;
+    EXPECT_EQ(recorded()->cameras().at(1).depth.frames.size(), 40u);
+}
+
 TEST_F(IntakeChange, ACalibrationThatChangesAfterACameraLeftIsRecorded) {
     begin_with_both();
     right_leaves();
