@@ -5,8 +5,11 @@
 
 namespace theatron::client {
 
-void LeftCameras::add(CameraId camera, TimePoint now) {
-    heard_.emplace(camera, now);
+void LeftCameras::update(CameraId camera, bool is_there, TimePoint now) {
+    if (is_there)
+        heard_.erase(camera);
+    else
+        heard_.emplace(camera, now);
     if (heard_.size() > max)
         heard_.erase(
             std::min_element(heard_.begin(), heard_.end(),

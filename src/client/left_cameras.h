@@ -21,9 +21,9 @@ public:
     // They keep their numbers of the recording, which others may need.
     static constexpr std::size_t max = 16;
 
-    // `camera` is not in the session any more. If there are more than `max`, the one that has been
-    // silent for longest is forgotten.
-    void add(CameraId camera, TimePoint now);
+    // A recorded camera is in the session now, or is not. If more than `max` are not, the one that
+    // has been silent for longest is forgotten.
+    void update(CameraId camera, bool is_there, TimePoint now);
     // One of its pictures has come. Ignored unless the camera has left.
     void on_picture(CameraId camera, TimePoint now);
     // Forgets those whose last picture came `patience` ago, and returns them.

@@ -275,8 +275,7 @@ private:
         for (const Participant::Camera& camera : participant_->cameras(generation))
             there.insert(camera.description.id);
         for (const auto& [camera, known] : described_)
-            if (!there.contains(camera))
-                left_.add(camera, steady_now());
+            left_.update(camera, there.contains(camera), steady_now());
         std::erase_if(described_, [&](const auto& entry) {
             return !there.contains(entry.first) && !left_.contains(entry.first);
         });

@@ -71,7 +71,7 @@ void Intake::describe(std::vector<RecordedCamera> cameras, std::map<StreamId, Se
         Entry& entry = at->second;
         if (is_new)
             entry.gate = StreamGate(phase);
-        // The number of a camera that has left was given to another one, or the camera is new.
+        // Another camera has the number of one that has left, or that one has come back.
         if (entry.has_left) {
             entry.gate.restart();
             entry.captured.reset();

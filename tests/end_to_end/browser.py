@@ -66,7 +66,7 @@ class Browser:
         result = answer.get(timeout=timeout)
         if "error" in result:
             problem = f"{method}: {result['error']}"
-            raise Navigated(problem) if "navigated" in problem or "context" in problem else AssertionError(problem)
+            raise Navigated(problem) if "navigated" in problem or "Cannot find context" in problem else AssertionError(problem)
         return result["result"]
 
     def open(self, url, size=(640, 360)):
