@@ -176,6 +176,39 @@ class RecordFaults(unittest.TestCase):
         figures = self.record_from_a_fake_host(2, INCOMPLETE)
         self.assertEqual(figures["cameras"][1]["depth"]["pictures"], 0)
 
+    def test_a_camera_whose_number_a_host_gives_again_is_recorded_once(self):
+        def script(guest):
+            guest.receive_control("Join")
+            both = [camera(number, has_color=False) for number in range(2)]
+            guest.welcome(cameras=both)
+
+            def pictures(setting, first):
+                guest.send_control("Settings", settings=[{"stream": 2, "setting": setting, "codec": "trvl"}])
+                for frame in range(first, first + 5):
+                    for stream in (0, 2):
+                        guest.send_media(media_message(b"12345678", stream=stream, setting=setting if stream else 1, frame=frame, key=True,
+                                                       reference=frame, captured_us=10**12 + frame * 33_333))
+
+            guest.send_control("Settings", settings=[{"stream": 0, "setting": 1, "codec": "trvl"}])
+            _, ping = guest.receive_control("Ping")
+            guest.send_control("Pong", ping_sent_us=ping["sent_us"], received_us=10**12, sent_us=10**12)
+            pictures(2, 0)
+            guest.send_control("CamerasRemoved", cameras=[1])
+            guest.send_control("CamerasAdded", cameras=both[1:])
+            pictures(3, 5)
+            for number in range(2):
+                guest.send_control("CameraState", camera=number, state=2)
+            guest.wait_for_end()
+
+        with FakeHost(script) as fake, self.recorder(fake.link, self.file) as recorder:
+            self.says(recorder, "camera 1 has ended")
+            figures = self.ends(recorder, COMPLETE)
+            self.assertEqual(fake.faults, [])
+        self.assertEqual([c["depth"]["pictures"] for c in figures["cameras"]], [10, 10])
+        self.assertEqual(figures["lost"] + figures["dropped"], 0)
+        code, out, errors = run("inspect", self.file, "--json")
+        self.assertEqual([c["depth"]["frames"] for c in json.loads(out)["cameras"]], [10, 10], errors)
+
     def test_a_stalled_disk_loses_only_what_exceeds_the_buffer_and_decodes_again(self):
         disk = SlowDisk(self.folder)
         file = disk.folder / "a.mkv"
