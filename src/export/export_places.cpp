@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "files/file_bytes.h"
+#include "record/segment_files.h"
 
 namespace theatron::exporting {
 namespace {
@@ -120,6 +121,9 @@ void require_free(const fs::path& file, bool overwrite) {
     if (!overwrite && fs::exists(file, ignored))
         throw Error("'" + file.string() +
                     "' exists already; name another file, or give --overwrite.");
+    if (record::is_in_use(file))
+        throw Error("'" + file.string() +
+                    "' is being recorded or played; name another file, or end that first.");
 }
 
 void require_free(const fs::path& file, std::size_t count, bool overwrite,

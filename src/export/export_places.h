@@ -16,7 +16,8 @@ std::filesystem::path place_of(const std::filesystem::path& place, std::size_t c
 // which removes it and nothing else.
 void clear_folder(const std::filesystem::path& folder, bool overwrite);
 
-// Error with one sentence if the file is there already, unless `overwrite`.
+// Error with one sentence if the file is there already, unless `overwrite`, or is a recording in
+// use.
 void require_free(const std::filesystem::path& file, bool overwrite);
 // The same for all files that replace_files() writes for `count` calibrations, its drafts included.
 // None of them may be a file of `sources`.

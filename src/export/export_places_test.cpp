@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "export/export_places.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <fstream>
 
@@ -41,6 +44,16 @@ TEST(ExportPlaces, NoFileIsReplacedUnasked) {
     replace_files(path("a.mkv"), 2, write);
     for (const char* name : {"a.mkv", "a.2.mkv", "a.3.mkv"})
         EXPECT_TRUE(std::filesystem::exists(path(name))) << name;
+}
+
+TEST(ExportPlaces, NoRecordingInUseIsReplaced) {
+    const testing::TemporaryFolder folder;
+    const std::string file = folder.path() / "a.mkv";
+    const int used = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+    ASSERT_EQ(flock(used, LOCK_EX | LOCK_NB), 0);
+    EXPECT_THROW(require_free(file, 1, true, {}), Error);
+    close(used);
+    require_free(file, 1, true, {});
 }
 
 }  // namespace

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "record/recorder.h"
 
-#include <fcntl.h>
 #include <pthread.h>
 #include <signal.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 
 #include "base/error.h"
 #include "base/time_between.h"
@@ -30,16 +27,6 @@ constexpr std::size_t message_overhead = 256;
 
 std::size_t cost_of(const std::shared_ptr<const Bytes>& message) {
     return message_overhead + (message ? message->size() : 0);
-}
-
-// True if another program records into the file or plays it.
-bool is_in_use(const fs::path& path) {
-    const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (file < 0)
-        return false;
-    const bool in_use = flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-    close(file);
-    return in_use;
 }
 
 constexpr const char* part_of = "is a part of the recording to be replaced";

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "record/segment_files.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <map>
 #include <optional>
@@ -80,6 +85,15 @@ std::vector<std::filesystem::path> files_of_other_names(const std::filesystem::p
     });
     std::sort(files.begin(), files.end());
     return files;
+}
+
+bool is_in_use(const std::filesystem::path& path) {
+    const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    if (file < 0)
+        return false;
+    const bool in_use = flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    close(file);
+    return in_use;
 }
 
 }  // namespace theatron::record

@@ -15,5 +15,7 @@ std::vector<std::filesystem::path> files_of_earlier_segments(const std::filesyst
 // All other files in the folder of `file` with its ending: of segments that were renamed, and of
 // other recordings. In the order of their names.
 std::vector<std::filesystem::path> files_of_other_names(const std::filesystem::path& file);
+// True if another program records into the file or plays it.
+bool is_in_use(const std::filesystem::path& file);
 
 }  // namespace theatron::record
