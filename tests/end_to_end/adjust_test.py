@@ -32,7 +32,7 @@ class Adjusting(unittest.TestCase):
                     Process("join", h.greeting["links"]["operator"], "--every", "0.1") as boss, \
                     Process("record", link, recording, "--json") as recorder:
                 for viewer in (expert, boss):
-                    viewer.wait_for(is_at(0, 1.6, 0), 20)
+                    viewer.wait_for(is_at(0, 1.6, 0))
                 wait_until(lambda: recording.exists() and recording.stat().st_size > 4096)
                 expert.say(f"nudge {name} 10 0 0")
                 wait_until(lambda: any("Only operators adjust" in line for line in list(expert.errors)))
@@ -40,7 +40,7 @@ class Adjusting(unittest.TestCase):
                 wait_until(lambda: any("register it" in line for line in list(boss.errors)))
                 boss.say(f"nudge {name} 20 -10 5 0 2 0")
                 for viewer in (expert, boss):
-                    found = viewer.wait_for(is_at(0.02, 1.59, 0.005), 10)
+                    found = viewer.wait_for(is_at(0.02, 1.59, 0.005))
                     self.assertEqual(camera(found)["adjusted"],
                                      "moved by 20.0, -10.0, 5.0 mm; turned by 0.00, 2.00, 0.00 degrees")
                 wait_until(lambda: "moved by 20.0" in run("status", link)[1])
@@ -58,11 +58,11 @@ class Adjusting(unittest.TestCase):
         for place, expected in (("0:1.6:0", (0.02, 1.59, 0.005)), ("1:1.6:0", (1, 1.6, 0))):
             with host(self.folder / "state", self.camera.replace("0:1.6:0", place)) as h, \
                     Process("join", h.greeting["link"], "--every", "0.1") as viewer:
-                viewer.wait_for(is_at(*expected), 20)
+                viewer.wait_for(is_at(*expected))
         with host(self.folder / "state", self.camera) as h, \
                 Process("join", h.greeting["link"], "--every", "0.1") as viewer:
             h.say("nudge 0 none")
-            viewer.wait_for(is_at(0, 1.6, 0), 20)
+            viewer.wait_for(is_at(0, 1.6, 0))
             self.assertEqual(camera(viewer.newest_json())["adjusted"], "")
 
         # Its pictures before and after have calibrations of their own, and all places are named.
@@ -82,12 +82,12 @@ class Adjusting(unittest.TestCase):
         # The recording is played through, and the camera stands where it then stood.
         with host(self.folder / "replay", f"recording:{recording}") as h, \
                 Process("join", h.greeting["link"], "--every", "0.05") as viewer:
-            length = viewer.wait_for(lambda f: f["playback"], 20)["playback"]["length_s"]
+            length = viewer.wait_for(lambda f: f["playback"])["playback"]["length_s"]
             viewer.say("pause")
             viewer.say(f"seek {length}")
-            viewer.wait_for(is_at(0.02, 1.59, 0.005), 10)
+            viewer.wait_for(is_at(0.02, 1.59, 0.005))
             viewer.say("seek 0")
-            viewer.wait_for(is_at(0, 1.6, 0), 10)
+            viewer.wait_for(is_at(0, 1.6, 0))
 
     def test_only_the_drawn_region_is_sent_until_it_is_taken_back(self):
         def share():
@@ -101,19 +101,19 @@ class Adjusting(unittest.TestCase):
 
         with host(self.folder / "state", self.camera, options=("--filter", "off")) as h, \
                 Process("join", h.greeting["links"]["operator"], "--every", "0.1") as boss:
-            boss.wait_for(camera, 20)
+            boss.wait_for(camera)
             self.assertGreater(share(), 0.9)
             boss.say("crop 0 100:90:80:60")
             wait_until(lambda: any("X:Y:WxH" in line for line in list(boss.errors)))
             boss.say("crop 0 100:90:80x60")
             wait_until(lambda: any("beyond that" in line for line in list(boss.errors)))
             boss.say("crop 0 40:30:80x60")
-            found = boss.wait_for(lambda f: camera(f)["filter"], 10)
+            found = boss.wait_for(lambda f: camera(f)["filter"])
             self.assertEqual(camera(found)["filter"], "region:x=40,y=30,width=80,height=60")
             self.assertEqual(camera(found)["adjusted"], "depth only in 40:30:80x60")
             self.assertAlmostEqual(share(), 0.25, delta=0.04)
             boss.say("crop 0 none")
-            boss.wait_for(lambda f: not camera(f)["filter"], 10)
+            boss.wait_for(lambda f: not camera(f)["filter"])
             self.assertGreater(share(), 0.9)
 
 

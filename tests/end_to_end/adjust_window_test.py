@@ -46,7 +46,7 @@ class AdjustWindow(unittest.TestCase):
                 self.window(h.greeting["links"]["operator"]), \
                 Process("join", h.greeting["link"], "--every", "0.1") as other:
             def wait(condition):
-                return other.wait_for(lambda f: f["cameras"] and condition(f["cameras"][0]), 15)["cameras"][0]
+                return other.wait_for(lambda f: f["cameras"] and condition(f["cameras"][0]))["cameras"][0]
 
             def at(x):
                 return wait(lambda c: abs(c["position"][0] - x) < 1e-5)
@@ -94,7 +94,7 @@ class AdjustWindow(unittest.TestCase):
         with host(self.folder / "state", f"recording:{recording},loop=1") as h, self.window(h.greeting["link"]), \
                 Process("join", h.greeting["link"], "--every", "0.1") as other:
             def wait(condition):
-                return other.wait_for(lambda f: f["playback"] and condition(f["playback"]), 15)["playback"]
+                return other.wait_for(lambda f: f["playback"] and condition(f["playback"]))["playback"]
 
             wait(lambda p: p["length_s"] > 2.5)
             self.wait_for_scene()

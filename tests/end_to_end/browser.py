@@ -10,7 +10,8 @@ import signal
 import subprocess
 import tempfile
 import threading
-import time
+
+import patience
 
 CHROMIUM = shutil.which("chromium")
 
@@ -42,6 +43,7 @@ class Browser:
         self.pages = {}
         self.reader = threading.Thread(target=self._read, daemon=True)
         self.reader.start()
+        patience.watch(self)
 
     def _read(self):
         rest = b""
@@ -54,7 +56,20 @@ class Browser:
                 elif page := self.pages.get(message.get("sessionId")):
                     page.on_event(message["method"], message["params"])
 
-    def call(self, method, session=None, timeout=60, **parameters):
+    def has_ended(self):
+        return self.process.poll() is not None
+
+    def counted(self):
+        return sum(page.events for page in list(self.pages.values()))
+
+    def crashed(self):
+        return self.has_ended()
+
+    def last_words(self):
+        return f"browser ({'ended' if self.has_ended() else 'runs'}): " + \
+            "; ".join(f"{page.url.split('#')[0]} {page.problems[-5:]}" for page in list(self.pages.values()))
+
+    def call(self, method, session=None, **parameters):
         answer = queue.Queue()
         with self.lock:
             self.next_id += 1
@@ -63,7 +78,14 @@ class Browser:
                 message["sessionId"] = session
             self.waiting[self.next_id] = answer
             os.write(self.commands, json.dumps(message).encode() + b"\0")
-        result = answer.get(timeout=timeout)
+        wait = patience.Wait(f"the browser's answer to {method}", self.has_ended)
+        while True:
+            try:
+                result = answer.get(timeout=0.2)
+                break
+            except queue.Empty:
+                wait.fail_if_ended()
+                wait.check()
         if "error" in result:
             problem = f"{method}: {result['error']}"
             raise Navigated(problem) if "navigated" in problem or "Cannot find context" in problem else AssertionError(problem)
@@ -76,6 +98,7 @@ class Browser:
         return self
 
     def __exit__(self, *_):
+        patience.forget(self)
         os.killpg(self.process.pid, signal.SIGKILL)
         self.process.wait()
         self.reader.join(5)
@@ -91,6 +114,8 @@ class Navigated(AssertionError):
 class Page:
     def __init__(self, browser, url, size):
         self.browser = browser
+        self.url = url
+        self.events = 0
         self.problems = []  # exceptions, warnings and errors of its console
         self.requests = []  # addresses
         self.bytes = 0      # that came, without those of WebSockets
@@ -108,6 +133,7 @@ class Page:
         return self.browser.call(method, session=self.session, **parameters)
 
     def on_event(self, method, event):
+        self.events += 1
         if method == "Runtime.exceptionThrown":
             details = event["exceptionDetails"]
             self.problems.append(details.get("exception", {}).get("description", details["text"]))
@@ -130,20 +156,18 @@ class Page:
             raise AssertionError(f"{expression}: {result['exceptionDetails']}")
         return result["result"].get("value")
 
-    def wait_for(self, condition, timeout=60):
+    def wait_for(self, condition):
         """Waits until the JavaScript `condition` is true; returns its value."""
-        deadline = time.monotonic() + timeout
-        while True:
+        def value():
             try:
-                value = self.evaluate(condition)
+                return self.evaluate(condition)
             except Navigated:
-                value = None  # the page that was asked has gone; the next one answers
-            if value:
-                return value
-            if time.monotonic() > deadline:
-                state = self.evaluate("JSON.stringify(globalThis.theatron?.state ?? null)")
-                raise AssertionError(f"not in {timeout} s: {condition}; {self.problems}; {state}")
-            time.sleep(0.05)
+                return None  # the page that was asked has gone; the next one answers
+        try:
+            return patience.wait_until(value, condition, of=self.browser)
+        except patience.WaitedInVain as vain:
+            state = self.evaluate("JSON.stringify(globalThis.theatron?.state ?? null)")
+            raise AssertionError(f"{vain}; {self.problems}; {state}") from None
 
     def enter(self, name="Ada", way=None, speaks=False):
         """Enters by the form of an invitation, once that is there. `way`: how the room is shown; None: as the form says."""

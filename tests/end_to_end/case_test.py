@@ -116,15 +116,15 @@ class Case(unittest.TestCase):
                 member(h.greeting["link"], "Ben") as ben, \
                 member(h.greeting["links"]["observer"], "Cleo") as cleo:
             for person in (anna, ben, cleo):
-                person.wait_for(lambda f: len(f["room"]["people"]) == 3, 20)
+                person.wait_for(lambda f: len(f["room"]["people"]) == 3)
             write_case(self.cases / "liver")
             for person in (anna, ben, cleo):
-                person.wait_for(lambda f: f["cases"]["offered"] == ["Made liver"], 10)
+                person.wait_for(lambda f: f["cases"]["offered"] == ["Made liver"])
             cleo.say("case open Made liver")
-            self.wait_for_error(cleo, "Your role does not allow this")
+            cleo.wait_for_error("Your role does not allow this")
             anna.say("case open Made liver")
             for person in (anna, ben, cleo):
-                person.wait_for(has_all, 10)
+                person.wait_for(has_all)
             # One takes the organ; the others see it in their hand, and all rooms are the same.
             organ = anna.newest_json()["cases"]["open"]["object"]
             ben.say(f"grab {organ}")
@@ -133,7 +133,7 @@ class Case(unittest.TestCase):
             ben.say("case hide liver")
             ben.say("case explode 50")
             for person in (anna, ben, cleo):
-                person.wait_for(lambda f: not parts_of(f)["liver"]["shown"] and f["cases"]["open"]["explosion"] > 0.4, 10)
+                person.wait_for(lambda f: not parts_of(f)["liver"]["shown"] and f["cases"]["open"]["explosion"] > 0.4)
             hashes = {person.newest_json()["room"]["hash"] for person in (anna, ben, cleo)}
             self.assertEqual(len(hashes), 1)
             # A part of its own, then everything back.
@@ -141,23 +141,23 @@ class Case(unittest.TestCase):
             anna.say(f"grab {tumour}")
             anna.say("move 0.5 1.4 0.1 0")
             anna.say("release")
-            ben.wait_for(lambda f: self.position(f, tumour) != [0, 0, 0], 10)
+            ben.wait_for(lambda f: self.position(f, tumour) != [0, 0, 0])
             ben.say("case together")
-            anna.wait_for(lambda f: self.position(f, tumour) == [0, 0, 0] and parts_of(f)["liver"]["shown"], 10)
+            anna.wait_for(lambda f: self.position(f, tumour) == [0, 0, 0] and parts_of(f)["liver"]["shown"])
             # The case goes on after a restart of the host, with the room.
             before = anna.newest_json()["cases"]["open"]["hash"]
             h.process.terminate()
             self.assertEqual(h.end(), 0)
         with self.start() as h, member(h.greeting["link"], "Dora") as dora:
-            again = dora.wait_for(has_all, 20)
+            again = dora.wait_for(has_all)
             self.assertEqual(again["cases"]["open"]["hash"], before)
             self.assertEqual(self.position(again, again["cases"]["open"]["object"]), [0.2, 1.25, -0.3])
             write_case(self.cases / "next", "Second", tumour=False)
-            dora.wait_for(lambda f: "Second" in f["cases"]["offered"], 10)
+            dora.wait_for(lambda f: "Second" in f["cases"]["offered"])
             dora.say("case open Second")
-            dora.wait_for(lambda f: has_all(f) and f["cases"]["open"]["name"] == "Second" and len(parts_of(f)) == 2, 10)
+            dora.wait_for(lambda f: has_all(f) and f["cases"]["open"]["name"] == "Second" and len(parts_of(f)) == 2)
             dora.say("case close")
-            dora.wait_for(lambda f: not f["cases"]["open"] and not f["room"]["objects"], 10)
+            dora.wait_for(lambda f: not f["cases"]["open"] and not f["room"]["objects"])
 
     def test_a_broken_case_is_said_and_the_others_are_offered(self):
         broken = write_case(self.cases / "broken", "Broken")
@@ -168,66 +168,66 @@ class Case(unittest.TestCase):
         (newer / "case.json").write_text((newer / "case.json").read_text().replace('"theatron_case": 1', '"theatron_case": 3'))
         write_case(self.cases / "whole", "Whole")
         with self.start() as h, member(h.greeting["link"], "Anna") as anna:
-            anna.wait_for(lambda f: f["cases"]["offered"] == ["Whole"], 20)
+            anna.wait_for(lambda f: f["cases"]["offered"] == ["Whole"])
             for sentence in ("lacks the file 'part_1.thmesh'", "ct.thvolume' is", "case.json"):
-                self.wait_for_error(h, sentence)
+                h.wait_for_error(sentence)
             # Two cases of the same name can both be opened, and the first one keeps its name.
             write_case(self.cases / "a_whole", "Whole", tumour=False)
-            anna.wait_for(lambda f: f["cases"]["offered"] == ["Whole (2)", "Whole"], 10)
+            anna.wait_for(lambda f: f["cases"]["offered"] == ["Whole (2)", "Whole"])
             shutil.rmtree(self.cases / "a_whole")
             for i in range(70):
                 (self.cases / f"zz{i}").mkdir()
-            self.wait_for_error(h, "holds more than 64 folders; only the first ones by name are read.")
+            h.wait_for_error("holds more than 64 folders; only the first ones by name are read.")
             for i in range(70):
                 (self.cases / f"zz{i}").rmdir()
             # Repaired while the session runs.
             (broken / "part_1.thmesh").write_bytes(sphere(5, (0, 0, 0)))
-            anna.wait_for(lambda f: f["cases"]["offered"] == ["Broken", "Whole"], 10)
+            anna.wait_for(lambda f: f["cases"]["offered"] == ["Broken", "Whole"])
             shutil.rmtree(broken)
-            anna.wait_for(lambda f: f["cases"]["offered"] == ["Whole"], 10)
+            anna.wait_for(lambda f: f["cases"]["offered"] == ["Whole"])
             for line, problem in (("case open Nothing", "offers no case 'Nothing'; it offers Whole."),
                                   ("case close", "No case is open"), ("case hide liver", "No case is open"),
                                   ("case explode 200", "from 0 to 100"), ("case scale 0", "from 0.01 to 100"),
                                   ("case what", "There is no such line on cases")):
                 anna.say(line)
-                self.wait_for_error(anna, problem)
+                anna.wait_for_error(problem)
 
     def test_an_open_case_whose_folder_is_moved_away_stays_and_the_operator_is_told(self):
         write_case(self.cases / "liver")
         with self.start() as h, member(h.greeting["link"], "Anna") as anna:
-            anna.wait_for(lambda f: f["cases"]["offered"], 20)
+            anna.wait_for(lambda f: f["cases"]["offered"])
             anna.say("case picture 1")
-            self.wait_for_error(anna, "'case picture 1': No case is open.")
+            anna.wait_for_error("'case picture 1': No case is open.")
             anna.say("case open Made liver")
-            anna.wait_for(has_all, 10)
+            anna.wait_for(has_all)
             anna.say("case picture 1")
-            self.wait_for_error(anna, "'case picture 1': The open case has no pictures.")
+            anna.wait_for_error("'case picture 1': The open case has no pictures.")
             self.assertEqual(self.case_problems(h), [])
             (self.cases / "liver").rename(self.folder / "away")
-            anna.wait_for(lambda f: not f["cases"]["offered"], 10)
-            self.wait_for_error(h, "The open case is not in the folder of cases any more as it was opened")
-            wait_until(lambda: "as it was opened" in "".join(self.case_problems(h)), 10, 0.1)
+            anna.wait_for(lambda f: not f["cases"]["offered"])
+            h.wait_for_error("The open case is not in the folder of cases any more as it was opened")
+            wait_until(lambda: "as it was opened" in "".join(self.case_problems(h)))
             self.assertTrue(has_all(anna.newest_json()), "who has it keeps it")
             # Back, with damaged texts on the patient: it can be shown, and the operator is told.
             (self.folder / "away/identifiers.json").write_text('{"series": [{"PatientName": "Doe^')
             (self.folder / "away").rename(self.cases / "liver")
-            anna.wait_for(lambda f: f["cases"]["offered"], 10)
-            self.wait_for_error(h, "identifiers.json' is not what `theatron case import` writes")
+            anna.wait_for(lambda f: f["cases"]["offered"])
+            h.wait_for_error("identifiers.json' is not what `theatron case import` writes")
             wait_until(lambda: self.case_problems(h) == [
-                "Nobody is told who the patient of the case 'Made liver' is; the host's log says why."], 10, 0.1)
+                "Nobody is told who the patient of the case 'Made liver' is; the host's log says why."])
             self.assertNotIn("Doe", "".join(h.errors))
             # Status is read from elsewhere: the name of a folder is in the log alone.
             (self.cases / "Doe Jane").mkdir()
             (self.cases / "Doe Jane/case.json").write_text("{")
-            wait_until(lambda: self.case_problems(h)[0] == "1 case is not offered; the host's log says why.", 10, 0.1)
+            wait_until(lambda: self.case_problems(h)[0] == "1 case is not offered; the host's log says why.")
             self.assertNotIn("Doe", "".join(self.case_problems(h)))
 
     def test_what_names_the_patient_leaves_the_folder_nowhere(self):
         write_case(self.cases / "liver")
         with self.start() as h, member(h.greeting["link"], "Anna") as anna:
-            anna.wait_for(lambda f: f["cases"]["offered"], 20)
+            anna.wait_for(lambda f: f["cases"]["offered"])
             anna.say("case open Made liver")
-            anna.wait_for(has_all, 10)
+            anna.wait_for(has_all)
             h.process.terminate()
             self.assertEqual(h.end(), 0)
             self.assertNotIn("Doe", "".join(h.errors + anna.errors))
@@ -238,12 +238,12 @@ class Case(unittest.TestCase):
     def test_organ_slice_and_cut_are_drawn(self):
         write_case(self.cases / "liver")
         with self.start() as h, member(h.greeting["link"], "Anna") as anna:
-            anna.wait_for(lambda f: f["cases"]["offered"], 20)
+            anna.wait_for(lambda f: f["cases"]["offered"])
 
             def count(name, is_it):
                 with Process("join", h.greeting["link"], "--offscreen", self.folder / name, "--size", "320x240", "--quality", "low",
                              "--seconds", "2", "--color-codec", "raw", "--renderer", "mesh", "--json") as viewer:
-                    self.assertEqual(viewer.end(60), 0, "".join(viewer.errors))
+                    self.assertEqual(viewer.end(), 0, "".join(viewer.errors))
                 width, height, channels, rows = read_png(self.folder / name)
                 return sum(is_it(*rows[y][channels * x:channels * x + 3]) for y in range(height) for x in range(width))
 
@@ -255,30 +255,30 @@ class Case(unittest.TestCase):
 
             without = count("without.png", is_yellow), count("without.png", is_white)
             anna.say("case open Made liver")
-            anna.wait_for(has_all, 10)
+            anna.wait_for(has_all)
             anna.say("case scale 2")
             anna.say("case slice coronal 0")
-            anna.wait_for(lambda f: f["cases"]["open"]["screen"]["orientation"] == 1, 10)
+            anna.wait_for(lambda f: f["cases"]["open"]["screen"]["orientation"] == 1)
             tumour = count("tumour.png", is_yellow)
             self.assertGreater(tumour, without[0] + 100, "the tumour through the shell")
             screen = count("tumour.png", is_white)
             self.assertGreater(screen, without[1] + 500, "the bright ball of the images")
             anna.say("case hide tumour")
-            anna.wait_for(lambda f: not parts_of(f)["tumour"]["shown"], 10)
+            anna.wait_for(lambda f: not parts_of(f)["tumour"]["shown"])
             # The texts on the screen are yellow, too.
             self.assertLess(count("hidden.png", is_yellow), tumour - 150)
             anna.say("case cut")
-            anna.wait_for(lambda f: f["cases"]["open"]["cut"], 10)
+            anna.wait_for(lambda f: f["cases"]["open"]["cut"])
             self.assertGreater(count("cut.png", is_white), screen + 500, "the slice in the organ")
 
     def test_the_places_where_two_people_point_on_the_slice_are_shown_on_the_organ_too(self):
         write_case(self.cases / "liver")
         with self.start() as h, member(h.greeting["link"], "Anna") as anna, member(h.greeting["link"], "Ben") as ben:
-            anna.wait_for(lambda f: f["cases"]["offered"], 20)
+            anna.wait_for(lambda f: f["cases"]["offered"])
             anna.say("case open Made liver")
-            anna.wait_for(has_all, 10)
+            anna.wait_for(has_all)
             anna.say("case slice coronal 0")
-            ben.wait_for(lambda f: has_all(f) and f["cases"]["open"]["screen"]["orientation"] == 1, 10)
+            ben.wait_for(lambda f: has_all(f) and f["cases"]["open"]["screen"]["orientation"] == 1)
             figures = anna.newest_json()
             x, y, z = next(o for o in figures["room"]["objects"] if o["kind"] == "screen")["position"]
             numbers = {p["name"]: p["id"] for p in figures["room"]["people"]}
@@ -287,13 +287,13 @@ class Case(unittest.TestCase):
                 person.say(f"point {x + side} {y + 0.2} {z + 0.03} {x + side} {y + 0.2} {z}")
             # Nobody is sent the own pose.
             for person, other in ((anna, "Ben"), (ben, "Anna")):
-                person.wait_for(lambda f: [p["name"] for p in f["room"]["people"] if p["points"]] == [other], 10)
+                person.wait_for(lambda f: [p["name"] for p in f["room"]["people"] if p["points"]] == [other])
 
             def dots():
                 """Pixels in the colours of persons 1 (blue) and 2 (green) beside the organ."""
                 with Process("join", h.greeting["link"], "--offscreen", self.folder / "dots.png", "--size", "640x480", "--quality", "low",
                              "--seconds", "0.5", "--color-codec", "raw", "--renderer", "mesh", "--json") as viewer:
-                    self.assertEqual(viewer.end(60), 0, "".join(viewer.errors))
+                    self.assertEqual(viewer.end(), 0, "".join(viewer.errors))
                 _, _, channels, rows = read_png(self.folder / "dots.png")
                 pixels = [rows[y][channels * x:channels * x + 3] for y in range(180, 220) for x in range(260, 385)]
                 return {1: sum(b > g + 50 > r + 100 for r, g, b in pixels), 2: sum(g > r + 60 and g > b + 30 for r, g, b in pixels)}
@@ -301,7 +301,7 @@ class Case(unittest.TestCase):
             both = dots()
             self.assertTrue(min(both.values()) > 5, both)
             anna.say("point")
-            ben.wait_for(lambda f: not any(p["points"] for p in f["room"]["people"]), 10)
+            ben.wait_for(lambda f: not any(p["points"] for p in f["room"]["people"]))
             one = dots()
             self.assertEqual(one[numbers["Anna"]], 0)
             self.assertEqual(one[numbers["Ben"]], both[numbers["Ben"]])
@@ -315,15 +315,15 @@ class Case(unittest.TestCase):
         self.assertEqual(code, 0, errors)
         self.assertIn("picture: a red\npicture: b green\n", out)
         with self.start() as h, member(h.greeting["link"], "Anna") as anna, member(h.greeting["link"], "Ben") as ben:
-            anna.wait_for(lambda f: f["cases"]["offered"], 20)
+            anna.wait_for(lambda f: f["cases"]["offered"])
             anna.say("case open Pictures")
             for person in (anna, ben):
-                person.wait_for(lambda f: has_all(f) and f["cases"]["open"]["screen"]["picture"] == 1, 20)
+                person.wait_for(lambda f: has_all(f) and f["cases"]["open"]["screen"]["picture"] == 1)
 
             def count(name, *tests):
                 with Process("join", h.greeting["link"], "--offscreen", self.folder / name, "--size", "320x240", "--quality", "low",
                              "--seconds", "2", "--color-codec", "raw", "--renderer", "mesh", "--json") as viewer:
-                    self.assertEqual(viewer.end(60), 0, "".join(viewer.errors))
+                    self.assertEqual(viewer.end(), 0, "".join(viewer.errors))
                 width, height, channels, rows = read_png(self.folder / name)
                 return [sum(is_it(*rows[y][channels * x:channels * x + 3]) for y in range(height) for x in range(width))
                         for is_it in tests]
@@ -332,66 +332,62 @@ class Case(unittest.TestCase):
             for line, problem in (("case picture 3", "has no picture '3'; it has 2, from 1."), ("case picture", "The line names no picture; it has 2"),
                                   ("case series 1", "The open case has no series of images.")):
                 ben.say(line)
-                self.wait_for_error(ben, problem)
+                ben.wait_for_error(problem)
             ben.say("case picture 2")
-            anna.wait_for(lambda f: f["cases"]["open"]["screen"]["picture"] == 2, 10)
+            anna.wait_for(lambda f: f["cases"]["open"]["screen"]["picture"] == 2)
             # Near enough to read its name and number below it.
             screen = anna.newest_json()["cases"]["open"]["screen"]["object"]
             for line in (f"grab {screen}", "move 0 1.3 0.5", "release"):
                 ben.say(line)
-            anna.wait_for(lambda f: self.position(f, screen) == [0, 1.3, 0.5], 10)
+            anna.wait_for(lambda f: self.position(f, screen) == [0, 1.3, 0.5])
             green, ink = count("green.png", lambda r, g, b: g > 140 and r < 60 and b < 70,
                                lambda r, g, b: r > 150 and g > 110 and r > b + 60)
             self.assertGreater(green, 500)
             self.assertGreater(ink, 30)
             # A case with both: slices first, pictures by a line, slices again.
             write_case(self.cases / "liver", pictures=[(200, 100, 90)])
-            anna.wait_for(lambda f: "Made liver" in f["cases"]["offered"], 10)
+            anna.wait_for(lambda f: "Made liver" in f["cases"]["offered"])
             anna.say("case open Made liver")
-            ben.wait_for(lambda f: has_all(f) and f["cases"]["open"]["screen"]["picture"] is None, 20)
+            ben.wait_for(lambda f: has_all(f) and f["cases"]["open"]["screen"]["picture"] is None)
             ben.say("case series 99")
-            self.wait_for_error(ben, "The open case has no series '99'; it has one, which is number 1.")
+            ben.wait_for_error("The open case has no series '99'; it has one, which is number 1.")
             ben.say("case picture 1")
-            anna.wait_for(lambda f: f["cases"]["open"]["screen"]["picture"] == 1, 10)
+            anna.wait_for(lambda f: f["cases"]["open"]["screen"]["picture"] == 1)
             anna.say("case slice coronal")
-            ben.wait_for(lambda f: f["cases"]["open"]["screen"]["picture"] is None and f["cases"]["open"]["screen"]["orientation"] == 1, 10)
+            ben.wait_for(lambda f: f["cases"]["open"]["screen"]["picture"] is None and f["cases"]["open"]["screen"]["orientation"] == 1)
             # One presents; then it is everybody's again.
             anna.say("case present")
-            ben.wait_for(lambda f: f["cases"]["open"]["screen"]["presenter"] == anna.newest_json()["room"]["self"], 10)
+            ben.wait_for(lambda f: f["cases"]["open"]["screen"]["presenter"] == anna.newest_json()["room"]["self"])
             ben.say("case slice sagittal")
-            self.wait_for_error(ben, "Somebody else holds this")
+            ben.wait_for_error("Somebody else holds this")
             anna.say("case slice axial")
             anna.say("case present off")
-            ben.wait_for(lambda f: f["cases"]["open"]["screen"]["presenter"] == 0 and f["cases"]["open"]["screen"]["orientation"] == 0, 10)
+            ben.wait_for(lambda f: f["cases"]["open"]["screen"]["presenter"] == 0 and f["cases"]["open"]["screen"]["orientation"] == 0)
             ben.say("case slice sagittal")
-            anna.wait_for(lambda f: f["cases"]["open"]["screen"]["orientation"] == 2, 10)
+            anna.wait_for(lambda f: f["cases"]["open"]["screen"]["orientation"] == 2)
 
     def test_a_recording_replays_the_case(self):
         write_case(self.cases / "liver")
         recording = self.folder / "session.mkv"
         with self.start() as h, member(h.greeting["link"], "Anna") as anna:
-            anna.wait_for(lambda f: f["cases"]["offered"], 20)
+            anna.wait_for(lambda f: f["cases"]["offered"])
             anna.say("case open Made liver")
-            anna.wait_for(has_all, 10)
+            anna.wait_for(has_all)
             with Process("record", h.greeting["link"], recording, "--seconds", "2") as recorder:
-                anna.wait_for(lambda f: len(f["room"]["people"]) == 2, 20)
+                anna.wait_for(lambda f: len(f["room"]["people"]) == 2)
                 anna.say("case explode 80")
-                self.assertEqual(recorder.end(60), 0, "".join(recorder.errors))
+                self.assertEqual(recorder.end(), 0, "".join(recorder.errors))
             name = anna.newest_json()["cases"]["open"]["hash"]
         self.assertNotIn(b"Doe", recording.read_bytes())
         with host(self.folder / "other", f"recording:{recording}", options=("--cases", self.cases)) as h, \
                 member(h.greeting["link"], "Ben") as ben:
-            again = ben.wait_for(lambda f: has_all(f) and f["cases"]["open"]["explosion"] > 0.7, 20)
+            again = ben.wait_for(lambda f: has_all(f) and f["cases"]["open"]["explosion"] > 0.7)
             self.assertEqual(again["cases"]["open"]["hash"], name)
             self.assertTrue(all(o["recorded"] for o in again["room"]["objects"]))
 
     @staticmethod
     def position(figures, number):
         return next((o["position"] for o in figures["room"]["objects"] if o["id"] == number), None)
-
-    @staticmethod
-    def wait_for_error(process, text, timeout=10):
-        wait_until(lambda: any(text in line for line in process.errors), timeout, 0.02)
 
 
 if __name__ == "__main__":

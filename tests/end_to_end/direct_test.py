@@ -5,13 +5,13 @@ import json
 import os
 import pathlib
 import shutil
-import subprocess
 import tempfile
 import time
 import unittest
 import urllib.parse
 
 import shaped_link
+import patience
 from theatron_process import PROGRAM, Process, host, make_recording, wait_until
 from three_networks import ThreeNetworks, missing
 
@@ -44,15 +44,16 @@ class Meeting:
         for process in (self.receiver, self.publisher, self.host):
             process.__exit__()
 
-    def wait_for(self, condition, timeout=30):
+    def wait_for(self, condition):
         """The camera at the receiver as soon as that is true of it."""
-        figures = self.receiver.wait_for(lambda f: f["cameras"] and condition(f["cameras"][0]), timeout)
+        figures = self.receiver.wait_for(lambda f: f["cameras"] and condition(f["cameras"][0]))
         return figures["cameras"][0]
 
     def status(self):
-        out = subprocess.run([*self.networks.at("host"), PROGRAM, "status", self.status_link, "--json"],
-                             capture_output=True, text=True, check=True, timeout=30).stdout
-        return json.loads(out)
+        done = patience.run([*self.networks.at("host"), PROGRAM, "status", self.status_link, "--json"])
+        if done.returncode != 0:
+            raise AssertionError(done.stderr)
+        return json.loads(done.stdout)
 
     def host_bytes(self):
         """That the host has received of the camera."""
@@ -120,12 +121,12 @@ class FullUplink(unittest.TestCase):
             receivers = [program("join", "link", "--every", "0.1", "--depth-codec", "raw", "--name", name,
                                  prefix=link.at_host()) for name in ("Ann", "Ben", "Eva")]
             for receiver in receivers:
-                receiver.wait_for(lambda f: f["cameras"] and f["cameras"][0]["frames"] > 0, 30)
+                receiver.wait_for(lambda f: f["cameras"] and f["cameras"][0]["frames"] > 0)
             said = lambda text: sum(text in line for line in publisher.errors)
-            wait_until(lambda: said("receiver is left to the host") >= 2, 30)
+            wait_until(lambda: said("receiver is left to the host") >= 2)
             frames = [receiver.newest_json()["cameras"][0]["frames"] for receiver in receivers]
             for receiver, before in zip(receivers, frames):
-                receiver.wait_for(lambda f: f["cameras"][0]["frames"] > before + 30, 30)
+                receiver.wait_for(lambda f: f["cameras"][0]["frames"] > before + 30)
             self.assertLessEqual(said("receivers=3"), 2, "all three together are not tried again and again")
 
 

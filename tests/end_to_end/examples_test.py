@@ -8,6 +8,7 @@ import subprocess
 import tempfile
 import unittest
 
+import patience
 from theatron_process import PROGRAM, Process, host, make_recording, read_png
 
 SOURCES = pathlib.Path(__file__).resolve().parent.parent.parent / "examples"
@@ -25,15 +26,14 @@ class Examples(unittest.TestCase):
             try:
                 link = publisher.stdout.readline().strip()
                 self.assertRegex(link, r"^https://")
-                saved = subprocess.run([EXAMPLES / "save_picture", link, picture], capture_output=True, text=True,
-                                       timeout=60)
+                saved = patience.run([EXAMPLES / "save_picture", link, picture])
                 self.assertEqual(saved.returncode, 0, saved.stderr)
                 width, height, channels, rows = read_png(picture)
                 self.assertEqual((width, height, channels), (1280, 720, 3))
                 self.assertGreater(len({bytes(row) for row in rows}), 50, "the picture shows nothing")
             finally:
                 publisher.send_signal(signal.SIGTERM)
-                self.assertEqual(publisher.wait(20), 0)
+                self.assertEqual(patience.end_of(publisher), 0)
                 publisher.stdout.close()
 
     def test_a_camera_is_sent_into_a_session(self):
@@ -44,17 +44,17 @@ class Examples(unittest.TestCase):
                     Process("join", session.greeting["link"], "--no-window", "--every", "0.2") as viewer:
                 sender = subprocess.Popen([EXAMPLES / "send_camera", session.greeting["publish_link"], f"folder:{camera},loop=1"])
                 try:
-                    viewer.wait_for(lambda f: any(c["name"] == "sent" and c["frames"] > 3 for c in f["cameras"]), 30)
+                    viewer.wait_for(lambda f: any(c["name"] == "sent" and c["frames"] > 3 for c in f["cameras"]))
                 finally:
                     sender.send_signal(signal.SIGTERM)
-                    self.assertEqual(sender.wait(20), 0)
-                viewer.wait_for(lambda f: not f["cameras"], 20)
+                    self.assertEqual(patience.end_of(sender), 0)
+                viewer.wait_for(lambda f: not f["cameras"])
 
     def test_a_wrong_link_ends_in_a_sentence(self):
         with tempfile.TemporaryDirectory() as folder:
             for words in (("save_picture", "nonsense", pathlib.Path(folder) / "a.png"),
                           ("send_camera", "nonsense", "synthetic:surgeon")):
-                result = subprocess.run([EXAMPLES / words[0], *words[1:]], capture_output=True, text=True, timeout=60)
+                result = patience.run([EXAMPLES / words[0], *words[1:]])
                 self.assertEqual(result.returncode, 1)
                 self.assertTrue(re.search(r"link", result.stderr), result.stderr)
 

@@ -25,7 +25,7 @@ class Filters(unittest.TestCase):
         options = ("--filter", "off", "--filter", "1=holes+kalman")
         with host(self.state, self.camera, self.camera, options=options) as h, \
                 Process("join", h.greeting["link"], "--every", "0.1") as viewer:
-            told = viewer.wait_for(lambda f: f["cameras"] and f["cameras"][1]["filter"] and f["fps"] > 0, 20)
+            told = viewer.wait_for(lambda f: f["cameras"] and f["cameras"][1]["filter"] and f["fps"] > 0)
             self.assertEqual([camera["filter"] for camera in told["cameras"]], ["", "holes+kalman"])
             code, out, errors = run("status", h.greeting["link"], "--json")
             self.assertEqual(code, 0, errors)
@@ -37,7 +37,7 @@ class Filters(unittest.TestCase):
         with host(self.state, self.camera, options=("--filter", file)) as h, \
                 Process("join", h.greeting["link"], "--every", "0.1") as viewer:
             def told(filters):
-                viewer.wait_for(lambda f: f["cameras"] and f["cameras"][0]["filter"] == filters and f["fps"] > 0, 20)
+                viewer.wait_for(lambda f: f["cameras"] and f["cameras"][0]["filter"] == filters and f["fps"] > 0)
             told("range:max_mm=900")
             file.write_text('{"filters": []}')
             told("")
@@ -47,7 +47,7 @@ class Filters(unittest.TestCase):
                 viewer.newest_json()
             told("")
             file.write_text('{"preset": "default"}')
-            viewer.wait_for(lambda f: f["cameras"][0]["filter"] not in ("", "range:max_mm=900"), 20)
+            viewer.wait_for(lambda f: f["cameras"][0]["filter"] not in ("", "range:max_mm=900"))
 
     def test_a_recording_tells_which_filters_ran_also_when_they_changed(self):
         file = self.folder / "recorded.json"
@@ -55,10 +55,10 @@ class Filters(unittest.TestCase):
         with host(self.state, self.camera, options=("--filter", file)) as h, \
                 Process("join", h.greeting["link"], "--every", "0.1") as viewer, \
                 Process("record", h.greeting["link"], self.folder / "changes.mkv", "--seconds", "4") as recorder:
-            viewer.wait_for(lambda f: f["cameras"] and f["cameras"][0]["filter"] == "kalman" and f["fps"] > 0, 20)
+            viewer.wait_for(lambda f: f["cameras"] and f["cameras"][0]["filter"] == "kalman" and f["fps"] > 0)
             time.sleep(1)
             file.write_text('{"filters": [{"filter": "range", "max_mm": 900}]}')
-            recorder.process.wait(20)
+            recorder.end()
         code, out, errors = run("inspect", self.folder / "changes.mkv", "--json")
         self.assertEqual(code, 0, errors)
         filters = [change["filters"] for change in json.loads(out)["cameras"][0]["depth"]["filters"]]

@@ -23,7 +23,7 @@ LOWEST_FPS = 29.5
 
 def rate_of_viewer(link, seconds):
     """Pictures a second of each camera, as its own figures say."""
-    code, out, errors = run("join", link, "--no-window", "--json", "--warmup", "2", "--seconds", str(seconds), timeout=seconds + 60)
+    code, out, errors = run("join", link, "--no-window", "--json", "--warmup", "2", "--seconds", str(seconds))
     if code != 0:
         raise SystemExit(errors)
     return json.loads(out)

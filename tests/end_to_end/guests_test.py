@@ -11,7 +11,7 @@ import time
 import unittest
 
 from raw_peer import (CONTROL, FakeHost, RawPeer, calibration, camera, control_message, media_message)
-from theatron_process import Process, host, make_recording, run
+from theatron_process import Process, host, make_recording, run, wait_until
 
 # An ordinary name in a hospital. The hundredth byte lies inside a character.
 LONG_NAME = "OOOOOOUniversitätsklinikum Klinik für Herzchirurgie Operationssaal 3 Überwachungsplatz der Anästhesie" + "ü" * 20
@@ -64,16 +64,15 @@ class Guests(unittest.TestCase):
 
     def names_in_status(self, h, count):
         """The participants' names, once there are so many; the host must be alive afterwards."""
-        deadline = time.monotonic() + 20
-        while True:
+        def names():
             code, out, errors = run("status", h.greeting["link"], "--json")
             self.assertEqual(code, 0, errors)
-            names = [p["name"] for p in json.loads(out)["participants"]]
-            if len(names) == count or time.monotonic() > deadline:
-                break
-        self.assertEqual(len(names), count)
+            found = [p["name"] for p in json.loads(out)["participants"]]
+            return found if len(found) == count else None
+
+        found = wait_until(names, f"{count} participants")
         self.assertIsNone(h.process.poll(), "the host has ended")
-        return names
+        return found
 
     def test_whoever_asks_far_too_often_is_told_why_its_connection_ends(self):
         with host(self.folder / "state", self.camera) as h:
@@ -83,7 +82,7 @@ class Guests(unittest.TestCase):
                 # All at once: most are unread when the host ends the connection.
                 peer.send_bytes(peer.frame(request) * 4000)
                 self.assertIn("far more requests", peer.receive_control("Refused")[1]["in_english"])
-                peer.wait_for_end(10)
+                peer.wait_for_end()
 
     def test_a_name_of_any_bytes_does_no_harm(self):
         with host(self.folder / "state", self.camera) as h:
@@ -138,11 +137,11 @@ class HostileHosts(unittest.TestCase):
                 time.sleep(0.1)
 
         with FakeHost(whole) as fake, Process("join", fake.link, "--no-window", "--every", "0.2") as viewer:
-            self.assertTrue(done.wait(60), "the viewer does not read")
-            viewer.wait_for(lambda f: f["fps"] > 0 and len(f["cameras"]) == 1, 30)
+            viewer.wait_until(done.is_set)
+            viewer.wait_for(lambda f: f["fps"] > 0 and len(f["cameras"]) == 1)
             peak = peak_memory_mb(viewer)
             viewer.say("quit")
-            self.assertEqual(viewer.end(30), 0, viewer.errors)
+            self.assertEqual(viewer.end(), 0, viewer.errors)
             self.assertEqual([f for f in fake.faults if not isinstance(f, (OSError, EOFError))], [])
             return "".join(viewer.errors), peak
 

@@ -6,19 +6,10 @@ import shutil
 import signal
 import subprocess
 import tempfile
-import time
 import unittest
 
-from theatron_process import PROGRAM, make_recording
-
-
-def wait_for(condition, seconds=60):
-    deadline = time.monotonic() + seconds
-    while not condition():
-        if time.monotonic() > deadline:
-            return False
-        time.sleep(0.05)
-    return True
+import patience
+from theatron_process import PROGRAM, make_recording, wait_until
 
 
 def children_of(pid):
@@ -53,9 +44,9 @@ class Interrupt(unittest.TestCase):
         cache = self.folder / "cache"
         host = self.start("host", "--state", self.folder / "state", "--listen", "127.0.0.1:0", "--camera",
                           f"synthetic:room,cache={cache}")
-        self.assertTrue(wait_for(lambda: any(cache.glob("*.part"))))
+        wait_until(lambda: any(cache.glob("*.part")))
         host.send_signal(signal.SIGINT)
-        _, errors = host.communicate(timeout=60)
+        _, errors = host.communicate()
         self.assertEqual(host.returncode, 1, errors)
         self.assertIn("Stopped", errors)
         self.assertEqual(list(cache.glob("*")), [])
@@ -63,11 +54,11 @@ class Interrupt(unittest.TestCase):
     def test_a_measurement_leaves_nobody_behind(self):
         camera = f"folder:{make_recording(self.folder / 'box')},loop=1"
         bench = self.start("bench", "pipeline", "--camera", camera, "--seconds", 60)
-        self.assertTrue(wait_for(lambda: len(children_of(bench.pid)) == 2))
+        wait_until(lambda: len(children_of(bench.pid)) == 2)
         children = children_of(bench.pid)
         os.kill(bench.pid, signal.SIGINT)
-        bench.wait(60)
-        self.assertTrue(wait_for(lambda: not any(map(runs, children))))
+        patience.end_of(bench)
+        wait_until(lambda: not any(map(runs, children)))
 
     def test_while_a_case_is_imported(self):
         source, made = self.folder / "source", self.folder / "cases"
@@ -77,9 +68,9 @@ class Interrupt(unittest.TestCase):
         for i in range(200):
             (source / f"part_{i}.stl").write_text(f"solid a\n{triangle}endsolid\n")
         importing = self.start("case", "import", source, made / "liver")
-        self.assertTrue(wait_for(lambda: any(made.iterdir())))
+        wait_until(lambda: any(made.iterdir()))
         importing.send_signal(signal.SIGINT)
-        _, errors = importing.communicate(timeout=60)
+        _, errors = importing.communicate()
         self.assertEqual(importing.returncode, 1, errors)
         self.assertIn("Stopped before the case was complete; nothing of it was kept.", errors)
         self.assertEqual(list(made.iterdir()), [])

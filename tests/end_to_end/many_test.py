@@ -18,10 +18,10 @@ import time
 import unittest
 
 from raw_peer import Link, https_get
-from theatron_process import Process, host, make_recording
+from theatron_process import Process, host, make_recording, wait_until
 
 SECONDS = float(os.environ.get("THEATRON_MANY_SECONDS", "20"))
-SLOWER = float(os.environ.get("THEATRON_MANY_SLOWER", "1"))  # divides frame rates, multiplies timeouts; for sanitizers
+SLOWER = float(os.environ.get("THEATRON_MANY_SLOWER", "1"))  # divides frame rates; for sanitizers
 PUBLISHERS, CAMERAS_EACH = 8, 2
 RATE = 10 / SLOWER
 CODECS = ("strata", "zstd", "rvl")
@@ -59,7 +59,7 @@ class Lines(threading.Thread):
     def run(self):
         with contextlib.suppress(AssertionError):  # the program has ended
             while True:
-                figures = self.process.read_json(timeout=60 * SLOWER)
+                figures = self.process.read_json()
                 self.newest = figures
                 self.take(time.monotonic(), figures)
 
@@ -166,7 +166,7 @@ class Many(unittest.TestCase):
         self.note(publisher)
         if choice.random() < 0.5:
             publisher.process.process.terminate()
-            publisher.process.end(30 * SLOWER)
+            publisher.process.end()
         publisher.process.__exit__()
 
     def note(self, publisher):
@@ -191,12 +191,6 @@ class Many(unittest.TestCase):
             time.sleep(SLOWER * choice.uniform(0.3, 1.5))  # the time to the next change is random
         return changes
 
-    def wait_for(self, condition, seconds):
-        deadline = time.monotonic() + seconds * SLOWER
-        while not condition():
-            self.assertLess(time.monotonic(), deadline, [v.lines.newest for v in self.viewers])
-            time.sleep(0.1)
-
     def test_a_camera_that_stays_suffers_from_none_that_comes_or_leaves(self):
         choice = random.Random(int(os.environ.get("THEATRON_MANY_SEED", "1")))
         self.publishers, self.left_out, self.publisher_dropped, self.memory, self.events = {}, {}, {}, [], []
@@ -209,17 +203,17 @@ class Many(unittest.TestCase):
             for number in range(PUBLISHERS):
                 self.publishers[number] = self.start_publisher(number)
             everything = 1 + PUBLISHERS * CAMERAS_EACH
-            self.wait_for(lambda: all(v.lines.newest and len(v.lines.newest["cameras"]) == everything
-                                      and all(c["frames"] > 5 for c in v.lines.newest["cameras"])
-                                      for v in self.viewers), 60)
+            wait_until(lambda: all(v.lines.newest and len(v.lines.newest["cameras"]) == everything
+                                   and all(c["frames"] > 5 for c in v.lines.newest["cameras"])
+                                   for v in self.viewers))
             stalls, self.drops = Stalls(), HostDrops(self.host.greeting["link"])
             changes = self.come_and_go(choice)
             # At the end all publishers are connected, and all viewers receive the same cameras.
-            self.wait_for(lambda: all(p.is_in() for p in self.publishers.values()), 30)
+            wait_until(lambda: all(p.is_in() for p in self.publishers.values()))
             there = 1 + CAMERAS_EACH * len(self.publishers)
-            self.wait_for(lambda: all(len(v.lines.newest["cameras"]) == there
-                                      and all(c["fps"] > 0 for c in v.lines.newest["cameras"])
-                                      for v in self.viewers), 30)
+            wait_until(lambda: all(len(v.lines.newest["cameras"]) == there
+                                   and all(c["fps"] > 0 for c in v.lines.newest["cameras"])
+                                   for v in self.viewers))
             stalls.going = self.drops.going = False
             for publisher in self.publishers.values():
                 self.note(publisher)

@@ -11,7 +11,7 @@ import unittest
 from case_test import case_host, has_all, parts_of, write_case
 from raw_peer import CONTROL, RawPeer, control_message
 from room_test import ROOM, member, people
-from theatron_process import Process, host, read_png, run, wait_until
+from theatron_process import Process, host, read_png, run
 
 CREATE, CLEAR, MARK = 1, 7, 5  # docs/formats/room.md
 TOO_MANY, MALFORMED, TOO_OFTEN, OF_ANOTHER = 6, 7, 8, 11
@@ -39,14 +39,11 @@ class Marks(unittest.TestCase):
         write_case(self.cases / "liver")
         self.start = case_host(self.folder, self.cases)
 
-    def wait_for_error(self, process, text, timeout=10):
-        wait_until(lambda: any(text in line for line in process.errors), timeout, 0.02)
-
     def open_case(self, anna, *others):
-        anna.wait_for(lambda f: f["cases"]["offered"], 20)
+        anna.wait_for(lambda f: f["cases"]["offered"])
         anna.say("case open Made liver")
         for person in (anna, *others):
-            person.wait_for(has_all, 20)
+            person.wait_for(has_all)
         return anna.newest_json()["cases"]["open"]
 
     def test_two_see_the_same_marks_which_survive_a_restart_of_the_host(self):
@@ -62,7 +59,7 @@ class Marks(unittest.TestCase):
             anna.say(f"mark pin on {part} 0.08 0 0")
             ben.say(f"mark distance on {screen} 0 0 0 0.03 0 0.04")
             ben.say("mark arrow 0.5 1 0 0.2 1 0")
-            figures = [person.wait_for(lambda f: len(marks(f)) == 4, 10) for person in (anna, ben)]
+            figures = [person.wait_for(lambda f: len(marks(f)) == 4) for person in (anna, ben)]
             self.assertEqual(marks(figures[0]), marks(figures[1]))
             self.assertEqual(figures[0]["room"]["hash"], figures[1]["room"]["hash"])
             by_kind = {mark["kind"]: mark for mark in marks(figures[0])}
@@ -72,54 +69,54 @@ class Marks(unittest.TestCase):
             # Undo takes one's own newest, clear one's own.
             ben.say("mark undo")
             anna.say("mark pin 0 1 0")
-            anna.wait_for(lambda f: sorted(mark["kind"] for mark in marks(f)) == ["distance", "pin", "pin", "stroke"], 10)
+            anna.wait_for(lambda f: sorted(mark["kind"] for mark in marks(f)) == ["distance", "pin", "pin", "stroke"])
             anna.say("mark clear all")
-            self.wait_for_error(anna, "Your role does not allow this")
+            anna.wait_for_error("Your role does not allow this")
             anna.say("mark undo")
-            kept = marks(ben.wait_for(lambda f: len(marks(f)) == 3, 10))
+            kept = marks(ben.wait_for(lambda f: len(marks(f)) == 3))
             h.process.terminate()
             self.assertEqual(h.end(), 0)
         with self.start() as h, member(h.greeting["link"], "Cleo", **own("cleo")) as cleo, \
                 member(h.greeting["link"], "Anna Lind", **own("anna")) as anna, \
                 member(h.greeting["links"]["operator"], "Ben", **own("ben")) as ben:
             for person in (cleo, anna, ben):
-                self.assertEqual(marks(person.wait_for(lambda f: len(marks(f)) == 3 and len(people(f)) == 3, 20)), kept)
+                self.assertEqual(marks(person.wait_for(lambda f: len(marks(f)) == 3 and len(people(f)) == 3)), kept)
             # Nobody takes over the marks of others, their authors remove their own.
             cleo.say("mark undo")
-            self.wait_for_error(cleo, "There is no such mark")
+            cleo.wait_for_error("There is no such mark")
             anna.say("mark pin 0 1 0")
-            anna.wait_for(lambda f: len(marks(f)) == 4, 10)
+            anna.wait_for(lambda f: len(marks(f)) == 4)
             anna.say("mark undo")
             anna.say("mark undo")
-            anna.wait_for(lambda f: sorted(mark["kind"] for mark in marks(f)) == ["distance", "stroke"], 10)
+            anna.wait_for(lambda f: sorted(mark["kind"] for mark in marks(f)) == ["distance", "stroke"])
             # With the case go the marks on it; an operator removes those of others.
             anna.say("case close")
-            ben.wait_for(lambda f: [mark["kind"] for mark in marks(f)] == ["stroke"], 10)
+            ben.wait_for(lambda f: [mark["kind"] for mark in marks(f)] == ["stroke"])
             ben.say("mark clear all")
-            anna.wait_for(lambda f: not marks(f), 10)
+            anna.wait_for(lambda f: not marks(f))
 
     def test_a_wrong_line_is_said(self):
         with self.start() as h, member(h.greeting["link"], "Anna") as anna:
-            anna.wait_for(people, 20)
+            anna.wait_for(people)
             for line, problem in (("mark pin 1 2", "A pin needs one place"), ("mark arrow 1 2 3", "an arrow and a distance two"),
                                   ("mark stroke 1 2 3 4 5 nan", "a stroke two or more"), ("mark pin on 4000 1 2 3", "no organ or screen"),
                                   ("mark undo", "There is no such mark"), ("mark what", "The lines on marks are")):
                 anna.say(line)
-                self.wait_for_error(anna, problem)
+                anna.wait_for_error(problem)
 
     def test_observers_forgers_floods_and_huge_strokes_are_refused(self):
         with self.start() as h, member(h.greeting["link"], "Anna") as anna, member(h.greeting["links"]["observer"], "Cleo") as cleo:
             for person in (anna, cleo):
-                person.wait_for(lambda f: len(people(f)) == 2, 20)
+                person.wait_for(lambda f: len(people(f)) == 2)
             cleo.say("mark pin 0 1 0")
-            self.wait_for_error(cleo, "Your role does not allow this")
+            cleo.wait_for_error("Your role does not allow this")
             anna.say("mark pin 0 1 0")
-            anna.wait_for(lambda f: len(marks(f)) == 1, 10)
+            anna.wait_for(lambda f: len(marks(f)) == 1)
             number = marks(anna.newest_json())[0]["id"]
             with RawPeer(h.greeting["link"]) as stranger:
                 own = stranger.join(name="Eve", depth_codec="raw", color_codec="raw", features=[ROOM])
                 stranger.receive_control("RoomSnapshot")
-                color = anna.wait_for(lambda f: "Eve" in people(f), 10)["room"]["people"]
+                color = anna.wait_for(lambda f: "Eve" in people(f))["room"]["people"]
                 color = next(p["id"] for p in color if p["name"] == "Eve") % 7
                 decided = 0
 
@@ -161,13 +158,13 @@ class Marks(unittest.TestCase):
             # 49 152 bytes of one author, 4096 of a mark: nobody else is kept from marking.
             self.assertLess(len(marks(anna.newest_json())), 140)
             anna.say("mark pin 0 1.5 0")
-            cleo.wait_for(lambda f: sum(mark["initials"] == "A" for mark in marks(f)) == 2, 10)
+            cleo.wait_for(lambda f: sum(mark["initials"] == "A" for mark in marks(f)) == 2)
 
     def marked(self, link, name, left=0):
         """Count and middle of the pixels of Anna's colour, right of a column; nothing else there has it."""
         with Process("join", link, "--offscreen", self.folder / name, "--size", "640x480", "--quality", "low",
                      "--seconds", "2", "--color-codec", "raw", "--renderer", "mesh", "--json") as viewer:
-            self.assertEqual(viewer.end(60), 0, "".join(viewer.errors))
+            self.assertEqual(viewer.end(), 0, "".join(viewer.errors))
         width, height, channels, rows = read_png(self.folder / name)
         places = [(x, y) for y in range(height) for x in range(left, width) for r, g, b in [rows[y][channels * x:channels * x + 3]]
                   if b > r + 60 and g > r + 30]
@@ -194,18 +191,18 @@ class Marks(unittest.TestCase):
             anna.say("release")
             line = " ".join(f"{0.004 * i - 0.06:.3f} 0 {(0.08 ** 2 - (0.004 * i - 0.06) ** 2) ** 0.5:.4f}" for i in range(31))
             anna.say(f"mark stroke on {part} {line}")
-            anna.wait_for(lambda f: len(marks(f)) == 1, 10)
+            anna.wait_for(lambda f: len(marks(f)) == 1)
             # The recorded picture of the box, on the left, has blue pixels at its edges.
             before = self.marked(h.greeting["link"], "live.png", left=330)
             self.assertGreater(before[0], 40)
             with Process("record", h.greeting["link"], recording, "--seconds", "2") as recorder:
-                self.assertEqual(recorder.end(60), 0, "".join(recorder.errors))
+                self.assertEqual(recorder.end(), 0, "".join(recorder.errors))
         # Also where the host of the replay does not have the case, so that no organ is seen.
         for name, options in (("replay", ("--cases", self.cases)), ("alone", ())):
             with host(self.folder / name, f"recording:{recording},loop=1", options=options) as h, \
                     member(h.greeting["link"], "Ben") as ben:
                 as_expected = has_all if options else lambda f: "--cases" in (f["cases"]["open"] or {}).get("problem", "")
-                ben.wait_for(lambda f: len(marks(f, recorded=True)) == 1 and as_expected(f), 20)
+                ben.wait_for(lambda f: len(marks(f, recorded=True)) == 1 and as_expected(f))
                 self.assert_at_same_place(self.marked(h.greeting["link"], f"{name}.png", left=330), before)
 
     def test_a_recording_replays_and_exports_the_marks(self):
@@ -214,13 +211,13 @@ class Marks(unittest.TestCase):
             case = self.open_case(anna)
             anna.say("mark pin 0 1 0")
             with Process("record", h.greeting["link"], recording, "--seconds", "2") as recorder:
-                anna.wait_for(lambda f: len(f["room"]["people"]) == 2, 20)
+                anna.wait_for(lambda f: len(f["room"]["people"]) == 2)
                 anna.say(f"mark stroke on {case['object']} 0 0 0.08 0.01 0 0.08 0.02 0.01 0.08")
-                before = marks(anna.wait_for(lambda f: len(marks(f)) == 2, 10))
-                self.assertEqual(recorder.end(60), 0, "".join(recorder.errors))
+                before = marks(anna.wait_for(lambda f: len(marks(f)) == 2))
+                self.assertEqual(recorder.end(), 0, "".join(recorder.errors))
         with host(self.folder / "other", f"recording:{recording}", options=("--cases", self.cases)) as h, \
                 member(h.greeting["link"], "Ben") as ben:
-            again = marks(ben.wait_for(lambda f: len(marks(f, recorded=True)) == 2, 20), recorded=True)
+            again = marks(ben.wait_for(lambda f: len(marks(f, recorded=True)) == 2), recorded=True)
             without = lambda found: [{k: v for k, v in mark.items() if k != "id"} for mark in found]
             self.assertEqual(without(again), without(before))
         exported = self.folder / "room.json"
@@ -240,15 +237,15 @@ class Marks(unittest.TestCase):
             part = parts_of(anna.newest_json())["liver"]["object"]
             anna.say("case hide portal vein")  # blue, too
             anna.say("case scale 3")
-            anna.wait_for(lambda f: next(o for o in f["room"]["objects"] if o["id"] == case["object"])["scale"] == 3, 10)
+            anna.wait_for(lambda f: next(o for o in f["room"]["objects"] if o["id"] == case["object"])["scale"] == 3)
             without = marked("without.png")
             line = " ".join(f"{0.004 * i - 0.06:.3f} 0 {(0.08 ** 2 - (0.004 * i - 0.06) ** 2) ** 0.5:.4f}" for i in range(31))
             anna.say(f"mark stroke on {part} {line}")
-            anna.wait_for(lambda f: len(marks(f)) == 1, 10)
+            anna.wait_for(lambda f: len(marks(f)) == 1)
             drawn = marked("on_organ.png")
             self.assertGreater(drawn, without + 40)
             anna.say("case hide liver")
-            anna.wait_for(lambda f: not parts_of(f)["liver"]["shown"], 10)
+            anna.wait_for(lambda f: not parts_of(f)["liver"]["shown"])
             self.assertLess(marked("hidden.png"), without + (drawn - without) // 4)
 
 

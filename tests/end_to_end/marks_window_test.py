@@ -47,40 +47,40 @@ class MarksWindow(unittest.TestCase):
                 member(h.greeting["link"], "Anna") as anna, \
                 Process("join", h.greeting["link"], "--name", "Wim Dow", "--size", f"{WIDTH}x{HEIGHT}", "--render-scale", "1",
                         "--renderer", "mesh", "--quality", "low", env=self.screen.environment) as window:
-            anna.wait_for(lambda f: f["cases"]["offered"] and people(f) == ["Anna", "Wim Dow"], 20)
+            anna.wait_for(lambda f: f["cases"]["offered"] and people(f) == ["Anna", "Wim Dow"])
             wait_until(lambda: brightness(self.screen.pixels(60, 90, 300, 150)) > 60)
             with self.subTest("O offers the case, and its button opens it before the person"):
                 do("mousemove", *AIR, "key", "o")
                 wait_until(lambda: len(self.buttons()) == 1)
                 self.press(self.buttons()[0])
-                anna.wait_for(has_all, 20)
+                anna.wait_for(has_all)
                 do("key", "o")
                 wait_until(lambda: not self.buttons())
             anna.say("case close")
-            anna.wait_for(lambda f: not f["cases"]["open"], 10)
+            anna.wait_for(lambda f: not f["cases"]["open"])
             anna.say("case open Made liver")
-            anna.wait_for(has_all, 10)
+            anna.wait_for(has_all)
             anna.say("case scale 3")
             organ = anna.newest_json()["cases"]["open"]["object"]
             shell = parts_of(anna.newest_json())["liver"]["object"]
             with self.subTest("I moves the slice to the place under the mouse"):
                 before = anna.newest_json()["cases"]["open"]["screen"]["position_mm"]
                 do("mousemove", *ORGAN, "sleep", 0.5, "key", "i")
-                found = anna.wait_for(lambda f: f["cases"]["open"]["screen"]["position_mm"] != before, 10)
+                found = anna.wait_for(lambda f: f["cases"]["open"]["screen"]["position_mm"] != before)
                 # 50 pixels below the middle, on a surface about 0.8 m away, three times life size.
                 self.assertAlmostEqual(found["cases"]["open"]["screen"]["position_mm"], -33, delta=6)
             with self.subTest("a stroke is drawn onto the organ"):
                 do("key", "z")
                 wait_until(lambda: len(self.buttons()) == 6)
                 self.drag(ORGAN, ORGAN_RIGHT)
-                stroke = marks(anna.wait_for(lambda f: len(marks(f)) == 1, 10))[0]
+                stroke = marks(anna.wait_for(lambda f: len(marks(f)) == 1))[0]
                 self.assertEqual((stroke["kind"], stroke["object"], stroke["initials"]), ("stroke", shell, "WD"))
                 for x, y, z in stroke["points"]:
                     self.assertAlmostEqual((x * x + y * y + z * z) ** 0.5, 0.08, 2, "on the shell, in its frame")
             with self.subTest("a distance on the live cloud says how certain it is"):
                 self.press(self.buttons()[3])
                 self.drag(BOX, BOX_BELOW)
-                distance = marks(anna.wait_for(lambda f: len(marks(f)) == 2, 10))[1]
+                distance = marks(anna.wait_for(lambda f: len(marks(f)) == 2))[1]
                 self.assertEqual((distance["kind"], distance["surface"]), ("distance", "cloud"))
                 self.assertAlmostEqual(distance["length_m"], 0.231, delta=0.01)
                 # The pixels are 7 mm wide there: 2.8 mm for both ends; and a little noise.
@@ -90,47 +90,47 @@ class MarksWindow(unittest.TestCase):
                 anna.say(f"grab {screen}")
                 anna.say("move 0.3 1.35 0.4")
                 anna.say("release")
-                anna.wait_for(lambda f: any(o["id"] == screen and o["position"][2] == 0.4 for o in f["room"]["objects"]), 10)
+                anna.wait_for(lambda f: any(o["id"] == screen and o["position"][2] == 0.4 for o in f["room"]["objects"]))
                 do("sleep", 0.5)
                 self.drag((390, 130), (390, 180))
-                on_slice = marks(anna.wait_for(lambda f: len(marks(f)) == 3, 10))[2]
+                on_slice = marks(anna.wait_for(lambda f: len(marks(f)) == 3))[2]
                 self.assertEqual((on_slice["surface"], on_slice["object"]), ("slice", screen))
                 # The picture of 192 mm is 0.5 m large: 50 pixels at 0.6 m are 77 mm, and so 29.5 mm of the patient.
                 self.assertAlmostEqual(on_slice["length_m"], 0.0295, delta=0.003)
             with self.subTest("I over a slice shows the next plane through that place, and the wheel shows other pictures"):
                 on_screen = lambda f: f["cases"]["open"]["screen"]
                 do("mousemove", 390, 150, "sleep", 0.3, "key", "i")
-                anna.wait_for(lambda f: on_screen(f)["orientation"] == 1, 10)
+                anna.wait_for(lambda f: on_screen(f)["orientation"] == 1)
                 anna.say("case picture 2")
-                anna.wait_for(lambda f: on_screen(f)["picture"] == 2, 10)
+                anna.wait_for(lambda f: on_screen(f)["picture"] == 2)
                 seen = []
                 for button in (4, 5, 5):
                     before = on_screen(anna.newest_json())["picture"]
                     do("sleep", 0.3, "mousemove", 390, 150, "click", button)
-                    seen.append(on_screen(anna.wait_for(lambda f: on_screen(f)["picture"] != before, 10))["picture"])
+                    seen.append(on_screen(anna.wait_for(lambda f: on_screen(f)["picture"] != before))["picture"])
                 self.assertIn(seen, ([1, 2, 3], [3, 2, 1]))
                 anna.say("case slice axial")
-                anna.wait_for(lambda f: on_screen(f)["picture"] is None, 10)
+                anna.wait_for(lambda f: on_screen(f)["picture"] is None)
             with self.subTest("Backspace takes the newest back, and the mouse turns the view again"):
                 do("key", "BackSpace")
-                anna.wait_for(lambda f: len(marks(f)) == 2, 10)
+                anna.wait_for(lambda f: len(marks(f)) == 2)
                 do("mousemove", *AIR, "key", "z")
                 wait_until(lambda: not self.buttons())
             with self.subTest("F, held, points"):
                 points = lambda f: [p["name"] for p in f["room"]["people"] if p["points"]]
                 do("mousemove", *BOX, "keydown", "f")
-                anna.wait_for(lambda f: points(f) == ["Wim Dow"], 10)
+                anna.wait_for(lambda f: points(f) == ["Wim Dow"])
                 do("keyup", "f")
-                anna.wait_for(lambda f: not points(f), 10)
+                anna.wait_for(lambda f: not points(f))
             with self.subTest("the left button holds the organ, with Shift its part"):
                 place = lambda f, number: next(o for o in f["room"]["objects"] if o["id"] == number)
                 held_by = lambda number: lambda f: place(f, number)["held_by"] != 0
                 before = place(anna.newest_json(), organ)["position"]
                 self.drag(ORGAN, ORGAN_RIGHT, after=("sleep", 0.2))
-                anna.wait_for(lambda f: place(f, organ)["position"] != before and not held_by(organ)(f), 10)
+                anna.wait_for(lambda f: place(f, organ)["position"] != before and not held_by(organ)(f))
                 self.assertEqual(place(anna.newest_json(), shell)["position"], [0, 0, 0])
                 self.drag(ORGAN, ORGAN_LEFT, "keydown", "shift", after=("sleep", 0.2, "keyup", "shift"))
-                anna.wait_for(lambda f: place(f, shell)["position"] != [0, 0, 0] and not held_by(shell)(f), 10)
+                anna.wait_for(lambda f: place(f, shell)["position"] != [0, 0, 0] and not held_by(shell)(f))
             do("key", "Escape", "sleep", 0.3, "key", "Escape")
             self.assertEqual(window.end(), 0, "".join(window.errors))
             self.assertNotIn("reported", "".join(window.errors))

@@ -39,7 +39,7 @@ class OrScreen(unittest.TestCase):
                               "--seconds", "60", "--every", "0.2") as screen:
 
                 def shown(condition):
-                    return screen.wait_for(lambda f: f.get("or_screen") and condition(f["or_screen"]), 30)["or_screen"]
+                    return screen.wait_for(lambda f: f.get("or_screen") and condition(f["or_screen"]))["or_screen"]
 
                 def state_of(view, name):
                     return next((p["state"] for p in view["people"] if p["name"] == name), None)

@@ -31,7 +31,7 @@ class Listener(RawPeer):
     """A participant that keeps every byte that the host sends it."""
 
     def __init__(self, link, name):
-        super().__init__(link, timeout=60)
+        super().__init__(link)
         self.heard = bytearray()
         self.join(name=name, features=[ROOM, CASES, PATIENT])
         self.thread = threading.Thread(target=self._listen, daemon=True)
@@ -67,25 +67,24 @@ class Patient(unittest.TestCase):
             oskar = stack.enter_context(Listener(links["observer"], "Oskar"))
             # Figures are no display: also those of an operator have no name.
             anna = stack.enter_context(member(links["operator"], "Anna"))
-            anna.wait_for(lambda f: f["cases"]["offered"] and len(f["room"]["people"]) == 4, 20)
+            anna.wait_for(lambda f: f["cases"]["offered"] and len(f["room"]["people"]) == 4)
             self.assertFalse(olga.knows_any(), "no case is open")
             with Process("record", links["expert"], recording, "--seconds", "2") as recorder:
-                anna.wait_for(lambda f: len(f["room"]["people"]) == 5, 20)
+                anna.wait_for(lambda f: len(f["room"]["people"]) == 5)
                 anna.say("case open Made liver")
-                anna.wait_for(has_all, 10)
-                wait_until(olga.knows, 10, 0.02)
-                self.assertEqual(recorder.end(60), 0, "".join(recorder.errors))
+                anna.wait_for(has_all)
+                wait_until(olga.knows)
+                self.assertEqual(recorder.end(), 0, "".join(recorder.errors))
             self.assertFalse(eva.knows_any())
             anna.say("role Eva operator")
-            wait_until(eva.knows, 10, 0.02)
+            wait_until(eva.knows)
             with Process("join", links["operator"], "--offscreen", self.folder / "view.png", "--size", "160x120", "--quality", "low",
                          "--seconds", "0.2", "--renderer", "mesh", "--json") as viewer:
-                self.assertEqual(viewer.end(60), 0, "".join(viewer.errors))
+                self.assertEqual(viewer.end(), 0, "".join(viewer.errors))
                 self.assertNotIn("Doe", viewer.lines.get())
             figures = json.dumps(anna.newest_json())
             h.say("end session")
-            oskar.thread.join(20)
-            self.assertFalse(oskar.thread.is_alive())
+            wait_until(lambda: not oskar.thread.is_alive(), "the end of the observer's connection")
             self.assertFalse(oskar.knows_any())
             h.process.terminate()
             self.assertEqual(h.end(), 0)
@@ -113,7 +112,7 @@ class Patient(unittest.TestCase):
             page.wait_for("document.readyState === 'complete' && !!document.getElementById('invitation')?.textContent")
             page.evaluate("document.getElementById('name').value = 'Ada'; document.getElementById('enter').click()")
             page.wait_for("theatron.state.phase === 'joined' && !!theatron.state.overlay.panels.length")
-            anna.wait_for(lambda f: f["cases"]["offered"] and len(f["room"]["people"]) == 2, 20)
+            anna.wait_for(lambda f: f["cases"]["offered"] and len(f["room"]["people"]) == 2)
             anna.say("case open Made liver")
             page.evaluate("document.querySelector('[data-key=o]').click()")
             panels = "document.getElementById('room_panels').textContent"

@@ -46,15 +46,12 @@ class People(unittest.TestCase):
         self.assertEqual(code, 0, errors)
         return json.loads(out)
 
-    def wait_for_error(self, process, text):
-        wait_until(lambda: any(text in line for line in process.errors), 15)
-
     def audited(self):
         with open(self.state / "audit.jsonl") as file:
             return [json.loads(line) for line in file]
 
     def assert_ends_with(self, process, text, code=1):
-        self.assertEqual(process.end(20), code, process.errors)
+        self.assertEqual(process.end(), code, process.errors)
         self.assertIn(text, "".join(process.errors))
 
     def test_names_tell_people_apart_and_a_removed_ones_link_shows_nobody(self):
@@ -63,16 +60,16 @@ class People(unittest.TestCase):
             links, own = h.greeting["links"], self.link("--role", "expert", "--for", "Ada")["link"]
             boss = stack.enter_context(self.member(links["operator"], "Boss"))
             ada = stack.enter_context(self.member(own, "Ada"))
-            boss.wait_for(lambda f: names(f) == ["Ada", "Boss"], 20)
+            boss.wait_for(lambda f: names(f) == ["Ada", "Boss"])
             # A Cyrillic letter, and one that nobody sees.
             other = stack.enter_context(self.member(links["expert"], "\u0410d\u200ba"))
-            boss.wait_for(lambda f: names(f) == ["Ada", "Boss", "\u0410da (2)"], 20)
+            boss.wait_for(lambda f: names(f) == ["Ada", "Boss", "\u0410da (2)"])
 
             shown = lambda link: json.loads(run("lobby", link, "--json")[1])["sessions"][0]
             self.assertEqual(len(shown(own)["people"]), 3)
             boss.say("remove Ada")
             self.assert_ends_with(ada, "An operator has removed you from this session.")
-            wait_until(lambda: "people" not in shown(own), 10)
+            wait_until(lambda: "people" not in shown(own))
             session, picture = shown(own), self.folder / "picture.png"
             self.assertEqual((session["held_back"], "cameras" in session, session["people_count"]), (True, False, 2))
             self.assertIn("was removed", run("lobby", own)[1])
@@ -87,61 +84,61 @@ class People(unittest.TestCase):
             h = stack.enter_context(self.start("--admit", "ask"))
             links = h.greeting["links"]
             boss = stack.enter_context(self.member(links["operator"], "Boss"))
-            boss.wait_for(lambda f: names(f) == ["Boss"], 20)
+            boss.wait_for(lambda f: names(f) == ["Boss"])
             anna = stack.enter_context(self.member(links["expert"], "Dr. Anna"))
             olga = stack.enter_context(self.member(links["observer"], "Olga"))
-            seen = boss.wait_for(lambda f: waiting(f) == ["Dr. Anna", "Olga"], 20)
+            seen = boss.wait_for(lambda f: waiting(f) == ["Dr. Anna", "Olga"])
             self.assertRegex(seen["visitors"][0]["person"], "^[0-9a-f]{8}$")
-            self.assertEqual(anna.wait_for(lambda f: f["phase"] == "waiting", 10)["cameras"], [])
+            self.assertEqual(anna.wait_for(lambda f: f["phase"] == "waiting")["cameras"], [])
             boss.say("admit Dr. Anna")
             boss.say("admit Olga")
             for person in (boss, anna, olga):
-                person.wait_for(lambda f: names(f) == ["Boss", "Dr. Anna", "Olga"], 20)
-            self.assertEqual(olga.wait_for(lambda f: f["cameras"], 10)["role"], "observer")
+                person.wait_for(lambda f: names(f) == ["Boss", "Dr. Anna", "Olga"])
+            self.assertEqual(olga.wait_for(lambda f: f["cameras"])["role"], "observer")
 
             # An observer changes nothing; an expert does, until it is one.
             for person in (olga, anna):
                 person.say("stand 0 1.6 1 0 1 0")
                 person.say("call")
-            called = boss.wait_for(lambda f: any(p["calls"] for p in f["room"]["people"]), 10)
+            called = boss.wait_for(lambda f: any(p["calls"] for p in f["room"]["people"]))
             self.assertEqual([p["name"] for p in called["room"]["people"] if p["calls"]], ["Dr. Anna"])
             olga.say("brick 0 1 0")
-            self.wait_for_error(olga, "role does not allow")
+            olga.wait_for_error("role does not allow")
             anna.say("brick 0 1 0")
-            olga.wait_for(lambda f: len(f["room"]["objects"]) == 1, 10)
+            olga.wait_for(lambda f: len(f["room"]["objects"]) == 1)
             boss.say("role Dr. Anna observer")
-            self.assertEqual(anna.wait_for(lambda f: f["role"] == "observer", 10)["phase"], "joined")
-            self.wait_for_error(anna, "You are an observer now.")
+            self.assertEqual(anna.wait_for(lambda f: f["role"] == "observer")["phase"], "joined")
+            anna.wait_for_error("You are an observer now.")
             anna.say("brick 0 2 0")
-            self.wait_for_error(anna, "role does not allow")
+            anna.wait_for_error("role does not allow")
             anna.say("admit Olga")
-            self.wait_for_error(anna, "Only operators")
+            anna.wait_for_error("Only operators")
             boss.say("mute Olga")
-            olga.wait_for(lambda f: f["muted"], 10)
-            anna.wait_for(lambda f: any(p["muted"] for p in f["room"]["people"]), 10)
+            olga.wait_for(lambda f: f["muted"])
+            anna.wait_for(lambda f: any(p["muted"] for p in f["room"]["people"]))
 
             # A removed person is gone at once and stays out; the others notice nothing else.
             boss.say("remove Dr. Anna")
             self.assert_ends_with(anna, "An operator has removed you from this session.")
-            boss.wait_for(lambda f: names(f) == ["Boss", "Olga"], 10)
+            boss.wait_for(lambda f: names(f) == ["Boss", "Olga"])
             again = stack.enter_context(self.member(links["expert"], "Dr. Anna"))
             self.assert_ends_with(again, "An operator has removed you from this session.")
 
             # One is turned away; one decision comes from the host's own machine.
             ken = stack.enter_context(self.member(links["expert"], "Ken"))
-            boss.wait_for(lambda f: waiting(f) == ["Ken"], 20)
+            boss.wait_for(lambda f: waiting(f) == ["Ken"])
             boss.say("refuse Ken")
             self.assert_ends_with(ken, "An operator has not let you in.")
             lea = stack.enter_context(self.member(links["expert"], "Lea"))
-            boss.wait_for(lambda f: waiting(f) == ["Lea"], 20)
-            wait_until(lambda: json.loads(run("status", links["operator"], "--json")[1])["visitors"], 10)
+            boss.wait_for(lambda f: waiting(f) == ["Lea"])
+            wait_until(lambda: json.loads(run("status", links["operator"], "--json")[1])["visitors"])
             h.say("admit Lea")
-            lea.wait_for(lambda f: f["phase"] == "joined", 10)
+            lea.wait_for(lambda f: f["phase"] == "joined")
 
             boss.say("end session")
             for person in (olga, lea, boss):
                 self.assert_ends_with(person, "An operator has ended the session.", code=0)
-            wait_until(lambda: self.audited()[-1]["event"] == "left", 10)
+            wait_until(lambda: self.audited()[-1]["event"] == "left")
         log = self.audited()
         self.assertEqual([e["event"] for e in log if e.get("name") == "Dr. Anna"],
                          ["waits", "admitted", "joined", "role_changed", "removed", "left"])
@@ -161,9 +158,9 @@ class People(unittest.TestCase):
             made = self.link("--role", "observer", "--hours", "1", "--for", "Olga")
             self.assertIn("&role=observer&until=" + made["until"], made["link"])
             olga = stack.enter_context(self.member(made["link"], "Olga"))
-            self.assertEqual(olga.wait_for(lambda f: f["phase"] == "joined", 20)["role"], "observer")
+            self.assertEqual(olga.wait_for(lambda f: f["phase"] == "joined")["role"], "observer")
             other = stack.enter_context(self.member(h.greeting["link"], "Other"))
-            other.wait_for(lambda f: f["phase"] == "joined", 20)
+            other.wait_for(lambda f: f["phase"] == "joined")
             self.assertIn({"name": made["name"], "role": "observer", "until": made["until"], "expired": False,
                            "for": "Olga"}, self.link("--list"))
             self.assertEqual(run("link", "--state", self.state, "--revoke", made["name"], "--json"),
@@ -178,17 +175,17 @@ class People(unittest.TestCase):
             fresh = self.link("--show", "expert")["link"]
             self.assertNotEqual(fresh, h.greeting["link"])
             again = stack.enter_context(self.member(fresh, "Again"))
-            again.wait_for(lambda f: f["phase"] == "joined", 20)
+            again.wait_for(lambda f: f["phase"] == "joined")
 
             # An operator revokes it from within.
             boss = stack.enter_context(self.member(h.greeting["links"]["operator"], "Boss"))
-            boss.wait_for(lambda f: names(f) == ["Again", "Boss"], 20)
+            boss.wait_for(lambda f: names(f) == ["Again", "Boss"])
             boss.say("revoke Again")
             self.assert_ends_with(again, "The link by which you came is no longer valid")
 
             short = self.link("--hours", "0.0003")
             time.sleep(1.1)  # it is as short as a link can be
-            wait_until(lambda: "links changed" in "".join(h.errors), 10)
+            wait_until(lambda: "links changed" in "".join(h.errors))
             late = stack.enter_context(self.member(short["link"], "Late"))
             self.assert_ends_with(late, "This link has expired")
             for command in ("lobby", "status"):
@@ -215,7 +212,7 @@ class People(unittest.TestCase):
 
     def test_a_link_shows_the_lobby_before_joining_but_little_where_one_must_ask(self):
         with self.start() as h, self.member(h.greeting["link"], "Anna") as anna:
-            anna.wait_for(lambda f: f["phase"] == "joined", 20)
+            anna.wait_for(lambda f: f["phase"] == "joined")
             links = h.greeting["links"]
 
             def lobby(link):
@@ -223,7 +220,7 @@ class People(unittest.TestCase):
                 self.assertEqual(code, 0, errors)
                 return json.loads(out)
 
-            wait_until(lambda: lobby(links["observer"])["sessions"][0].get("people"), 10)
+            wait_until(lambda: lobby(links["observer"])["sessions"][0].get("people"))
             shown = lobby(links["observer"])
             self.assertEqual(shown["role"], "observer")
             session = shown["sessions"][0]
@@ -253,9 +250,9 @@ class People(unittest.TestCase):
         with contextlib.ExitStack() as stack:
             h = stack.enter_context(self.start())
             anna = stack.enter_context(self.member(h.greeting["links"]["expert"], "Anna"))
-            anna.wait_for(lambda f: f["phase"] == "joined", 20)
+            anna.wait_for(lambda f: f["phase"] == "joined")
             anna.say("brick 0 1 0")
-            number = anna.wait_for(lambda f: f["room"]["objects"], 10)["room"]["objects"][0]["id"]
+            number = anna.wait_for(lambda f: f["room"]["objects"])["room"]["objects"][0]["id"]
             peer = stack.enter_context(RawPeer(h.greeting["links"]["observer"]))
             peer.join(name="Mallory", features=[1, ROOM])
             peer.receive_control("Welcome")
@@ -280,16 +277,16 @@ class People(unittest.TestCase):
                 status = json.loads(run("status", h.greeting["link"], "--json")[1])
                 return next((p for p in status["participants"] if p["name"] == "Mallory"), None)
 
-            wait_until(lambda: mallory()["denied_messages"] == END_SESSION + len(requests) + 1, 10)
+            wait_until(lambda: mallory()["denied_messages"] == END_SESSION + len(requests) + 1)
             # A flood, then bytes that are no message: its connection ends, the other one does not notice.
             flood = [bytes([CONTROL]) + bytes(range(i % 200, i % 200 + 40)) for i in range(50)]
             with contextlib.suppress(OSError, EOFError):
                 for envelope in flood:
                     peer.send(envelope)
-                peer.wait_for_end(20)
-            wait_until(lambda: mallory() is None, 20)
+                peer.wait_for_end()
+            wait_until(lambda: mallory() is None)
             frames = anna.newest_json()["cameras"][0]["frames"]
-            self.assertEqual(anna.wait_for(lambda f: f["cameras"][0]["frames"] > frames + 10, 20)["joins"], 1)
+            self.assertEqual(anna.wait_for(lambda f: f["cameras"][0]["frames"] > frames + 10)["joins"], 1)
 
 
 if __name__ == "__main__":

@@ -60,15 +60,15 @@ class PlaceWatch(unittest.TestCase):
                 return json.loads(out)["cameras"][0]
 
             with Process("join", link, "--no-window", "--every", "1") as viewer:
-                seen = wait_until(lambda: status() if status().get("place") else None, timeout=60, every=1)
+                seen = wait_until(lambda: status() if status().get("place") else None)
                 self.assertFalse(seen["place"]["alarm"])
                 self.assertLess(seen["place"]["moved_mm"], 1)
                 self.assertEqual(seen["problem"], "")
-                seen = wait_until(lambda: status() if status()["place"]["alarm"] else None, timeout=60, every=1)
+                seen = wait_until(lambda: status() if status()["place"]["alarm"] else None)
                 self.assertAlmostEqual(seen["place"]["moved_mm"], 8, delta=1)
                 self.assertRegex(seen["problem"], r"The camera was moved by [78]\.\d mm")
                 self.assertIn("--refine", seen["problem"])
-                told = viewer.wait_for(lambda f: f["cameras"] and f["cameras"][0]["problem"], timeout=30)
+                told = viewer.wait_for(lambda f: f["cameras"] and f["cameras"][0]["problem"])
                 self.assertIn("was moved by", told["cameras"][0]["problem"])
                 wait_until(lambda: any("was moved by" in line for line in list(viewer.errors)))
             self.assertTrue(any("was moved by" in line for line in h.errors))
@@ -86,7 +86,7 @@ class PlaceWatch(unittest.TestCase):
                 self.assertEqual(code, 0, errors)
                 return json.loads(out)["cameras"][0]
 
-            seen = wait_until(lambda: status() if status().get("place", {}).get("alarm") else None, timeout=60, every=1)
+            seen = wait_until(lambda: status() if status().get("place", {}).get("alarm") else None)
             self.assertTrue(seen["place"]["far"])
             self.assertFalse(seen["covered"])
             self.assertIn("The camera was moved by more than 30 mm", seen["problem"])
@@ -100,7 +100,7 @@ class PlaceWatch(unittest.TestCase):
             metrics = urllib.request.urlopen(request, context=ssl._create_unverified_context()).read().decode()
             self.assertIn('theatron_camera_moved_far{camera="0",name="camera"} 1', metrics)
             with Process("join", h.greeting["links"]["observer"], "--no-window", "--every", "1") as observer:
-                told = observer.wait_for(lambda f: f["cameras"] and f["cameras"][0]["problem"], timeout=30)
+                told = observer.wait_for(lambda f: f["cameras"] and f["cameras"][0]["problem"])
                 self.assertIn("moved by more than 30 mm", told["cameras"][0]["problem"])
                 self.assertNotIn("nudge", told["cameras"][0]["problem"], "an observer cannot")
                 h.say("nudge camera none")

@@ -4,13 +4,12 @@ import json
 import pathlib
 import shutil
 import struct
-import subprocess
 import tempfile
 import time
 import unittest
 
 from raw_peer import STATES, RawPeer
-from theatron_process import PROGRAM, host, make_recording
+from theatron_process import host, make_recording, run
 
 POSE = 1
 
@@ -107,17 +106,17 @@ class Poses(unittest.TestCase):
         for _ in range(20):
             second.send(bytes([STATES]) + one * 150)
         self.assertIn("far more", second.receive_control("Refused")[1]["in_english"])
-        second.wait_for_end(10)
+        second.wait_for_end()
         first.send_state(first.number, pose(self.now_us(), 1))
         third = self.person()
         self.assertIn(first.number, third.receive_poses())
 
     def test_the_benchmark_of_interaction_sees_the_poses_of_all(self):
         camera = f"folder:{self.recording},loop=1,preload=1"
-        done = subprocess.run(
-            [PROGRAM, "bench", "interaction", "--camera", camera, "--people", "3", "--seconds", "2", "--warmup", "1",
-             "--json", "-"], check=True, capture_output=True, text=True, timeout=60)
-        found = json.loads(done.stdout)
+        code, out, errors = run("bench", "interaction", "--camera", camera, "--people", "3", "--seconds", "2", "--warmup", "1",
+                                "--json", "-")
+        self.assertEqual(code, 0, errors)
+        found = json.loads(out)
         self.assertEqual(found["participants"], 5)  # the three, and two that grab
         self.assertGreater(found["poses"], 3 * 60)  # at 90 a second each
         self.assertGreater(found["p50_ms"], 0)

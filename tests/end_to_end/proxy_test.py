@@ -10,6 +10,7 @@ import tempfile
 import unittest
 
 from https_test import make_certificate
+import patience
 from raw_peer import Link, RawPeer, https_request
 from theatron_process import Process, host, wait_until
 
@@ -56,11 +57,11 @@ def nginx(folder, site, port):
             return True
 
     try:
-        wait_until(answers, 20)
+        wait_until(answers)
         yield process
     finally:
         process.terminate()
-        process.wait(10)
+        patience.end_of(process)
         process.stderr.close()
 
 
@@ -100,8 +101,8 @@ class BehindNginx(unittest.TestCase):
 
     def test_a_native_participant_joins_by_the_printed_link(self):
         with Process("join", self.host.greeting["link"], "--no-window", "--every", "0.1", "--name", "through nginx") as viewer:
-            viewer.wait_for(lambda f: f["joins"] == 1, 20)
-        wait_until(lambda: self.lines("joined", "through nginx", "address=127.0.0.1"), 10)
+            viewer.wait_for(lambda f: f["joins"] == 1)
+        wait_until(lambda: self.lines("joined", "through nginx", "address=127.0.0.1"))
 
     def test_a_page_connects_from_the_public_name_only(self):
         here = self.link._replace(host="127.0.0.1")
@@ -124,7 +125,7 @@ class BehindNginx(unittest.TestCase):
             with self.subTest(name), RawPeer(link, address=address, headers=invented) as peer:
                 peer.join(name=name)
                 peer.receive_control("Welcome")
-                wait_until(lambda: self.lines("joined", name, f"address={address}"), 10)
+                wait_until(lambda: self.lines("joined", name, f"address={address}"))
         self.assertEqual(self.lines("203.0.113.5"), [])
         self.assertEqual(self.lines("names no client"), [])
 

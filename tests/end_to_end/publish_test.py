@@ -40,9 +40,9 @@ class Publishing(unittest.TestCase):
 
     def test_a_participants_camera_comes_and_leaves_and_others_go_on(self):
         with host(self.state, self.cameras["lamp"]) as h, viewer(h.greeting["link"]) as seen:
-            seen.wait_for(lambda f: names(f) == ["lamp"] and f["fps"] > 0, 15)
+            seen.wait_for(lambda f: names(f) == ["lamp"] and f["fps"] > 0)
             with viewer(h.greeting["publish_link"], "--publish", self.cameras["face"]) as publisher:
-                both = seen.wait_for(lambda f: len(f["cameras"]) == 2 and camera(f, 1)["frames"] > 20, 20)
+                both = seen.wait_for(lambda f: len(f["cameras"]) == 2 and camera(f, 1)["frames"] > 20)
                 self.assertEqual(camera(both, 1)["name"], "face")
                 self.assertGreater(camera(both, 1)["publisher"], 0)
                 self.assertEqual(camera(both, 1)["dropped"], 0)
@@ -51,26 +51,26 @@ class Publishing(unittest.TestCase):
                 # Codecs are chosen for each camera.
                 seen.say("depth rvl 1")
                 chosen = seen.wait_for(lambda f: "rvl" in camera(f, 1)["depth_codec"]
-                                       and camera(f, 1)["fps"] > 0, 10)
+                                       and camera(f, 1)["fps"] > 0)
                 self.assertEqual(camera(chosen, 0)["depth_codec"], "strata")
                 publisher.process.kill()
-                alone = seen.wait_for(lambda f: len(f["cameras"]) == 1, 10)
-            later = seen.wait_for(lambda f: camera(f, 0)["frames"] > camera(alone, 0)["frames"] + 30, 10)
+                alone = seen.wait_for(lambda f: len(f["cameras"]) == 1)
+            later = seen.wait_for(lambda f: camera(f, 0)["frames"] > camera(alone, 0)["frames"] + 30)
             self.assertEqual(camera(later, 0)["dropped"], 0)
             self.assertEqual(later["joins"], 1)
             # Numbers never come again, and a publisher finds back by itself.
             with viewer(h.greeting["publish_link"], "--publish", self.cameras["hand"],
                         "--publish", self.cameras["face"]):
-                seen.wait_for(lambda f: camera(f, 2) and camera(f, 3) and camera(f, 3)["frames"] > 5, 20)
+                seen.wait_for(lambda f: camera(f, 2) and camera(f, 3) and camera(f, 3)["frames"] > 5)
 
     def test_a_machine_without_a_screen_only_sends(self):
         with host(self.state, self.cameras["lamp"]) as h, viewer(h.greeting["link"]) as seen:
-            seen.wait_for(lambda f: f["fps"] > 0, 15)
+            seen.wait_for(lambda f: f["fps"] > 0)
             with Process("publish", h.greeting["publish_link"], "--camera", self.cameras["face"],
                          "--name", "cart", "--every", "0.2") as cart:
-                both = seen.wait_for(lambda f: camera(f, 1) and camera(f, 1)["frames"] > 5, 20)
+                both = seen.wait_for(lambda f: camera(f, 1) and camera(f, 1)["frames"] > 5)
                 self.assertNotEqual(camera(both, 1)["filter"], "", "filtered as the host's own are")
-                sent = cart.wait_for(lambda f: f["cameras"][0]["encoders"] > 0, 10)
+                sent = cart.wait_for(lambda f: f["cameras"][0]["encoders"] > 0)
                 self.assertEqual(sent["cameras"][0]["id"], 1)
                 code, out, errors = run("status", h.greeting["link"], "--json")
                 self.assertEqual(code, 0, errors)
@@ -78,29 +78,29 @@ class Publishing(unittest.TestCase):
                 self.assertEqual((listed["name"], listed["id"], listed["state"]), ("face", 1, "live"))
                 # It stands still with its connection open: nobody may take its last picture for the present.
                 cart.send(signal.SIGSTOP)
-                stale = seen.wait_for(lambda f: camera(f, 1)["state"] == "stale", 10)
+                stale = seen.wait_for(lambda f: camera(f, 1)["state"] == "stale")
                 self.assertEqual(camera(stale, 1)["problem"], "Its pictures do not arrive any more.")
                 self.assertEqual(camera(stale, 0)["state"], "live")
 
                 def told():
                     return json.loads(run("status", h.greeting["link"], "--json")[1])["published"][0]["state"]
 
-                wait_until(lambda: told() == "stale", 10)
+                wait_until(lambda: told() == "stale")
                 cart.send(signal.SIGCONT)
-                seen.wait_for(lambda f: camera(f, 1)["state"] == "live", 10)
-                wait_until(lambda: told() == "live", 10)
+                seen.wait_for(lambda f: camera(f, 1)["state"] == "live")
+                wait_until(lambda: told() == "live")
                 cart.send(signal.SIGTERM)
                 self.assertEqual(cart.end(), 0)
-            seen.wait_for(lambda f: len(f["cameras"]) == 1, 10)
+            seen.wait_for(lambda f: len(f["cameras"]) == 1)
             code, _, errors = run("publish", h.greeting["link"], "--camera", self.cameras["face"])
             self.assertEqual(code, 1)
             self.assertIn("lets you send no cameras", errors)
 
     def test_a_viewers_link_lets_no_camera_in(self):
         with host(self.state, self.cameras["lamp"]) as h, viewer(h.greeting["link"]) as seen:
-            seen.wait_for(lambda f: f["fps"] > 0, 15)
+            seen.wait_for(lambda f: f["fps"] > 0)
             with viewer(h.greeting["link"], "--publish", self.cameras["face"]) as publisher:
-                publisher.wait_for(lambda f: f["fps"] > 0, 15)
+                publisher.wait_for(lambda f: f["fps"] > 0)
                 self.assertEqual(names(seen.newest_json()), ["lamp"])
                 publisher.say("quit")
                 self.assertEqual(publisher.end(), 0)
@@ -110,11 +110,11 @@ class Publishing(unittest.TestCase):
                 peer.join()
                 peer.receive_control("Welcome")
                 peer.send_media(media_message(b"x" * 100, stream=0))
-                peer.wait_for_end(10)
+                peer.wait_for_end()
 
     def test_a_publisher_sends_pictures_of_its_own_cameras_only(self):
         with host(self.state, self.cameras["lamp"]) as h, viewer(h.greeting["link"]) as seen:
-            seen.wait_for(lambda f: f["fps"] > 0, 15)
+            seen.wait_for(lambda f: f["fps"] > 0)
             offer = {"name": "made up", "has_color": False, "frames_per_second": 30.0,
                      "calibration": list(calibration(color_width=0, color_height=0))}
             with RawPeer(h.greeting["publish_link"]) as peer:
@@ -130,8 +130,8 @@ class Publishing(unittest.TestCase):
                 self.assertEqual(names(seen.newest_json()), ["lamp", "made up"])
                 peer.send_media(media_message(b"a lie", stream=0, setting=1))
                 self.assertIn("no camera of this participant", peer.receive_control("Refused")[1]["in_english"])
-                peer.wait_for_end(10)
-            alone = seen.wait_for(lambda f: names(f) == ["lamp"], 10)
+                peer.wait_for_end()
+            alone = seen.wait_for(lambda f: names(f) == ["lamp"])
             self.assertEqual(camera(alone, 0)["dropped"], 0)
             with RawPeer(h.greeting["publish_link"]) as peer:
                 peer.join(features=[PUBLISH])
@@ -140,7 +140,7 @@ class Publishing(unittest.TestCase):
                 # Larger than any picture of that camera.
                 with contextlib.suppress(OSError):
                     peer.send_media(media_message(b"x" * 4_000_000, stream=2 * number))
-                peer.wait_for_end(10)
+                peer.wait_for_end()
 
     def test_links_expire(self):
         with host(self.state, self.cameras["lamp"], options=("--link-hours", "0.0000001")) as h:
@@ -155,12 +155,12 @@ class Publishing(unittest.TestCase):
             watching = [stack.enter_context(viewer(h.greeting["link"], "--depth-codec", codec))
                         for codec in ("strata", "zstd")]
             for one in watching:
-                one.wait_for(lambda f: f["fps"] > 0, 15)
+                one.wait_for(lambda f: f["fps"] > 0)
             recorder = stack.enter_context(Process("record", h.greeting["link"], file, "--name", "OR recorder"))
             stay = stack.enter_context(viewer(h.greeting["publish_link"], "--publish", self.cameras["face"],
                                               "--may-record"))
             # A setting that is new may leave out frames until its cost is known.
-            before = [one.wait_for(lambda f: camera(f, 1) and camera(f, 1)["frames"] > 20, 20) for one in watching]
+            before = [one.wait_for(lambda f: camera(f, 1) and camera(f, 1)["frames"] > 20) for one in watching]
             others = {}
             for _ in range(6):
                 which = choice.randrange(2)
@@ -171,7 +171,7 @@ class Publishing(unittest.TestCase):
                     stack.callback(others[which].__exit__)
                 time.sleep(0.7)  # time between two changes
             for one, first in zip(watching, before):
-                figures = one.wait_for(lambda f: len(f["cameras"]) == 2 + len(others), 15)
+                figures = one.wait_for(lambda f: len(f["cameras"]) == 2 + len(others))
                 for number in (0, 1):
                     lost = camera(figures, number)["dropped"] - camera(first, number)["dropped"]
                     # A busy machine may cost a frame; a chain that breaks costs dozens.

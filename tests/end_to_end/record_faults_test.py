@@ -14,7 +14,7 @@ import unittest
 
 from raw_peer import ACKNOWLEDGEMENT, FakeHost, RawPeer, camera, media_message
 from slow_disk import SlowDisk
-from theatron_process import PROGRAM, Process, host, make_recording, run, write_png
+from theatron_process import PROGRAM, Process, host, make_recording, run, wait_until, write_png
 
 DAY_S = 86_400
 COMPLETE, ENDED_BY_THE_DISK, INCOMPLETE = 0, 1, 3
@@ -27,14 +27,6 @@ def clock_ahead(seconds):
     if subprocess.run([*prefix, "true"], capture_output=True).returncode != 0:
         return None
     return prefix
-
-
-def wait_until(condition, timeout=60):
-    deadline = time.monotonic() + timeout
-    while not condition():
-        if time.monotonic() > deadline:
-            raise AssertionError(f"not in {timeout} s")
-        time.sleep(0.02)
 
 
 def make_noise(folder, width, height, frames=3):
@@ -65,11 +57,6 @@ class RecordFaults(unittest.TestCase):
         file = file or self.file
         wait_until(lambda: recorder.process.poll() is not None or file.exists() and file.stat().st_size > more_than)
         self.assertIsNone(recorder.process.poll(), "".join(recorder.errors))
-
-    def says(self, recorder, text, timeout=60):
-        wait_until(lambda: recorder.process.poll() is not None or any(text in line for line in list(recorder.errors)),
-                   timeout)
-        self.assertIn(text, "".join(recorder.errors))
 
     def ends(self, recorder, expected, sig=signal.SIGINT):
         """Ends it and returns its figures."""
@@ -116,7 +103,6 @@ class RecordFaults(unittest.TestCase):
             told.append(struct.unpack_from("<Q", envelope, 1)[0])
 
         def script(guest):
-            guest.stream.settimeout(20)
             guest.receive_control("Join")
             guest.welcome(cameras=[camera(0, has_color=False)])
             guest.send_control("Settings", settings=[{"stream": 0, "setting": 1, "codec": "strata"}])
@@ -130,7 +116,7 @@ class RecordFaults(unittest.TestCase):
             guest.wait_for_end()
 
         with FakeHost(script) as fake, self.recorder(fake.link, self.file) as recorder:
-            self.says(recorder, "camera 0 has ended")
+            recorder.wait_for_error("camera 0 has ended")
             self.ends(recorder, COMPLETE)
             self.assertEqual(fake.faults, [])
         self.assertGreater(told[1], told[0] + 10_000)
@@ -161,7 +147,7 @@ class RecordFaults(unittest.TestCase):
             guest.wait_for_end()
 
         with FakeHost(script) as fake, self.recorder(fake.link, self.file) as recorder:
-            self.says(recorder, f"camera {cameras - 1} has ended")
+            recorder.wait_for_error(f"camera {cameras - 1} has ended")
             figures = self.ends(recorder, expected)
             self.assertEqual(fake.faults, [])
         self.assertEqual(figures["cameras"][0]["depth"]["pictures"], 10)
@@ -201,7 +187,7 @@ class RecordFaults(unittest.TestCase):
             guest.wait_for_end()
 
         with FakeHost(script) as fake, self.recorder(fake.link, self.file) as recorder:
-            self.says(recorder, "camera 1 has ended")
+            recorder.wait_for_error("camera 1 has ended")
             figures = self.ends(recorder, COMPLETE)
             self.assertEqual(fake.faults, [])
         self.assertEqual([c["depth"]["pictures"] for c in figures["cameras"]], [10, 10])
@@ -217,7 +203,7 @@ class RecordFaults(unittest.TestCase):
                            env=disk.environment) as recorder:
             self.begun(recorder, file, 100_000)
             disk.be("stall")
-            self.says(recorder, "Missing: ")
+            recorder.wait_for_error("Missing: ")
             before = file.stat().st_size
             disk.be("well")
             # The content of the buffer, and some frames that came afterwards.
@@ -233,9 +219,9 @@ class RecordFaults(unittest.TestCase):
         with self.recorder("--camera", self.camera, file, env=disk.environment) as recorder:
             self.begun(recorder, file)
             disk.be("stall")
-            self.says(recorder, "The disk does not keep up")
+            recorder.wait_for_error("The disk does not keep up")
             disk.be("well")
-            self.says(recorder, "The disk keeps up again")
+            recorder.wait_for_error("The disk keeps up again")
             figures = self.ends(recorder, COMPLETE)
         self.assertEqual(self.assert_decodes(file)["frames"], figures["pictures"])
 
@@ -281,7 +267,7 @@ class RecordFaults(unittest.TestCase):
         with self.recorder("--camera", self.camera, self.file) as recorder:
             self.begun(recorder)
             self.file.unlink()
-            self.says(recorder, "was deleted or renamed")
+            recorder.wait_for_error("was deleted or renamed")
             self.begun(recorder, second)
             self.ends(recorder, INCOMPLETE)
         self.assertGreater(second.stat().st_size, 3000)
@@ -300,7 +286,7 @@ class RecordFaults(unittest.TestCase):
         with self.two_segments() as recorder:
             time.sleep(1)
             self.file.unlink()
-            self.says(recorder, f"'{self.file}' was deleted or renamed; it is a part of this recording")
+            recorder.wait_for_error(f"'{self.file}' was deleted or renamed; it is a part of this recording")
             figures = self.ends(recorder, INCOMPLETE)
         self.assertEqual((figures["segments"], figures["gone_files"]), (2, [str(self.file)]))
         self.assertEqual(figures["lost"] + figures["dropped"], 0)
@@ -327,7 +313,7 @@ class RecordFaults(unittest.TestCase):
         with self.recorder("--camera", self.camera, folder / "a.mkv") as recorder:
             self.begun(recorder, folder / "a.mkv")
             shutil.rmtree(folder)
-            self.says(recorder, f"The folder '{folder}' was deleted or renamed")
+            recorder.wait_for_error(f"The folder '{folder}' was deleted or renamed")
             self.begun(recorder, folder / "a.002.mkv")
             self.ends(recorder, INCOMPLETE)
         code, out, errors = run("inspect", folder / "a.002.mkv", "--verify")
@@ -348,7 +334,7 @@ class RecordFaults(unittest.TestCase):
         with self.recorder("--camera", self.camera, self.file) as recorder:
             self.begun(recorder, more_than=30_000)
             os.truncate(self.file, 10_000)
-            self.says(recorder, "Another program has cut")
+            recorder.wait_for_error("Another program has cut")
             figures = self.ends(recorder, INCOMPLETE)
         self.assertGreaterEqual(figures["cut_bytes"], 20_000)
         self.assertEqual(run("inspect", self.file, "--verify")[0], INCOMPLETE)
@@ -448,8 +434,8 @@ class RecordFaults(unittest.TestCase):
         # Every second one fault of the six that cameras have.
         faulty = self.camera + ",faults=1,faults_every=1"
         with self.recorder("--camera", faulty, "--camera", self.camera, self.file) as recorder:
-            self.says(recorder, "is not there")
-            self.says(recorder, "is live again")
+            recorder.wait_for_error("is not there")
+            recorder.wait_for_error("is live again")
             self.begun(recorder, more_than=self.file.stat().st_size + 10_000)
             figures = self.ends(recorder, INCOMPLETE)
         self.assertTrue(figures["cameras"][0]["was_gone"])

@@ -61,7 +61,7 @@ class Region(unittest.TestCase):
                 Process("join", h.greeting["link"], "--depth-codec", f"strata:max_error_mm={MAX_ERROR}", "--every",
                         "0.1") as viewer:
             def wait_for(exact):
-                viewer.wait_for(lambda f: f["fps"] > 0 and f["cameras"][0]["depth_exact"] == exact, 15)
+                viewer.wait_for(lambda f: f["fps"] > 0 and f["cameras"][0]["depth_exact"] == exact)
 
             wait_for("everywhere")
             h.say("region 0 20:20:50:50 100:100:150:100:120:119")

@@ -40,21 +40,21 @@ class RoomRecording(unittest.TestCase):
         with self.host(f"folder:{self.camera},loop=1,preload=1", "live") as h:
             link = h.greeting["link"]
             with member(link, "Anna") as anna, member(link, "Zoë") as zoe:
-                anna.wait_for(lambda f: people(f) == ["Anna", "Zoë"], 20)
+                anna.wait_for(lambda f: people(f) == ["Anna", "Zoë"])
                 recorder = self.record(link, recording)
-                zoe.wait_for(lambda f: len(people(f)) == 3, 20)
+                zoe.wait_for(lambda f: len(people(f)) == 3)
 
                 def moment(condition):
                     """Both have the same room, for a while; a moment to compare later."""
                     for person in (anna, zoe):
-                        person.wait_for(condition, 10)
+                        person.wait_for(condition)
                     time.sleep(0.35)
                     hashes = [person.newest_json()["room"]["hash"] for person in (anna, zoe)]
                     self.assertEqual(*hashes)
                     moments.append(hashes[0])
 
                 # The recorder has begun when it asks for the state: its first picture is there.
-                wait_until(lambda: recording.exists() and recording.stat().st_size > 4096, 20)
+                wait_until(lambda: recording.exists() and recording.stat().st_size > 4096)
                 moment(lambda f: len(people(f)) == 3)
                 anna.say("stand 0.5 1.6 -0.6 0 1 0")
                 anna.say("brick 0.5 1 0.25")
@@ -75,7 +75,7 @@ class RoomRecording(unittest.TestCase):
                 moment(lambda f: "Ben" not in people(f))
                 anna.say(f"grab {number + 1}")
                 anna.say("remove")
-                zoe.wait_for(lambda f: len(f["room"]["objects"]) < 3, 10)
+                zoe.wait_for(lambda f: len(f["room"]["objects"]) < 3)
                 anna.say("brick 1 1 1")
                 moment(lambda f: any(o["position"] == [1, 1, 1] for o in f["room"]["objects"]))
                 figures = self.stop(recorder)
@@ -98,11 +98,11 @@ class RoomRecording(unittest.TestCase):
             # From its beginning, however long the guest took to join.
             for line in ("pause", "seek 0"):
                 h.say(line)
-            guest.wait_for(lambda f: f["playback"] and f["playback"]["paused"] and f["playback"]["position_s"] == 0, 20)
+            guest.wait_for(lambda f: f["playback"] and f["playback"]["paused"] and f["playback"]["position_s"] == 0)
             h.say("play")
             seen = []
             while not seen or seen[-1] != moments[-1]:
-                figures = guest.read_json(30)
+                figures = guest.read_json()
                 seen.append(figures["room"]["recorded_hash"])
             self.assert_in_order(moments[1:], seen)
             self.assertIn("Guest", [p["name"] for p in figures["room"]["people"] if not p["recorded"]])
@@ -110,16 +110,16 @@ class RoomRecording(unittest.TestCase):
                              ["Anna", "Zoë", "recorder"])
             # A guest can look, and has objects of its own.
             guest.say(f"grab {next(o['id'] for o in figures['room']['objects'] if o['recorded'])}")
-            wait_until(lambda: any("Only the recording moves this" in line for line in guest.errors), 10)
+            wait_until(lambda: any("Only the recording moves this" in line for line in guest.errors))
             guest.say("brick 0.1 0.2 0.3")
-            again = guest.wait_for(lambda f: any(not o["recorded"] for o in f["room"]["objects"]), 10)
+            again = guest.wait_for(lambda f: any(not o["recorded"] for o in f["room"]["objects"]))
             self.assertEqual(again["room"]["recorded_hash"], moments[-1])
             h.process.terminate()
             self.assertEqual(h.end(), 0)
         # The recording's objects are not saved as the host's.
         with self.host(f"folder:{self.camera},loop=1,preload=1", "replay") as h, \
                 member(h.greeting["link"], "Guest") as guest:
-            objects = guest.wait_for(people, 20)["room"]["objects"]
+            objects = guest.wait_for(people)["room"]["objects"]
             self.assertEqual([o["position"] for o in objects], [[0.1, 0.2, 0.3]])
 
     def assert_in_order(self, wanted, seen):
@@ -133,7 +133,7 @@ class RoomRecording(unittest.TestCase):
         def picture(link, name):
             with Process("join", link, "--offscreen", self.folder / name, "--size", "320x240", "--seconds", "1.5",
                          "--color-codec", "jpeg:quality=85", "--json") as viewer:
-                self.assertEqual(viewer.end(60), 0, "".join(viewer.errors))
+                self.assertEqual(viewer.end(), 0, "".join(viewer.errors))
             return read_png(self.folder / name)[3]
 
         shutil.rmtree(self.camera)
@@ -145,21 +145,21 @@ class RoomRecording(unittest.TestCase):
             json.dumps({"depth": lens, "color": lens, "room_from_camera": pose}))
         with self.host(f"folder:{still},loop=1,preload=1", "live") as h, \
                 member(h.greeting["link"], "Anna") as anna:
-            anna.wait_for(people, 20)
+            anna.wait_for(people)
             anna.say("stand 0 1.6 -0.6 0 1.6 0")
             anna.say("point 0.2 1.45 -0.5 0 1.4 0")
             anna.say("brick -0.2 1.5 -0.55")
-            anna.wait_for(brick, 10)
+            anna.wait_for(brick)
             live = picture(h.greeting["link"], "live.png")
             recorder = self.record(h.greeting["link"], recording)
-            wait_until(lambda: recording.exists() and recording.stat().st_size > 4096, 20)
+            wait_until(lambda: recording.exists() and recording.stat().st_size > 4096)
             time.sleep(2)
             self.stop(recorder)
             anna.say("stand 3 1.6 3 4 1.6 3")
             anna.say("point 3 1.6 3 4 1.6 3")
             empty = picture(h.greeting["link"], "empty.png")
         with self.host(f"recording:{recording},loop=1", "replay") as h, member(h.greeting["link"], "Ben") as ben:
-            ben.wait_for(lambda f: any(p["recorded"] for p in f["room"]["people"]), 20)
+            ben.wait_for(lambda f: any(p["recorded"] for p in f["room"]["people"]))
             replayed = picture(h.greeting["link"], "replayed.png")
 
         def different(a, b):
@@ -178,11 +178,11 @@ class RoomRecording(unittest.TestCase):
         with self.host(f"folder:{self.camera},loop=1,preload=1", "live") as h, \
                 member(h.greeting["publish_link"], "Anna", "--publish", f"folder:{face},loop=1,preload=1",
                        "--may-record") as anna:
-            anna.wait_for(lambda f: people(f) == ["Anna"], 20)
+            anna.wait_for(lambda f: people(f) == ["Anna"])
             anna.say("stand 0.25 1.6 -0.75 0.25 1.6 0")
             time.sleep(0.5)  # her pose is in the room before the recording begins
             recorder = self.record(h.greeting["link"], recording)
-            wait_until(lambda: recording.exists() and recording.stat().st_size > 4096, 20)
+            wait_until(lambda: recording.exists() and recording.stat().st_size > 4096)
             time.sleep(2)
             self.stop(recorder)
         code, out, errors = run("inspect", recording, "--json")
@@ -192,11 +192,11 @@ class RoomRecording(unittest.TestCase):
 
         with host(self.folder / "replay", f"recording:{recording},loop=1", f"recording:{recording},camera=1,loop=1") as h, \
                 member(h.greeting["link"], "Ben") as ben:
-            ben.wait_for(lambda f: any(p["recorded"] and p["name"] == "Anna" for p in f["room"]["people"]), 20)
+            ben.wait_for(lambda f: any(p["recorded"] and p["name"] == "Anna" for p in f["room"]["people"]))
             drawn = self.folder / "replayed.png"
             with Process("join", h.greeting["link"], "--offscreen", drawn, "--size", "320x240", "--seconds", "1.5",
                          "--color-codec", "raw", "--renderer", "mesh", "--json") as viewer:
-                self.assertEqual(viewer.end(60), 0, "".join(viewer.errors))
+                self.assertEqual(viewer.end(), 0, "".join(viewer.errors))
         drawn = read_png(drawn)
         self.assertGreater(count(drawn, FACE, 1), 400)
         self.assertEqual((count(drawn, FACE, 0), count(drawn, WALL, 0) + count(drawn, WALL, 1)), (0, 0))

@@ -24,7 +24,7 @@ SIZE = "1920x1080"
 
 
 def figures_of(link, seconds):
-    code, out, errors = run("join", link, "--no-window", "--json", "--warmup", "4", "--seconds", str(seconds), timeout=seconds + 90)
+    code, out, errors = run("join", link, "--no-window", "--json", "--warmup", "4", "--seconds", str(seconds))
     if code != 0:
         raise SystemExit(errors)
     figures = json.loads(out)
@@ -43,7 +43,7 @@ def likeness(h, video, folder, camera):
     code, _, errors = run("record", h.greeting["link"], folder / "screen.mkv", "--seconds", "4")
     if code not in (0, 3):  # 3: some pictures are missing, which the phases count
         raise SystemExit(errors)
-    code, _, errors = run("export", folder / "screen.mkv", "--png", folder / "png", "--camera", str(camera), timeout=300)
+    code, _, errors = run("export", folder / "screen.mkv", "--png", folder / "png", "--camera", str(camera))
     if code != 0:
         raise SystemExit(errors)
     pictures = sorted((folder / "png").rglob("color/*.jpg"))
@@ -83,7 +83,7 @@ def main():
                         problems.append(f"{phase}: {camera} lost {figures[camera]['dropped']}, alone {alone[camera]['dropped']}")
 
             with Process("publish", publish, "--share", f"{video},loop=1", "--may-record", "--every", "1") as cart:
-                cart.wait_for(is_sent, 60)
+                cart.wait_for(is_sent)
                 measure("file", "source", figures_of(link, options.seconds))
                 result["ssim"] = likeness(h, video, folder, 2)
                 if not result["ssim"] or min(result["ssim"]) < LEAST_SSIM:
@@ -93,7 +93,7 @@ def main():
                                            "1", "-f", "sdl", "player"], env=screen.environment, stdin=subprocess.DEVNULL)
                 try:
                     with Process("publish", publish, "--share", "x11:display", "--every", "1", env=screen.environment) as cart:
-                        cart.wait_for(is_sent, 60)
+                        cart.wait_for(is_sent)
                         measure("display", "display", figures_of(link, options.seconds))
                 finally:
                     player.kill()

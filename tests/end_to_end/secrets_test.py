@@ -3,10 +3,10 @@
 import os
 import pathlib
 import shutil
-import subprocess
 import tempfile
 import unittest
 
+import patience
 from theatron_process import PROGRAM, Process, host, make_recording, run
 
 
@@ -21,9 +21,8 @@ class Secrets(unittest.TestCase):
 
     def refused(self, *options, **environment):
         """The error output of a host that must refuse to start."""
-        done = subprocess.run(
-            [PROGRAM, "host", "--camera", self.camera, "--listen", "127.0.0.1:0", "--seconds", "0.2", *map(str, options)],
-            stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=60,
+        done = patience.run(
+            [PROGRAM, "host", "--camera", self.camera, "--listen", "127.0.0.1:0", "--seconds", "0.2", *options],
             env={**{k: v for k, v in os.environ.items() if k not in ("HOME", "XDG_STATE_HOME")}, **environment})
         self.assertEqual(done.returncode, 1, done.stderr)
         return done.stderr
@@ -77,7 +76,7 @@ class Secrets(unittest.TestCase):
         def printed(*options):
             command = [PROGRAM, "host", "--camera", self.camera, "--listen", "127.0.0.1:0", "--seconds", "0.2", "--state",
                        str(self.state), *options]
-            done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=60)
+            done = patience.run(command)
             self.assertEqual(done.returncode, 0, done.stderr)
             return done.stdout + done.stderr
 

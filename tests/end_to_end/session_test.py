@@ -57,23 +57,23 @@ class Session(unittest.TestCase):
     def test_codecs_are_chosen_and_changed_live(self):
         with host(self.state, self.camera) as h, \
                 Process("join", h.greeting["link"], "--depth-codec", "zstd", "--every", "0.2") as viewer:
-            viewer.wait_for(lambda f: f["codec"].startswith("zstd") and f["fps"] > 0, 15)
+            viewer.wait_for(lambda f: f["codec"].startswith("zstd") and f["fps"] > 0)
             viewer.say("depth rvl")
             viewer.say("color raw")
-            viewer.wait_for(lambda f: f["codec"] == "rvl raw" and f["fps"] > 0, 15)
+            viewer.wait_for(lambda f: f["codec"] == "rvl raw" and f["fps"] > 0)
             viewer.say("depth nonsense")
             wait_until(lambda: "nonsense" in "".join(viewer.errors))
             frames = viewer.newest_json()["cameras"][0]["frames"]
-            viewer.wait_for(lambda f: f["codec"] == "rvl raw" and f["cameras"][0]["frames"] > frames + 30, 30)
+            viewer.wait_for(lambda f: f["codec"] == "rvl raw" and f["cameras"][0]["frames"] > frames + 30)
             viewer.say("quit")
-            self.assertEqual(viewer.end(10), 0)
+            self.assertEqual(viewer.end(), 0)
 
     def test_a_stopped_viewer_harms_nobody_and_comes_back(self):
         with host(self.state, self.camera) as h, \
                 Process("join", h.greeting["link"], "--every", "0.2") as lively, \
                 Process("join", h.greeting["link"], "--depth-codec", "zstd", "--every", "0.2") as sleeper:
             for viewer in (lively, sleeper):
-                viewer.wait_for(lambda f: f["fps"] > 20, 20)
+                viewer.wait_for(lambda f: f["fps"] > 20)
             def encoded():
                 _, out, _ = run("status", h.greeting["link"], "--json")
                 camera = json.loads(out)["cameras"][0]
@@ -83,13 +83,13 @@ class Session(unittest.TestCase):
             encoded_before = encoded()
             before = lively.newest_json()["cameras"][0]["frames"]
             # Five seconds of the camera, however long a busy machine takes for them.
-            after = lively.wait_for(lambda f: f["cameras"][0]["frames"] >= before + 5 * 30, 60)["cameras"][0]["frames"]
+            after = lively.wait_for(lambda f: f["cameras"][0]["frames"] >= before + 5 * 30)["cameras"][0]["frames"]
             self.assertGreater(after - before, 0.9 * (encoded() - encoded_before))
             self.assertLess(h.memory_mb(), memory + 16)
             sleeper.newest_json() if not sleeper.lines.empty() else None
             sleeper.send(signal.SIGCONT)
             # The newest frame is a fraction of a second old again.
-            sleeper.wait_for(lambda f: f["cameras"][0]["newest_age_ms"] < 300, 3)
+            sleeper.wait_for(lambda f: f["cameras"][0]["newest_age_ms"] < 300)
 
     def test_viewers_find_back_after_the_host_was_killed(self):
         with socket.socket() as probe:
@@ -98,12 +98,12 @@ class Session(unittest.TestCase):
         listen = f"127.0.0.1:{port}"
         with host(self.state, self.camera, listen=listen) as first, \
                 Process("join", first.greeting["link"], "--every", "0.2") as viewer:
-            viewer.wait_for(lambda f: f["fps"] > 0, 20)
+            viewer.wait_for(lambda f: f["fps"] > 0)
             first.send(signal.SIGKILL)
             first.end()
-            viewer.wait_for(lambda f: f["phase"] == "lost", 10)
+            viewer.wait_for(lambda f: f["phase"] == "lost")
             with host(self.state, self.camera, listen=listen):
-                found = viewer.wait_for(lambda f: f["phase"] == "joined" and f["joins"] == 2, 15)
+                found = viewer.wait_for(lambda f: f["phase"] == "joined" and f["joins"] == 2)
                 self.assertEqual(found["host"], "operating room")
             self.assertIn("Reconnecting", "".join(viewer.errors))
 
@@ -112,7 +112,7 @@ class Session(unittest.TestCase):
         with host(self.state, self.camera) as h, \
                 Process("join", h.greeting["link"], "--every", "0.2") as viewer, \
                 Process("record", h.greeting["link"], file, "--json") as recorder:
-            viewer.wait_for(lambda f: f["fps"] > 0, 20)
+            viewer.wait_for(lambda f: f["fps"] > 0)
             while not file.exists() or file.stat().st_size < 50_000:
                 viewer.read_json()
             h.send(signal.SIGINT)
@@ -127,11 +127,11 @@ class Session(unittest.TestCase):
                 Process("join", h.greeting["link"], "--every", "0.2") as stays, \
                 Process("join", h.greeting["link"], "--every", "0.2") as dies:
             for viewer in (stays, dies):
-                viewer.wait_for(lambda f: f["fps"] > 20, 20)
+                viewer.wait_for(lambda f: f["fps"] > 20)
             dies.send(signal.SIGKILL)
             dies.end()
             before = stays.newest_json()["cameras"][0]["frames"]
-            figures = stays.wait_for(lambda f: f["cameras"][0]["frames"] >= before + 2 * 30, 60)
+            figures = stays.wait_for(lambda f: f["cameras"][0]["frames"] >= before + 2 * 30)
             self.assertEqual(figures["phase"], "joined")
             self.assertEqual(figures["joins"], 1)
             self.assertIsNone(h.process.poll())

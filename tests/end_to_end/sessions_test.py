@@ -86,16 +86,16 @@ class Sessions(unittest.TestCase):
             for person, others, camera in ((anna, ["Anna", "Ben"], "table"), (ben, ["Anna", "Ben"], "table"),
                                            (carla, ["Carla", "David"], "lamp"), (david, ["Carla", "David"], "lamp")):
                 person.wait_for(lambda f: people(f) == others and cameras(f) == [camera]
-                                and f["cameras"][0]["frames"] > 5, 30)
+                                and f["cameras"][0]["frames"] > 5)
             log = "".join(h.errors)
             self.assertRegex(log, r'participant joined.*name=David.* session="OR 4"\n')
             self.assertNotRegex(log, r'participant joined.*name=Ben.* session=')
 
             # Objects and voices stay where they are.
             anna.say("brick 1 1 1")
-            ben.wait_for(lambda f: bricks(f) == [[1, 1, 1]], 10)
+            ben.wait_for(lambda f: bricks(f) == [[1, 1, 1]])
             carla.say("brick 2 1 2")
-            david.wait_for(lambda f: bricks(f) == [[2, 1, 2]], 10)
+            david.wait_for(lambda f: bricks(f) == [[2, 1, 2]])
             self.assertEqual(bricks(ben.newest_json()), [[1, 1, 1]])
             with Voice(third["expert"]) as here, Voice(third["expert"]) as there, \
                     Voice(fourth["expert"]) as speaker, Voice(fourth["expert"]) as listener:
@@ -119,24 +119,24 @@ class Sessions(unittest.TestCase):
 
             # A decision in one session, and a line at the host for the other.
             carla.say("mute David")
-            david.wait_for(lambda f: f["muted"], 10)
+            david.wait_for(lambda f: f["muted"])
             h.say("in OR 4: unmute David")
-            david.wait_for(lambda f: not f["muted"], 10)
+            david.wait_for(lambda f: not f["muted"])
             h.say("in OR 5: unmute David")
-            wait_until(lambda: any("There is no session 'OR 5'" in line for line in h.errors), 10)
+            wait_until(lambda: any("There is no session 'OR 5'" in line for line in h.errors))
 
             # One ends for good: its people leave, its links admit nobody, and the other goes on as before.
-            rate = anna.wait_for(lambda f: f["cameras"][0]["fps"] > 10, 20)["cameras"][0]["fps"]
+            rate = anna.wait_for(lambda f: f["cameras"][0]["fps"] > 10)["cameras"][0]["fps"]
             self.assertEqual(self.command("session", "end", "OR 4"), {"ended": "OR 4"})
             for person in (carla, david):
-                self.assertEqual(person.end(20), 0, person.errors)
+                self.assertEqual(person.end(), 0, person.errors)
             late = stack.enter_context(self.member(fourth["expert"], "Late"))
-            self.assertEqual(late.end(20), 1)
+            self.assertEqual(late.end(), 1)
             self.assertIn("The join token is wrong", "".join(late.errors))
             frames = anna.newest_json()["cameras"][0]["frames"]
             for person in (anna, ben):
                 person.wait_for(lambda f: f["cameras"][0]["frames"] > frames + 30
-                                and f["cameras"][0]["fps"] > 0.5 * rate, 20)
+                                and f["cameras"][0]["fps"] > 0.5 * rate)
             self.assertEqual(bricks(ben.newest_json()), [[1, 1, 1]])
             self.assertEqual(self.command("session", "list"), [{"name": "OR 3", "state": "open", "problem": ""}])
             h.process.terminate()
@@ -156,7 +156,7 @@ class Sessions(unittest.TestCase):
         with contextlib.ExitStack() as stack:
             h = stack.enter_context(self.start("--name", "OR 3", "--camera", self.table))
             anna = stack.enter_context(self.member(h.greeting["link"], "Anna"))
-            anna.wait_for(lambda f: people(f) == ["Anna"], 20)
+            anna.wait_for(lambda f: people(f) == ["Anna"])
             self.assertNotIn("sessions", h.greeting)
 
             # A session that cannot be opened is not created.
@@ -173,19 +173,19 @@ class Sessions(unittest.TestCase):
             made = self.command("session", "create", "OR 4", "--camera", self.lamp)
             self.assertEqual((made["name"], made["state"]), ("OR 4", "open"))
             ben = stack.enter_context(self.member(made["links"]["expert"], "Ben"))
-            ben.wait_for(lambda f: people(f) == ["Ben"] and cameras(f) == ["lamp"], 20)
+            ben.wait_for(lambda f: people(f) == ["Ben"] and cameras(f) == ["lamp"])
             ben.say("brick 1 2 3")
-            ben.wait_for(lambda f: bricks(f) == [[1, 2, 3]], 10)
+            ben.wait_for(lambda f: bricks(f) == [[1, 2, 3]])
             anna.say("brick 3 2 1")
-            anna.wait_for(lambda f: bricks(f) == [[3, 2, 1]], 10)
+            anna.wait_for(lambda f: bricks(f) == [[3, 2, 1]])
 
             # A link of this session for one person, which opens no other one.
             link = self.command("link", "--session", "OR 4", "--role", "observer", "--for", "Olga")
             olga = stack.enter_context(self.member(link["link"], "Olga"))
-            self.assertEqual(olga.wait_for(lambda f: people(f) == ["Ben", "Olga"], 20)["role"], "observer")
+            self.assertEqual(olga.wait_for(lambda f: people(f) == ["Ben", "Olga"])["role"], "observer")
             self.assertNotIn(link["name"], [known["name"] for known in self.command("link", "--list")])
             self.command("link", "--session", "OR 4", "--revoke", link["name"])
-            self.assertEqual(olga.end(20), 1)
+            self.assertEqual(olga.end(), 1)
             self.assertIn("no longer valid", "".join(olga.errors))
 
             h.process.terminate()
@@ -193,12 +193,12 @@ class Sessions(unittest.TestCase):
         with contextlib.ExitStack() as stack:
             h = stack.enter_context(self.start("--name", "OR 3", "--camera", self.table))
             anna = stack.enter_context(self.member(h.greeting["link"], "Anna"))
-            anna.wait_for(lambda f: bricks(f) == [[3, 2, 1]], 20)
-            wait_until(lambda: {"name": "OR 4", "state": "open", "problem": ""} in self.command("session", "list"), 20)
+            anna.wait_for(lambda f: bricks(f) == [[3, 2, 1]])
+            wait_until(lambda: {"name": "OR 4", "state": "open", "problem": ""} in self.command("session", "list"))
             again = self.command("link", "--session", "OR 4", "--show", "expert")["link"]
             self.assertEqual(again.split("&cert")[0].split("#")[1], made["links"]["expert"].split("&cert")[0].split("#")[1])
             ben = stack.enter_context(self.member(again, "Ben"))
-            seen = ben.wait_for(lambda f: people(f) == ["Ben"] and cameras(f) == ["lamp"], 20)
+            seen = ben.wait_for(lambda f: people(f) == ["Ben"] and cameras(f) == ["lamp"])
             self.assertEqual(bricks(seen), [[1, 2, 3]])
             h.process.terminate()
             self.assertEqual(h.end(), 0)
@@ -217,24 +217,24 @@ class Sessions(unittest.TestCase):
             link = made["links"]["expert"]
             ada = self.member(link, "Ada")
             self.addCleanup(ada.__exit__, None, None, None)
-            ada.wait_for(lambda f: f["phase"] == "joined", 20)
+            ada.wait_for(lambda f: f["phase"] == "joined")
             h.process.kill()
         lamp, away = self.folder / "lamp", self.folder / "away"
         lamp.rename(away)
         # Another session of the folder cannot take its links and its room.
         self.assertIn("cannot be the first", self.refusal("host", "--state", self.state, "--listen", "127.0.0.1:0", "--session", "OR 4"))
         with host(self.state, listen=address, options=("--session", "OR 3")) as h:
-            wait_until(lambda: "not open at the moment" in self.refusal("lobby", link), 10)
+            wait_until(lambda: "not open at the moment" in self.refusal("lobby", link))
             # The operator of the host sees it everywhere, with the reason.
             operator = h.greeting["links"]["operator"]
             closed = lambda: json.loads(run("status", operator, "--json")[1]).get("closed_sessions", [{}])[0]
-            wait_until(lambda: "lamp" in closed().get("problem", ""), 10)
+            wait_until(lambda: "lamp" in closed().get("problem", ""))
             self.assertIn("\nOR 4: not open. ", run("status", operator)[1])
             self.assertRegex(run("lobby", operator)[1], r"\nOR 4: not open\. .*lamp")
             self.assertNotIn("OR 4", run("lobby", h.greeting["links"]["expert"])[1])
-            ada.wait_for(lambda f: f["phase"] == "lost" and f["cameras"][0]["state"] == "lost", 10)
+            ada.wait_for(lambda f: f["phase"] == "lost" and f["cameras"][0]["state"] == "lost")
             away.rename(lamp)
-            ada.wait_for(lambda f: f["phase"] == "joined" and cameras(f) == ["lamp"], 30)
+            ada.wait_for(lambda f: f["phase"] == "joined" and cameras(f) == ["lamp"])
 
 
 if __name__ == "__main__":

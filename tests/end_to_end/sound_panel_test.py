@@ -27,7 +27,7 @@ class SoundPanel(unittest.TestCase):
             with Process("join", h.greeting["link"], "--name", "Ada", "--every", "0.2") as ada, \
                     Process("join", h.greeting["link"], "--name", "Wim", "--size", f"{WIDTH}x{HEIGHT}",
                             env=environment) as window:
-                ada.wait_for(lambda f: any(p["name"] == "Wim" for p in f["room"]["people"]), 30)
+                ada.wait_for(lambda f: any(p["name"] == "Wim" for p in f["room"]["people"]))
                 before = screen.buttons(WIDTH, HEIGHT)
                 self.assertEqual(before, [])
                 screen.do("mousemove", 600, 850, "key", "p")
@@ -43,7 +43,7 @@ class SoundPanel(unittest.TestCase):
     def click_until(self, screen, number, holds):
         """Clicks on this button; rows that come meanwhile may have moved it."""
         for _ in range(8):
-            wait_until(lambda: len(self.alone(screen)) >= abs(number), 20)
+            wait_until(lambda: len(self.alone(screen)) >= abs(number))
             screen.do("mousemove", *self.alone(screen)[number], "click", 1)
             for _ in range(20):
                 if holds():

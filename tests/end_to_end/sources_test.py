@@ -15,7 +15,6 @@ from rtsp_standin import RtspStandIn
 from theatron_process import PROGRAM, Process, host, make_recording, read_png, run, wait_until
 from virtual_screen import VirtualScreen
 
-WAIT = 30
 STANDIN = os.environ.get("THEATRON_V4L2_STANDIN", "build/release/tests/v4l2_standin/libv4l2_standin.so")
 INCOMPLETE = 3  # exit code of `record` where a picture was lost, as on a busy machine
 
@@ -45,11 +44,11 @@ class Sources(unittest.TestCase):
             self.assertIn("user and password", errors)
             with Process("publish", h.greeting["publish_link"], "--share", url + ",name=tower", "--every", "0.2") as cart, \
                     Process("join", h.greeting["link"], "--every", "0.2") as seen:
-                seen.wait_for(shown("tower", 30), WAIT)
+                seen.wait_for(shown("tower", 30))
                 before = server.connections
                 server.drop()
-                cart.wait_for(lambda f: camera(f, "tower")["state"] == "stale", WAIT)
-                cart.wait_for(lambda f: camera(f, "tower")["state"] == "live", WAIT)
+                cart.wait_for(lambda f: camera(f, "tower")["state"] == "stale")
+                cart.wait_for(lambda f: camera(f, "tower")["state"] == "live")
                 self.assertGreater(server.connections, before)
                 self.assertNotIn("kn", "".join(cart.errors))
 
@@ -57,8 +56,8 @@ class Sources(unittest.TestCase):
         with host(self.folder / "state2") as h, \
                 RtspStandIn(rtsp_standin.play, pictures=self.pictures, count=60) as server, \
                 Process("publish", h.greeting["publish_link"], "--share", server.url + ",name=tower", "--every", "0.2") as cart:
-            cart.wait_for(lambda f: camera(f, "tower")["state"] == "stale", WAIT)
-            cart.wait_for(lambda f: server.connections >= 2 and camera(f, "tower")["state"] == "live", WAIT)
+            cart.wait_for(lambda f: camera(f, "tower")["state"] == "stale")
+            cart.wait_for(lambda f: server.connections >= 2 and camera(f, "tower")["state"] == "live")
             wait_until(lambda: any('"tower" goes on.' in line for line in list(cart.errors)))
             self.assertTrue(any('"tower" stands still' in line for line in cart.errors), cart.errors)
 
@@ -71,7 +70,7 @@ class Sources(unittest.TestCase):
                 (rtsp_standin.say_nothing, {}, "without an answer"))
         with host(self.folder / "state3", self.lamp) as h, Process("join", h.greeting["link"], "--every", "0.2") as seen, \
                 contextlib.ExitStack() as stack:
-            seen.wait_for(shown("lamp"), WAIT)
+            seen.wait_for(shown("lamp"))
             tries = []
             for serve, options, words in harm:
                 server = stack.enter_context(RtspStandIn(serve, **options))
@@ -87,7 +86,7 @@ class Sources(unittest.TestCase):
                     self.assertIn(words, errors)
                     self.assertEqual(errors.count("\n"), 1, errors)
             before = camera(seen.newest_json(), "lamp")["frames"]
-            seen.wait_for(lambda f: camera(f, "lamp")["state"] == "live" and camera(f, "lamp")["frames"] > before + 10, WAIT)
+            seen.wait_for(lambda f: camera(f, "lamp")["state"] == "live" and camera(f, "lamp")["frames"] > before + 10)
 
     def test_what_is_not_there_is_said(self):
         with host(self.folder / "state4") as h:
@@ -139,7 +138,7 @@ class Devices(unittest.TestCase):
                 Process("publish", h.greeting["publish_link"], "--share", f"v4l2:{self.DEVICE},size=640x480,name=scope",
                         "--may-record", env=self.environment()), \
                 Process("join", h.greeting["link"], "--every", "0.2") as seen:
-            seen.wait_for(shown("scope", 20), WAIT)
+            seen.wait_for(shown("scope", 20))
             pictures = self.recorded(h.greeting["link"], "small")
         places = []
         for picture in pictures:
@@ -156,7 +155,7 @@ class Devices(unittest.TestCase):
                 Process("publish", h.greeting["publish_link"], "--share", f"v4l2:{self.DEVICE},name=scope", "--may-record",
                         env=self.environment()), \
                 Process("join", h.greeting["link"], "--every", "0.2") as seen:
-            seen.wait_for(shown("scope", 20), WAIT)
+            seen.wait_for(shown("scope", 20))
             for picture in self.recorded(h.greeting["link"], "large"):
                 self.assert_stripes(picture, (1280, 720), (255, 0, 255))
 
@@ -164,18 +163,18 @@ class Devices(unittest.TestCase):
         with host(self.folder / "state3") as h, \
                 Process("publish", h.greeting["publish_link"], "--share", f"v4l2:{self.DEVICE},size=640x480,name=scope",
                         "--every", "0.2", env=self.environment(V4L2_STANDIN_PICTURES="40")) as cart:
-            gone = cart.wait_for(lambda f: camera(f, "scope")["state"] == "stale", WAIT)
+            gone = cart.wait_for(lambda f: camera(f, "scope")["state"] == "stale")
             self.assertEqual(camera(gone, "scope")["problem"], f"The video device '{self.DEVICE}' has ended.")
             before = camera(gone, "scope")["frames"]
-            cart.wait_for(lambda f: camera(f, "scope")["state"] == "live" and camera(f, "scope")["frames"] > before, WAIT)
+            cart.wait_for(lambda f: camera(f, "scope")["state"] == "live" and camera(f, "scope")["frames"] > before)
 
     def test_it_is_a_webcam_too(self):
         with host(self.folder / "state4") as h, \
                 Process("join", h.greeting["link"], "--name", "Ben", "--webcam", self.DEVICE, "--every", "0.2",
                         env=self.environment()) as ben, \
                 Process("join", h.greeting["link"], "--name", "Ada", "--every", "0.2") as ada:
-            ben.wait_for(lambda f: f["webcam"]["state"] == "seen", WAIT)
-            ada.wait_for(shown("face"), WAIT)
+            ben.wait_for(lambda f: f["webcam"]["state"] == "seen")
+            ada.wait_for(shown("face"))
 
 
 class Windows(unittest.TestCase):
@@ -207,12 +206,11 @@ class Windows(unittest.TestCase):
     def test_a_window_is_shared_without_what_lies_over_it(self):
         with VirtualScreen(800, 600) as screen:
             green = self.window(screen, "0x00ff00", "liver", 0)
-            listed = []
-            end = time.monotonic() + WAIT
-            while not listed and time.monotonic() < end:
-                done = subprocess.run([PROGRAM, "cameras", "--json"], env=screen.environment,
-                                      capture_output=True, text=True)
-                listed = [w for w in json.loads(done.stdout)["windows"] if w["title"] == "liver"]
+            def windows():
+                _, out, _ = run("cameras", "--json", env=screen.environment)
+                return [w for w in json.loads(out)["windows"] if w["title"] == "liver"]
+
+            listed = wait_until(windows)
             self.assertEqual(listed[0]["size"], [320, 180])
             self.window(screen, "0xff0000", "over", 100)
             time.sleep(1)
@@ -222,22 +220,22 @@ class Windows(unittest.TestCase):
                     Process("publish", h.greeting["publish_link"], "--share", f"x11:liver,name=liver,cursor=0{place}",
                             "--every", "0.2", env=screen.environment) as cart, \
                     Process("join", h.greeting["link"], "--every", "0.2") as seen:
-                seen.wait_for(shown("liver"), WAIT)
+                seen.wait_for(shown("liver"))
                 rows = self.picture(h, "liver")
                 for x in (150, 160, 170):
                     red, green_value, blue = rows[125][3 * x:3 * x + 3]
                     self.assertTrue(red < 40 and green_value > 215 and blue < 40, (x, red, green_value, blue))
                 green.kill()
-                cart.wait_for(lambda f: camera(f, "liver")["state"] == "stale", WAIT)
+                cart.wait_for(lambda f: camera(f, "liver")["state"] == "stale")
                 self.window(screen, "0x00ff00", "liver", 0, "400x100")
-                cart.wait_for(lambda f: camera(f, "liver")["state"] == "live", WAIT)
+                cart.wait_for(lambda f: camera(f, "liver")["state"] == "live")
 
     def test_the_whole_display_is_shared_and_a_missing_one_is_said(self):
         with VirtualScreen(640, 360) as screen, host(self.folder / "state2") as h, \
                 Process("publish", h.greeting["publish_link"], "--share", "x11:display,fps=20", "--every", "0.2",
                         env=screen.environment) as cart, \
                 Process("join", h.greeting["link"], "--every", "0.2") as seen:
-            seen.wait_for(shown("display"), WAIT)
+            seen.wait_for(shown("display"))
             self.assertEqual(cart.newest_json()["cameras"][0]["state"], "live")
             done = subprocess.run([PROGRAM, "publish", h.greeting["publish_link"], "--share", "x11:nobody"],
                                   env=screen.environment, capture_output=True, text=True, stdin=subprocess.DEVNULL)

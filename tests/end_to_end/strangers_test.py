@@ -17,6 +17,7 @@ import time
 import unittest
 
 import theatron_process
+import patience
 from raw_peer import FakeHost, Link, RawPeer, chunk, connect, https_get, media_message
 from theatron_process import Process, host, make_recording
 
@@ -88,12 +89,12 @@ class Strangers(unittest.TestCase):
         """A host and a viewer that has pictures, who must both be well in the end."""
         with host(self.folder / "state", self.camera, prefix=prefix) as h, \
                 Process("join", h.greeting["link"], "--no-window", "--every", "0.1") as viewer:
-            viewer.wait_for(lambda f: f["fps"] > 5, 20)
+            viewer.wait_for(lambda f: f["fps"] > 5)
             before = viewer.newest_json()
             yield h, viewer
             self.assertIsNone(h.process.poll(), "".join(h.errors))
             after = viewer.wait_for(lambda f: f["cameras"][0]["frames"] > before["cameras"][0]["frames"] + 5
-                                    and f["cameras"][0]["newest_age_ms"] < 1000, 10)
+                                    and f["cameras"][0]["newest_age_ms"] < 1000)
             self.assertEqual(after["joins"], 1, "".join(viewer.errors))
 
     def test_idle_sockets_and_new_ones_all_the_time_shut_nobody_out(self):
@@ -144,19 +145,19 @@ class Strangers(unittest.TestCase):
                     with self.assertRaises(OSError):
                         for offset in range(0, megabytes << 20, 1 << 14):
                             stranger.send(chunk(offset, megabytes << 20, bytes(1 << 14)))
-                        stranger.wait_for_end(10)
+                        stranger.wait_for_end()
                         raise OSError("it was closed")
             self.assertLess(h.memory_mb(), memory + megabytes)
             with RawPeer(h.greeting["link"]) as stranger:
                 stranger.send(b"\1" + bytes(FIRST_ENVELOPE))
-                stranger.wait_for_end(10)
+                stranger.wait_for_end()
 
     def test_media_of_a_participant_ends_its_connection_at_the_first_chunk(self):
         with self.session() as (h, _), RawPeer(h.greeting["link"]) as guest:
             guest.join()
             guest.receive_control("Welcome")
             guest.send(chunk(0, 1 << 20, bytes(100)))
-            guest.wait_for_end(10)
+            guest.wait_for_end()
 
     def test_garbage_after_the_handshake_ends_only_that_connection(self):
         with self.session() as (h, _):
@@ -167,11 +168,11 @@ class Strangers(unittest.TestCase):
                             peer.join()
                             peer.receive_control("Welcome")
                         peer.send(noise)
-                        peer.wait_for_end(10)
+                        peer.wait_for_end()
             for frame in (b"\x82\xff" + b"\x7f" * 8 + bytes(4), b"\xff" * 100, b"\x82\x05hello"):
                 with self.subTest(frame=frame), RawPeer(h.greeting["link"]) as peer:
                     peer.send_bytes(frame)
-                    peer.wait_for_end(10)
+                    peer.wait_for_end()
 
     def test_only_the_documented_path_and_no_foreign_page_gets_a_websocket(self):
         with self.session() as (h, _):
@@ -193,7 +194,7 @@ class Strangers(unittest.TestCase):
                 guest.receive_control("Welcome")
                 other.join(depth_codec=b"\x1b[2J" + b"y" * 1000)
                 other.receive_control("Refused")
-                other.wait_for_end(10)
+                other.wait_for_end()
                 status, body = https_get(link, "/status", headers=[f"Authorization: Bearer {link.token}"])
                 self.assertEqual(status, 200)
                 body.decode()
@@ -213,7 +214,7 @@ class Strangers(unittest.TestCase):
             fcntl.fcntl(process.stderr, fcntl.F_SETPIPE_SZ, 4096)
             link = json.loads(process.stdout.readline())["link"]
             with Process("join", link, "--no-window", "--every", "0.1") as viewer:
-                viewer.wait_for(lambda f: f["fps"] > 5, 20)
+                viewer.wait_for(lambda f: f["fps"] > 5)
                 # Every one is worth a line, and it is a pipe of 4 KiB.
                 waiting = array.array("i", [0])
                 for n in range(200):
@@ -225,9 +226,9 @@ class Strangers(unittest.TestCase):
                 self.assertGreater(waiting[0], 4096 - 200)
                 before = viewer.newest_json()["cameras"][0]["frames"]
                 viewer.wait_for(lambda f: f["cameras"][0]["frames"] > before + 20
-                                and f["cameras"][0]["newest_age_ms"] < 1000, 10)
+                                and f["cameras"][0]["newest_age_ms"] < 1000)
             process.terminate()
-            self.assertEqual(process.wait(10), 0)
+            self.assertEqual(patience.end_of(process), 0)
         finally:
             process.kill()
             process.wait()
@@ -269,8 +270,9 @@ class HostileHost(unittest.TestCase):
 
         with FakeHost(script, receive_buffer=4096) as fake, \
                 Process("join", fake.link, "--no-window", "--every", "0.1") as viewer:
-            self.assertTrue(over.wait(30), fake.faults)
-            viewer.wait_for(lambda f: f["joins"] == 1, 10)
+            viewer.wait_until(lambda: over.is_set() or fake.faults)
+            self.assertEqual(fake.faults, [])
+            viewer.wait_for(lambda f: f["joins"] == 1)
             self.assertIsNone(viewer.process.poll(), "".join(viewer.errors))
 
 

@@ -4,17 +4,24 @@ import json
 import os
 import pathlib
 import queue
+import re
 import signal
 import struct
 import subprocess
 import threading
-import time
 import zlib
+
+import patience
+from patience import wait_until  # for the tests, which take it from here
 
 PROGRAM = os.environ.get("THEATRON", "build/release/apps/theatron/theatron")
 # Exit codes of programs that ended themselves; tests send other signals.
 CRASHES = [-one for one in (signal.SIGSEGV, signal.SIGABRT, signal.SIGBUS, signal.SIGFPE, signal.SIGILL)]
 DATA = pathlib.Path(os.environ.get("THEATRON_DATA", "../shared/data"))
+
+
+# What a report counts: it moves when the program gets on, and stands when only its timer runs.
+COUNTS = re.compile(r'"(?:\w*frames?|\w*bytes|pictures|packets|joins|segments)": ?\d+')
 
 
 class Process:
@@ -26,13 +33,19 @@ class Process:
             stderr=subprocess.PIPE, text=True, **options)
         self.lines = queue.Queue()
         self.errors = []
+        self.moves, self.last_line = 0, ""
         self.output_thread = threading.Thread(target=self._read_output, daemon=True)
         self.output_thread.start()
         self.error_thread = threading.Thread(target=self._read_errors, daemon=True)
         self.error_thread.start()
+        patience.watch(self)
 
     def _read_output(self):
+        counts = None
         for line in self.process.stdout:
+            if (now := COUNTS.findall(line) or line) != counts:
+                self.moves, counts = self.moves + 1, now
+            self.last_line = line
             self.lines.put(line)
         self.lines.put(None)
 
@@ -40,8 +53,32 @@ class Process:
         for line in self.process.stderr:
             self.errors.append(line)
 
-    def read_json(self, timeout=30):
-        line = self.lines.get(timeout=timeout)
+    def counted(self):
+        return self.moves + len(self.errors)
+
+    def has_ended(self):
+        if self.process.poll() is None:
+            return False
+        self.error_thread.join(5)  # what it said last is read
+        return True
+
+    def crashed(self):
+        return self.process.poll() in CRASHES
+
+    def last_words(self):
+        words = " ".join(self.process.args[:4])
+        state = f"ended with {self.process.returncode}" if self.has_ended() else "runs"
+        return f"{words} ({state}): {self.last_line.strip()[:2000]} {''.join(self.errors[-5:])}"
+
+    def read_json(self, wait=None):
+        """The next line. `wait`: of which this line is a part."""
+        wait = wait or patience.Wait(f"a line of {self.process.args[1:3]}")
+        while True:
+            try:
+                line = self.lines.get(timeout=0.2)
+                break
+            except queue.Empty:
+                wait.check()
         if line is None:
             self.error_thread.join(5)
             raise AssertionError("the program ended: " + "".join(self.errors))
@@ -54,26 +91,22 @@ class Process:
             newest = self.read_json()
         return newest
 
-    def wait_for(self, condition, timeout):
+    def wait_for(self, condition):
         """Reads JSON lines until one meets the condition; returns it."""
-        deadline = time.monotonic() + timeout
+        wait = patience.Wait(condition)
         while True:
-            figures = self.read_json(timeout=max(0.1, deadline - time.monotonic()))
+            figures = self.read_json(wait)
             if condition(figures):
                 return figures
-            if time.monotonic() > deadline:
-                raise AssertionError(f"not in {timeout} s; last: {figures}")
+            wait.check()
 
-    def wait_until(self, condition, quiet=60):
-        """The condition's first true value; fails once the program has reported nothing for `quiet` seconds."""
-        said, deadline = -1, 0
-        while not (value := condition()):
-            if len(self.errors) != said:
-                said, deadline = len(self.errors), time.monotonic() + quiet
-            if time.monotonic() > deadline:
-                raise AssertionError(f"nothing reported for {quiet} s: {self.errors[-5:]}")
-            time.sleep(0.1)
-        return value
+    def wait_until(self, condition):
+        """The condition's first true value; fails when the program has ended without it."""
+        return patience.wait_until(condition, of=self)
+
+    def wait_for_error(self, text):
+        """Waits until the program has said this on stderr."""
+        return patience.wait_until(lambda: any(text in line for line in list(self.errors)), f"'{text}' on stderr", of=self)
 
     def memory_mb(self):
         with open(f"/proc/{self.process.pid}/status") as status:
@@ -89,8 +122,9 @@ class Process:
         self.process.stdin.write(text + "\n")
         self.process.stdin.flush()
 
-    def end(self, timeout=30):
-        code = self.process.wait(timeout)
+    def end(self):
+        """Waits for its end; returns its exit code."""
+        code = patience.end_of(self.process)
         self.error_thread.join(5)
         return code
 
@@ -103,6 +137,7 @@ class Process:
             self.process.send_signal(signal.SIGCONT)
             self.process.kill()
         self.process.wait()
+        patience.forget(self)
         self.error_thread.join(5)
         self.output_thread.join(5)
         for pipe in (self.process.stdin, self.process.stdout, self.process.stderr):
@@ -120,10 +155,9 @@ def host(state, *cameras, listen="127.0.0.1:0", options=(), prefix=()):
     return process
 
 
-def run(*arguments, timeout=60, env=None):
+def run(*arguments, env=None):
     """Runs to the end; returns exit code, output and errors."""
-    done = subprocess.run([PROGRAM, *map(str, arguments)], stdin=subprocess.DEVNULL, capture_output=True,
-                          text=True, timeout=timeout, env=env)
+    done = patience.run([PROGRAM, *arguments], env=env)
     return done.returncode, done.stdout, done.stderr
 
 
@@ -134,18 +168,6 @@ def tell_result(result, problems, file):
     if file:
         pathlib.Path(file).write_text(text)
     return 1 if problems else 0
-
-
-def wait_until(condition, timeout=60, every=0.1):
-    """The condition's first true value; fails when there is none in time."""
-    deadline = time.monotonic() + timeout
-    while True:
-        value = condition()
-        if value:
-            return value
-        if time.monotonic() > deadline:
-            raise AssertionError(f"not in {timeout} s")
-        time.sleep(every)
 
 
 def write_png(path, width, height, bits, channels, rows):

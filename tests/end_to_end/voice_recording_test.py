@@ -77,22 +77,22 @@ class VoiceRecording(unittest.TestCase):
             with self.member(links["expert"], "Ada", "--microphone", self.folder / "clicks.wav", "--voice-may-record") as ada, \
                     self.member(links["expert"], "Ben", "--microphone", self.folder / "said.wav") as ben:
                 agreed_people = {"Ada": True, "Ben": False}
-                ben.wait_for(lambda f: {p["name"]: p["voice_recorded"] for p in f["room"]["people"]} == agreed_people, 20)
+                ben.wait_for(lambda f: {p["name"]: p["voice_recorded"] for p in f["room"]["people"]} == agreed_people)
                 recorder = Process("record", links["expert"], file, "--json")
                 self.addCleanup(recorder.__exit__)
                 agreed = ben.wait_for(lambda f: {p["name"]: p["voice_recorded"] for p in f["room"]["people"]} ==
-                                      {**agreed_people, "recorder": False}, 20)
+                                      {**agreed_people, "recorder": False})
                 self.assertEqual((ada.newest_json()["voice"]["may_record"], ben.newest_json()["voice"]["may_record"]), (True, False))
-                begun = ada.wait_for(lambda f: f["voice"].get("microphone_began_us"), 10)["voice"]["microphone_began_us"]
-                wait_until(lambda: file.exists() and file.stat().st_size > 4096, 20)
-                ben.wait_for(lambda f: f["session_us"] > agreed["session_us"] + 3e6, 20)
+                begun = ada.wait_for(lambda f: f["voice"].get("microphone_began_us"))["voice"]["microphone_began_us"]
+                wait_until(lambda: file.exists() and file.stat().st_size > 4096)
+                ben.wait_for(lambda f: f["session_us"] > agreed["session_us"] + 3e6)
                 # Ben agrees, speaks for a while, and takes it back.
                 ben.say("voice-recording on")
-                spoken = ben.wait_for(lambda f: f["voice"]["may_record"], 10)
-                ben.wait_for(lambda f: f["session_us"] > spoken["session_us"] + 2e6, 20)
+                spoken = ben.wait_for(lambda f: f["voice"]["may_record"])
+                ben.wait_for(lambda f: f["session_us"] > spoken["session_us"] + 2e6)
                 ben.say("voice-recording off")
-                silent = ben.wait_for(lambda f: not f["voice"]["may_record"], 10)
-                ben.wait_for(lambda f: f["session_us"] > silent["session_us"] + 2e6, 20)
+                silent = ben.wait_for(lambda f: not f["voice"]["may_record"])
+                ben.wait_for(lambda f: f["session_us"] > silent["session_us"] + 2e6)
                 recorder.process.terminate()
                 figures = recorder.read_json()
                 self.assertIn(recorder.end(), (0, 3))
@@ -128,18 +128,18 @@ class VoiceRecording(unittest.TestCase):
         with host(self.folder / "state") as a_host:
             links = a_host.greeting["links"]
             with self.member(links["expert"], "Ada", "--microphone", self.folder / "said.wav", "--voice-may-record") as ada:
-                ada.wait_for(lambda f: any(p["voice_recorded"] for p in f["room"]["people"]), 20)
+                ada.wait_for(lambda f: any(p["voice_recorded"] for p in f["room"]["people"]))
                 recorder = Process("record", links["expert"], file, "--json")
                 self.addCleanup(recorder.__exit__)
-                wait_until(lambda: file.exists() and file.stat().st_size > 20000, 20)
+                wait_until(lambda: file.exists() and file.stat().st_size > 20000)
                 ada.say("brick 0.5 1 0.25")
-                ada.wait_for(lambda f: any(o["kind"] == "brick" for o in f["room"]["objects"]), 10)
+                ada.wait_for(lambda f: any(o["kind"] == "brick" for o in f["room"]["objects"]))
                 before = ada.newest_json()["session_us"]
-                ada.wait_for(lambda f: f["session_us"] > before + 2e6, 20)
+                ada.wait_for(lambda f: f["session_us"] > before + 2e6)
                 second = self.folder / "meeting.002.mkv"
                 self.assertFalse(second.exists())
                 with Process("publish", links["publisher"], "--camera", f"folder:{self.camera},loop=1,preload=1", "--may-record"):
-                    wait_until(lambda: second.exists() and second.stat().st_size > 20000, 20)
+                    wait_until(lambda: second.exists() and second.stat().st_size > 20000)
                     recorder.process.terminate()
                     figures = recorder.read_json()
                     self.assertIn(recorder.end(), (0, 3), "".join(recorder.errors))
@@ -172,9 +172,9 @@ class VoiceRecording(unittest.TestCase):
         with host(self.folder / "replay", f"recording:{alone},loop=1") as a_host, \
                 self.member(a_host.greeting["link"], "Guest", "--speaker", self.folder / "guest.wav") as guest:
             guest.wait_for(lambda f: any(p["recorded"] and p["name"] == "Ada" for p in f["room"]["people"]) and
-                           any(o["recorded"] for o in f["room"]["objects"]), 20)
+                           any(o["recorded"] for o in f["room"]["objects"]))
             wait_until(lambda: (self.folder / "guest.wav").exists() and
-                       max(map(abs, read_growing(self.folder / "guest.wav")), default=0) > 500, 20)
+                       max(map(abs, read_growing(self.folder / "guest.wav")), default=0) > 500)
 
     def assert_kept(self, file, voices):
         code, out, errors = run("inspect", file, "--json", "--verify")
@@ -211,9 +211,9 @@ class VoiceRecording(unittest.TestCase):
             def recorded_speakers(f):
                 people = {p["id"]: p["name"] for p in f["room"]["people"] if p["recorded"]}
                 return {people.get(voice["id"]) for voice in f["voice"]["voices"]}
-            guest.wait_for(lambda f: "Ada" in recorded_speakers(f), 20)
+            guest.wait_for(lambda f: "Ada" in recorded_speakers(f))
             wait_until(lambda: (self.folder / "guest.wav").exists() and
-                       len(onsets(read_growing(self.folder / "guest.wav"))) >= 2, 20)
+                       len(onsets(read_growing(self.folder / "guest.wav"))) >= 2)
 
 
 def read_growing(path):

@@ -107,28 +107,28 @@ class Voice(unittest.TestCase):
             with self.member(links["operator"], "Ada", "--speaker", self.folder / "ada.wav") as ada, \
                     self.member(links["expert"], "Eve", "--speaker", self.folder / "eve.wav") as eve, \
                     self.member(links["expert"], "Ben", "--microphone", self.folder / "said.wav") as ben:
-                spoken = ada.wait_for(lambda f: f["voice"]["voices"] and f["voice"]["voices"][0]["seconds"] > 5, 30)
+                spoken = ada.wait_for(lambda f: f["voice"]["voices"] and f["voice"]["voices"][0]["seconds"] > 5)
                 voice = spoken["voice"]["voices"][0]
                 speaker = [p["id"] for p in spoken["room"]["people"] if p["name"] == "Ben"]
                 self.assertEqual([voice["id"]], speaker)
                 self.assertEqual(ben.newest_json()["voice"]["microphone"], "open")
-                ada.wait_for(lambda f: [s["id"] for s in f["voice"]["speaking"]] == speaker, 10)
+                ada.wait_for(lambda f: [s["id"] for s in f["voice"]["speaking"]] == speaker)
 
                 ada.say("mute Ben")
-                ben.wait_for(lambda f: f["muted"] and not f["voice"]["heard"], 10)
-                wait_until(lambda: any("You are muted" in line for line in ben.errors), 5)
-                silent = ada.wait_for(lambda f: not f["voice"]["speaking"], 10)
+                ben.wait_for(lambda f: f["muted"] and not f["voice"]["heard"])
+                wait_until(lambda: any("You are muted" in line for line in ben.errors))
+                silent = ada.wait_for(lambda f: not f["voice"]["speaking"])
                 muted = silent["voice"]["voices"][0]["seconds"]
                 # Ben speaks on for a second, and no sample of it is heard.
-                later = ada.wait_for(lambda f: f["session_us"] > silent["session_us"] + 1e6, 10)
+                later = ada.wait_for(lambda f: f["session_us"] > silent["session_us"] + 1e6)
                 self.assertEqual(later["voice"]["speaking"], [])
                 self.assertLess(later["voice"]["voices"][0]["seconds"] - muted, 0.3)
 
                 ada.say("unmute Ben")
-                ada.wait_for(lambda f: f["voice"]["speaking"], 10)
+                ada.wait_for(lambda f: f["voice"]["speaking"])
                 ben.say("microphone off")
-                ben.wait_for(lambda f: f["voice"]["microphone"] == "closed", 10)
-                ada.wait_for(lambda f: not f["voice"]["speaking"], 10)
+                ben.wait_for(lambda f: f["voice"]["microphone"] == "closed")
+                ada.wait_for(lambda f: not f["voice"]["speaking"])
                 for member in (ada, eve, ben):
                     member.say("quit")
                     self.assertEqual(member.end(), 0, member.errors)
@@ -144,18 +144,18 @@ class Voice(unittest.TestCase):
             link = a_host.greeting["links"]["expert"]
             with self.member(link, "Ada", "--speaker", self.folder / "ada.wav") as ada, \
                     self.member(link, "Ben", "--microphone", self.folder / "said.wav", "--push-to-talk") as ben:
-                begun = ben.wait_for(lambda f: f["phase"] == "joined" and f["voice"]["microphone"] == "push", 20)
-                later = ada.wait_for(lambda f: f["session_us"] > begun["session_us"] + 1.5e6, 10)
+                begun = ben.wait_for(lambda f: f["phase"] == "joined" and f["voice"]["microphone"] == "push")
+                later = ada.wait_for(lambda f: f["session_us"] > begun["session_us"] + 1.5e6)
                 self.assertEqual((later["voice"]["voices"], ben.newest_json()["voice"]["talks"]), ([], False))
                 ben.say("talk on")
-                ada.wait_for(lambda f: f["voice"]["speaking"], 10)
-                ben.wait_for(lambda f: f["voice"]["talks"], 10)
+                ada.wait_for(lambda f: f["voice"]["speaking"])
+                ben.wait_for(lambda f: f["voice"]["talks"])
                 ben.say("talk off")
-                ada.wait_for(lambda f: not f["voice"]["speaking"], 10)
-                ben.wait_for(lambda f: not f["voice"]["talks"], 10)
+                ada.wait_for(lambda f: not f["voice"]["speaking"])
+                ben.wait_for(lambda f: not f["voice"]["talks"])
                 ben.say("microphone on")
-                ada.wait_for(lambda f: f["voice"]["speaking"], 10)
-                self.assertEqual(ben.wait_for(lambda f: f["voice"]["talks"], 10)["voice"]["microphone"], "open")
+                ada.wait_for(lambda f: f["voice"]["speaking"])
+                self.assertEqual(ben.wait_for(lambda f: f["voice"]["talks"])["voice"]["microphone"], "open")
 
     def test_a_voice_is_heard_from_where_the_speaker_stands(self):
         with self.start() as a_host:
@@ -164,10 +164,10 @@ class Voice(unittest.TestCase):
                     self.member(link, "Ben", "--microphone", self.folder / "said.wav") as ben:
                 ada.say("stand 0 1.7 0 0 1.7 -1")
                 ben.say("stand -1.5 1.7 0 0 1.7 0")  # at Ada's left
-                there = ada.wait_for(lambda f: f["voice"]["speaking"] and any(p.get("head") for p in f["room"]["people"] if p["name"] == "Ben"), 20)
+                there = ada.wait_for(lambda f: f["voice"]["speaking"] and any(p.get("head") for p in f["room"]["people"] if p["name"] == "Ben"))
                 self.assertEqual(there["voice"]["space"], "hrtf")
                 # The end of the file is surely from there.
-                ada.wait_for(lambda f: f["session_us"] > there["session_us"] + 2e6, 10)
+                ada.wait_for(lambda f: f["session_us"] > there["session_us"] + 2e6)
                 for member in (ada, ben):
                     member.say("quit")
                     self.assertEqual(member.end(), 0, member.errors)
@@ -194,17 +194,17 @@ class Voice(unittest.TestCase):
             write_wav(self.folder / "silence.wav", array.array("h", [0] * RATE))
             with self.member(link, "Ada", "--speaker", self.folder / "ada.wav") as ada, \
                     self.member(link, "Ben", "--microphone", self.folder / "silence.wav") as ben:
-                ben.wait_for(lambda f: f["voice"]["microphone"] == "open", 20)
-                self.assertEqual(ada.wait_for(lambda f: f["phase"] == "joined", 20)["voice"]["speaking"], [])
+                ben.wait_for(lambda f: f["voice"]["microphone"] == "open")
+                self.assertEqual(ada.wait_for(lambda f: f["phase"] == "joined")["voice"]["speaking"], [])
                 ben.say(f"use microphone {self.folder / 'said.wav'}")
-                ada.wait_for(lambda f: f["voice"]["speaking"], 10)
+                ada.wait_for(lambda f: f["voice"]["speaking"])
                 self.assertTrue(ben.newest_json()["voice"]["microphone_name"].endswith("said.wav"))
                 ada.say(f"use speaker {self.folder / 'other.wav'}")
-                wait_until(lambda: (self.folder / "other.wav").exists(), 10)
+                wait_until(lambda: (self.folder / "other.wav").exists())
                 self.assertFalse(ben.newest_json()["voice"]["echo_cancellation"], "a file is sent as it is")
                 ben.say("use microphone missing.wav")
-                ben.wait_for(lambda f: f["voice"]["microphone"] == "none", 10)
-                wait_until(lambda: any("missing.wav' does not exist" in line for line in ben.errors), 5)
+                ben.wait_for(lambda f: f["voice"]["microphone"] == "none")
+                wait_until(lambda: any("missing.wav' does not exist" in line for line in ben.errors))
 
     def test_a_microphone_behind_the_echo_canceller_is_heard(self):
         with self.start() as a_host:
@@ -212,7 +212,7 @@ class Voice(unittest.TestCase):
             with self.member(link, "Ada", "--speaker", self.folder / "ada.wav") as ada, \
                     self.member(link, "Ben", "--microphone", self.folder / "said.wav", "--speaker", self.folder / "ben.wav",
                                 "--echo-cancellation", "on") as ben:
-                ada.wait_for(lambda f: f["voice"]["voices"] and f["voice"]["voices"][0]["seconds"] > 3, 20)
+                ada.wait_for(lambda f: f["voice"]["voices"] and f["voice"]["voices"][0]["seconds"] > 3)
                 self.assertTrue(ben.newest_json()["voice"]["echo_cancellation"])
                 for member in (ada, ben):
                     member.say("quit")
@@ -244,18 +244,18 @@ class Voice(unittest.TestCase):
                                            ("--microphone", "empty.wav", "empty.wav' holds no sound"),
                                            ("--speaker", "dictation.wav", "dictation.wav' exists already")):
                 with self.subTest(file), self.member(link, "Ben", option, self.folder / file) as ben:
-                    figures = ben.wait_for(lambda f: f["phase"] == "joined", 20)
+                    figures = ben.wait_for(lambda f: f["phase"] == "joined")
                     self.assertEqual((figures["voice"]["microphone"], figures["voice"]["speaker"]), ("none", False))
-                    wait_until(lambda: any(sentence in line for line in ben.errors), 5)
+                    wait_until(lambda: any(sentence in line for line in ben.errors))
                     ben.say("microphone on")
-                    wait_until(lambda: any("You have no microphone here" in line for line in ben.errors), 5)
+                    wait_until(lambda: any("You have no microphone here" in line for line in ben.errors))
         self.assertEqual(dictation.read_bytes(), before)
 
     def test_an_observer_with_a_microphone_is_told_that_nobody_hears_it(self):
         with self.start() as a_host, \
                 self.member(a_host.greeting["links"]["observer"], "Olga", "--microphone", self.folder / "said.wav") as olga:
-            olga.wait_for(lambda f: f["phase"] == "joined" and not f["voice"]["heard"], 20)
-            wait_until(lambda: any("observers do not speak" in line for line in olga.errors), 5)
+            olga.wait_for(lambda f: f["phase"] == "joined" and not f["voice"]["heard"])
+            wait_until(lambda: any("observers do not speak" in line for line in olga.errors))
 
     def test_a_loudspeakers_file_on_a_full_disk_is_told(self):
         small = self.folder / "small"
@@ -265,7 +265,7 @@ class Voice(unittest.TestCase):
         self.addCleanup(os.system, f"umount {small}")
         with self.start() as a_host, \
                 self.member(a_host.greeting["links"]["expert"], "Ada", "--speaker", small / "ada.wav") as ada:
-            wait_until(lambda: any("cannot be written any more" in line for line in ada.errors), 20)
+            wait_until(lambda: any("cannot be written any more" in line for line in ada.errors))
 
 
 if __name__ == "__main__":

@@ -48,7 +48,7 @@ class WebEntrance(PageCase):
 
     def test_the_form_shows_people_cameras_and_picture_by_a_token_in_no_address(self):
         with Process("join", self.links["operator"], "--name", "Ben", "--every", "0.5") as ben:
-            ben.wait_for(lambda f: f["fps"] > 0, 20)
+            ben.wait_for(lambda f: f["fps"] > 0)
             page = self.open()
             page.wait_for("document.getElementById('session_lines').innerText.includes('Ben (operator)')")
             self.assertIn("Cameras: or0 (live)", page.evaluate("document.getElementById('session_lines').innerText"))

@@ -46,11 +46,11 @@ class WebHeadset(PageCase):
         """A brick of one test would lie where the next one takes its own."""
         def holds_none(facts):
             return all(o["held_by"] == 0 for o in self.bricks(facts))
-        for brick in self.bricks(self.ben.wait_for(holds_none, 60)):
+        for brick in self.bricks(self.ben.wait_for(holds_none)):
             self.ben.say(f"grab {brick['id']}")
             self.wait_for_holder(brick["id"], "Ben")
             self.ben.say("remove")
-        self.ben.wait_for(lambda f: not self.bricks(f), 60)
+        self.ben.wait_for(lambda f: not self.bricks(f))
 
     def enter(self, kind="vr"):
         """From the first camera's view, so that nothing stands between the person and what they make."""
@@ -87,7 +87,7 @@ class WebHeadset(PageCase):
         def holds(facts):
             ada = self.person(facts)
             return "head" in ada and condition(ada)
-        return self.person(self.ben.wait_for(holds, 60))
+        return self.person(self.ben.wait_for(holds))
 
     def bricks(self, facts):
         return [o for o in facts["room"]["objects"] if o["kind"] == "brick"]
@@ -107,7 +107,7 @@ class WebHeadset(PageCase):
         """A brick 0.8 m ahead of the head."""
         before = len(self.bricks(self.ben.newest_json()))
         self.choose(5, 9)
-        made = self.ben.wait_for(lambda f: len(self.bricks(f)) > before, 60)
+        made = self.ben.wait_for(lambda f: len(self.bricks(f)) > before)
         return self.bricks(made)[-1]["id"]
 
     def brick(self, number):
@@ -117,7 +117,7 @@ class WebHeadset(PageCase):
         def holds(facts):
             holder = self.person(facts, name).get("id") if name else 0
             return any(o["id"] == number and o["held_by"] == holder for o in self.bricks(facts))
-        return self.ben.wait_for(holds, 60)
+        return self.ben.wait_for(holds)
 
     def colors_of_eyes(self):
         """How many colours the left and the right eye see."""
@@ -166,7 +166,7 @@ class WebHeadset(PageCase):
         self.headset("grip('right', true)")
         self.wait_for_holder(number, "Ada")
         self.headset("aim('right', [0.2, 1.3, -0.2], [0.5, 1.6, -0.8])")
-        self.ben.wait_for(lambda f: distance(self.bricks(f)[-1]["position"], place) > 0.2, 60)
+        self.ben.wait_for(lambda f: distance(self.bricks(f)[-1]["position"], place) > 0.2)
         self.picture("headset_held")
         self.headset("device.controllers.right.updateButtonValue('a-button', 1)")
         self.wait_for_holder(number, "Ben")
@@ -304,7 +304,7 @@ class WebHeadset(PageCase):
         ear = cleo.evaluate("theatron.state.ear")
         x, y, z = (at + 0.8 * way for at, way in zip(ear["position"], ear["ahead"]))
         self.ben.say(f"move {x} {y} {z}")
-        self.ben.wait_for(lambda f: any(o["id"] == number and distance(o["position"], (x, y, z)) < 0.01 for o in self.bricks(f)), 60)
+        self.ben.wait_for(lambda f: any(o["id"] == number and distance(o["position"], (x, y, z)) < 0.01 for o in self.bricks(f)))
         self.ben.say("give Cleo")
         self.wait_for_holder(number, "Cleo")
         self.ben.say("stand 6 1.6 6 0 1.6 0")

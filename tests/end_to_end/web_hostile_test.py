@@ -104,7 +104,7 @@ class HostileHost(unittest.TestCase):
                 def script(guest):
                     guest.welcome()
                     guest.send(content, frame)
-                    guest.wait_for_end(30)
+                    guest.wait_for_end()
                     raise EOFError("the page went")
 
                 self.enter(script)

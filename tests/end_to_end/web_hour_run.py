@@ -22,7 +22,6 @@ HERE = pathlib.Path(__file__).parent
 IWER = HERE / "node_modules/iwer/build/iwer.min.js"
 CAMERA = "synthetic:seconds=2,fps=10,quality=quick,loop=1"
 OTHER = "synthetic:seconds=2,fps=10,quality=quick,loop=1,camera=1"
-PATIENCE_S = 90
 
 # Growth that is allowed behind the first third of the rounds: once, as figures differ from round to round and the browser
 # compiles functions late, and with each round.
@@ -61,7 +60,7 @@ class Use:
         self.counts[act.__name__] += 1
 
     def wait_for(self, condition):
-        return self.page.wait_for(condition, PATIENCE_S)
+        return self.page.wait_for(condition)
 
     def people(self, number):
         self.wait_for(f"theatron.state.people?.length === {number}")
@@ -156,7 +155,7 @@ def main():
             page.call("Page.addScriptToEvaluateOnNewDocument", source=source)
         page.call("Page.navigate", url=running.greeting["link"])
         page.enter(way="room")
-        page.wait_for("theatron.complete_ms !== null", PATIENCE_S)
+        page.wait_for("theatron.complete_ms !== null")
         use, rounds, end = Use(page, running.greeting["links"]), [], time.monotonic() + 60 * chosen.minutes
         while time.monotonic() < end or len(rounds) < 4:
             for act in rng.sample(use.acts, len(use.acts)):

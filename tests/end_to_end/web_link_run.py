@@ -56,7 +56,7 @@ def measure(link, chosen, prefix):
     with Browser(prefix=prefix) as browser:
         page = browser.open(link + (f"&color={chosen.color}" if chosen.color else ""), chosen.size)
         page.enter(way="room")
-        page.wait_for("theatron.complete_ms !== null", 120)
+        page.wait_for("theatron.complete_ms !== null")
         loaded = {"first_picture_s": page.evaluate("theatron.complete_ms") / 1000, "transferred_bytes": page.bytes}
         return loaded | (watch(page, chosen.settle, chosen.seconds) if chosen.seconds else {})
 

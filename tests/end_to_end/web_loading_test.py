@@ -61,9 +61,9 @@ class WebLoading(PageCase):
         with ClosingDoor(port, closed) as door:
             link = self.link.replace(f":{port}/", f":{door.own_port}/")
             page = self.browser.open(link)
-            page.wait_for("!!document.getElementById('invitation')?.textContent && !document.getElementById('enter').disabled", 30)
+            page.wait_for("!!document.getElementById('invitation')?.textContent && !document.getElementById('enter').disabled")
             page.evaluate("document.getElementById('name').value = 'Ada'; document.getElementById('enter').click()")
-            page.wait_for("theatron.state.phase === 'joined'", 30)
+            page.wait_for("theatron.state.phase === 'joined'")
             self.assertTrue(page.evaluate("document.querySelector('link[rel=stylesheet]').sheet !== null"))
             self.assertGreaterEqual(door.count, max(closed))
             return sum(request.split("#")[0].endswith(f":{door.own_port}/") for request in page.requests)
@@ -77,15 +77,15 @@ class WebLoading(PageCase):
             globalThis.is_old = true)"""
         page = self.browser.open(self.link)
         page.enter("Bea", speaks=True)
-        page.wait_for("theatron.state.phase === 'joined'", 30)
+        page.wait_for("theatron.state.phase === 'joined'")
         page.evaluate("theatron.voice.close_microphone()")
         page.evaluate(lose)
-        page.wait_for("!globalThis.is_old && globalThis.theatron?.state.phase === 'joined'", 30)
+        page.wait_for("!globalThis.is_old && globalThis.theatron?.state.phase === 'joined'")
         page.wait_for("theatron.state.people.some(({ name, self }) => self && name === 'Bea')")  # the room comes after the door's answer
         self.assertEqual(page.evaluate("theatron.voice.microphone"), "off")  # as it was
         # A card that fails again and again would let nobody read why.
         page.evaluate(lose)
-        page.wait_for("!globalThis.is_old && document.getElementById('problem')?.textContent.includes('stopped again')", 30)
+        page.wait_for("!globalThis.is_old && document.getElementById('problem')?.textContent.includes('stopped again')")
         self.assertEqual(page.evaluate("theatron.state.phase"), "left")
 
     def test_sound_that_does_not_open_is_told_and_opens_later(self):
@@ -94,10 +94,10 @@ class WebLoading(PageCase):
         page.evaluate("""(globalThis.Sound = AudioContext,
             globalThis.AudioContext = class { constructor() { throw new Error("no device"); } }, 0)""")
         page.enter("Cem")
-        page.wait_for("document.getElementById('voice_hint')?.textContent.includes('no device')", 30)
+        page.wait_for("document.getElementById('voice_hint')?.textContent.includes('no device')")
         page.evaluate("globalThis.AudioContext = Sound, 0")
         page.evaluate("theatron.voice.open_microphone()")
-        page.wait_for("theatron.voice.problem === '' && !document.getElementById('voice_hint').textContent.includes('no device')", 30)
+        page.wait_for("theatron.voice.problem === '' && !document.getElementById('voice_hint').textContent.includes('no device')")
 
 
 if __name__ == "__main__":

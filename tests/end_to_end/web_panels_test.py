@@ -35,7 +35,7 @@ class WebPanels(PageCase):
             ages = page.evaluate(AGES)
             time.sleep(0.8)
             page.mouse("mouseReleased", *at)
-            ben.wait_for(lambda f: f["muted"], 30)
+            ben.wait_for(lambda f: f["muted"])
             page.wait_for(f"!document.querySelector('{MUTE}') && document.querySelector('#room_panels').textContent.includes('Unmute')")
             # Beside the buttons the ages go on.
             self.assertIn(" ms", ages)
@@ -43,7 +43,7 @@ class WebPanels(PageCase):
             # By the keyboard: its label changes under the focus.
             page.evaluate("[...document.querySelectorAll('#room_panels button')].find(b => b.textContent === 'Unmute').focus()")
             page.press("Enter", "Enter", 13, "\r")
-            ben.wait_for(lambda f: not f["muted"], 30)
+            ben.wait_for(lambda f: not f["muted"])
             page.wait_for(f"({FOCUSED} ?? '').endsWith('/Mute')")
             self.assertEqual(page.problems, [])
             self.leave(page)
@@ -100,7 +100,7 @@ class WebPanels(PageCase):
             page.wait_for(f"!!document.querySelector('{MUTE}')")
             self.assertFalse(page.evaluate("[...document.querySelectorAll('#room_panels button')].some(b => ['Go', 'See'].includes(b.textContent.split(' ')[0]))"))
             page.evaluate(f"document.querySelector('{MUTE}').click()")
-            ben.wait_for(lambda f: f["muted"], 30)
+            ben.wait_for(lambda f: f["muted"])
             remove = "[...document.querySelectorAll('#room_panels button')].find(b => b.textContent.includes('{}'))"
             page.evaluate(remove.format("Remove") + ".click()")
             page.wait_for("!!" + remove.format("Really"))
@@ -119,7 +119,7 @@ class WebPanels(PageCase):
                 let_in = "[...document.querySelectorAll('#room_panels button')].find(b => b.dataset.label.endsWith('Größe/Let in'))"
                 page.wait_for("!!" + let_in)
                 page.evaluate(let_in + ".click()")
-                guest.wait_for(lambda f: f["phase"] == "joined", 30)
+                guest.wait_for(lambda f: f["phase"] == "joined")
 
     def test_observers_have_no_buttons_that_their_role_forbids(self):
         page = self.enter(role="observer")

@@ -6,12 +6,11 @@ import os
 import pathlib
 import struct
 import tempfile
-import time
 import unittest
 
 from browser import CHROMIUM, Browser
 from pictures import differences, pixels_of, psnr
-from theatron_process import PROGRAM, host, make_recording, read_png, run, write_png
+from theatron_process import PROGRAM, host, make_recording, read_png, run, wait_until, write_png
 
 PAGE = pathlib.Path(PROGRAM).parent / "web/files.txt"
 PICTURES = os.environ.get("THEATRON_PICTURES")  # a folder where all pictures stay
@@ -86,17 +85,19 @@ class WebPicture(unittest.TestCase):
     def expect(self, page, name, views):
         """Waits until the page's picture is the native one in these places: [(view, left, width)]. The room is made bit by bit."""
         file = pathlib.Path(PICTURES or self.folder) / f"page_{name}.png"
-        deadline = time.monotonic() + 60
-        while True:
+        found = {}
+
+        def likeness():
             page.screenshot(file)
             picture = read_png(file)
             shown = {view: pixels_of(picture, left, width) for view, left, width in views}
-            found = {view: differences(pixels, self.native[view]) for view, pixels in shown.items()}
-            if not any(found.values()):
-                return {view: psnr(pixels, self.native[view]) for view, pixels in shown.items()}
-            if time.monotonic() > deadline:
-                self.fail(f"{found}; {page.problems}; {page.evaluate('JSON.stringify(theatron.state)')}")
-            time.sleep(0.2)
+            found.update({view: differences(pixels, self.native[view]) for view, pixels in shown.items()})
+            return None if any(found.values()) else {view: psnr(pixels, self.native[view]) for view, pixels in shown.items()}
+
+        try:
+            return wait_until(likeness, f"the page's picture '{name}' like the native one", every=0.2)
+        except AssertionError as vain:
+            self.fail(f"{vain}; {found}; {page.problems}; {page.evaluate('JSON.stringify(theatron.state)')}")
 
     def test_page_and_headset_show_the_native_pictures(self):
         with Browser() as browser:

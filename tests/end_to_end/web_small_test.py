@@ -101,7 +101,7 @@ class WebSmall(unittest.TestCase):
             self.assertTrue(page.evaluate("document.getElementById('other_way').hidden"))
             page.evaluate("document.getElementById('next_camera').click()")
             page.wait_for(f"theatron.state.flat_camera && theatron.state.flat_camera !== '{first}'")
-            ben.wait_for(lambda f: {p["name"] for p in f["room"]["people"]} == {"Ada", "Ben"}, 20)
+            ben.wait_for(lambda f: {p["name"] for p in f["room"]["people"]} == {"Ada", "Ben"})
             pictures = page.evaluate("theatron.state.pictures")
             page.wait_for(f"theatron.state.pictures > {pictures + 2}")
             page.evaluate("document.getElementById('leave').click()")

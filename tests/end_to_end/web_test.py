@@ -30,7 +30,7 @@ for (const bind of ["bindBuffer", "bindTexture", "bindFramebuffer"]) {
 def get(link, path, headers=None, body=True):
     """The answer to a request, and its content if it has to be read."""
     address = link.split("/")[2]
-    connection = http.client.HTTPSConnection(address, context=ssl._create_unverified_context(), timeout=20)
+    connection = http.client.HTTPSConnection(address, context=ssl._create_unverified_context())
     connection.request("GET", path, headers=headers or {})
     answer = connection.getresponse()
     content = answer.read() if body else b""
@@ -80,7 +80,7 @@ class Web(PageCase):
 
     def test_by_the_link_into_the_room_to_a_native_participant(self):
         with Process("join", self.link, "--name", "Ben", "--every", "0.2") as ben:
-            ben.wait_for(lambda f: f["fps"] > 0, 20)
+            ben.wait_for(lambda f: f["fps"] > 0)
             page = self.enter(self.link, "Ada")
             page.wait_for("theatron.complete_ms !== null")
             state = page.wait_for("theatron.state.people.length === 2 && theatron.state.pictures > 3 && theatron.state")
@@ -102,20 +102,20 @@ class Web(PageCase):
             page.mouse("mouseReleased", x, y)
             page.press("n", "KeyN")
             bricks = lambda f: [o for o in f["room"]["objects"] if o["kind"] == "brick"]
-            before = bricks(ben.wait_for(bricks, 20))[0]["position"]
+            before = bricks(ben.wait_for(bricks))[0]["position"]
             middle = (SIZE[0] / 2, SIZE[1] * 0.57)  # the camera's axis is not quite in the middle
             drawn = page.wait_for("theatron.state.bricks === 1 && theatron.state.pictures")
             page.wait_for(f"theatron.state.pictures > {drawn + 1}")
             page.mouse("mouseMoved", *middle, "none")
             page.mouse("mousePressed", *middle)
-            held = ben.wait_for(lambda f: bricks(f)[0]["held_by"] != 0, 20)
+            held = ben.wait_for(lambda f: bricks(f)[0]["held_by"] != 0)
             ada = next(person["id"] for person in held["room"]["people"] if person["name"] == "Ada")
             self.assertEqual(bricks(held)[0]["held_by"], ada)
             for step in range(1, 6):
                 page.mouse("mouseMoved", middle[0] + 30 * step, middle[1])
             self.picture(page, "brick")
             page.mouse("mouseReleased", middle[0] + 150, middle[1])
-            after = bricks(ben.wait_for(lambda f: bricks(f)[0]["held_by"] == 0, 20))[0]["position"]
+            after = bricks(ben.wait_for(lambda f: bricks(f)[0]["held_by"] == 0))[0]["position"]
             self.assertGreater(sum((a - b) ** 2 for a, b in zip(after, before)) ** 0.5, 0.1)
 
             token = self.link.split("join=")[1].split("&")[0]
@@ -124,7 +124,7 @@ class Web(PageCase):
             self.assertEqual(page.problems, [])
             self.assertLess(page.bytes, 1_000_000)
             page.evaluate("document.getElementById('leave').click()")
-            ben.wait_for(lambda f: [person["name"] for person in f["room"]["people"]] == ["Ben"], 20)
+            ben.wait_for(lambda f: [person["name"] for person in f["room"]["people"]] == ["Ben"])
 
     def test_visits_use_the_names_of_gl_again(self):
         page = self.browser.open("about:blank", (320, 180))

@@ -102,9 +102,9 @@ class WebTouch(unittest.TestCase):
             before = self.ear(page)
             page.touch("touchStart", MIDDLE)
             page.touch("touchMove", (x + 20, y))
-            ben.wait_for(lambda f: points(f) == ["Ada"], 20)
+            ben.wait_for(lambda f: points(f) == ["Ada"])
             page.touch("touchEnd")
-            ben.wait_for(lambda f: not points(f), 20)
+            ben.wait_for(lambda f: not points(f))
             self.assertLess(distance(before["position"], self.ear(page)["position"]), 0.01, "it turned the picture, too")
             self.tap(page, "[data-tool=points]")
         with self.subTest("a finger holds an object, another one removes it"):
@@ -112,14 +112,14 @@ class WebTouch(unittest.TestCase):
             self.drawn(page)
             self.tap(page, "[data-key=n]")
             bricks = lambda f: [o for o in f["room"]["objects"] if o["kind"] == "brick"]
-            ben.wait_for(bricks, 20)
+            ben.wait_for(bricks)
             page.wait_for("theatron.state.bricks === 1")
             self.drawn(page)
             at = (SIZE[0] / 2, SIZE[1] * 0.57)  # as in web_test.py
             page.touch("touchStart", at)
-            ben.wait_for(lambda f: bricks(f)[0]["held_by"] != 0, 20)
+            ben.wait_for(lambda f: bricks(f)[0]["held_by"] != 0)
             page.touch("touchStart", at, page.middle("[data-key=delete]"))
-            ben.wait_for(lambda f: not bricks(f), 20)
+            ben.wait_for(lambda f: not bricks(f))
             page.touch("touchEnd")
         with self.subTest("go to a place"):
             self.tap(page, "[data-key=r]")

@@ -9,7 +9,7 @@ import tempfile
 import unittest
 
 from browser import CHROMIUM, Browser
-from theatron_process import PROGRAM, Process, host, wait_until
+from theatron_process import PROGRAM, Process, host
 from voice_test import RATE, chirps, read_wav, write_wav
 
 PAGE = pathlib.Path(PROGRAM).parent / "web/files.txt"
@@ -178,12 +178,12 @@ class WebVoice(unittest.TestCase):
             self.assertGreater(left, 1.3 * right)
             self.assertEqual(self.own_opus(page), [], "the browser has Opus")
         with self.subTest("the native participant hears the page"):
-            spoken = ben.wait_for(lambda f: f["voice"]["voices"] and f["voice"]["voices"][0]["seconds"] > 8, 40)
+            spoken = ben.wait_for(lambda f: f["voice"]["voices"] and f["voice"]["voices"][0]["seconds"] > 8)
             ada = [person["id"] for person in spoken["room"]["people"] if person["name"] == "Ada"]
             self.assertEqual([voice["id"] for voice in spoken["voice"]["voices"]], ada)
         with self.subTest("the person agrees to be recorded, and no longer, and sees both"):
             def agrees(is_agreed):
-                ben.wait_for(lambda f: [p["voice_recorded"] for p in f["room"]["people"] if p["name"] == "Ada"] == [is_agreed], 10)
+                ben.wait_for(lambda f: [p["voice_recorded"] for p in f["room"]["people"] if p["name"] == "Ada"] == [is_agreed])
 
             recorded = "document.getElementById('voice_recorded').textContent"
             agrees(False)
@@ -215,7 +215,7 @@ class WebVoice(unittest.TestCase):
         with self.subTest("muted, the page says so and is silent"):
             ben.say("mute Ada")
             page.wait_for("document.getElementById('voice_hint').textContent.includes('muted you')")
-            ben.wait_for(lambda f: not f["voice"]["speaking"], 10)
+            ben.wait_for(lambda f: not f["voice"]["speaking"])
         with self.subTest("a closed microphone is closed"):
             page.evaluate("document.getElementById('microphone').click()")
             self.assertEqual(page.evaluate("theatron.voice.microphone"), "off")
@@ -239,7 +239,7 @@ class WebVoice(unittest.TestCase):
         page.wait_for("theatron.voice.speakers.size === 1 && theatron.voice.microphone === 'open'")
         self.assertEqual(len(self.own_opus(page)), 2, "one for each direction")
         self.assert_page_hears(page, 5)
-        ben.wait_for(lambda f: f["voice"]["voices"] and f["voice"]["voices"][0]["seconds"] > 5, 40)
+        ben.wait_for(lambda f: f["voice"]["voices"] and f["voice"]["voices"][0]["seconds"] > 5)
         self.assert_survives_damage(page)
         ben.say("quit")
         self.assertEqual(ben.end(), 0)

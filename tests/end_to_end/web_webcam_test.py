@@ -47,7 +47,7 @@ class WebWebcam(unittest.TestCase):
         ben = self.native("--webcam", "test")
         page = self.enter(browser, True)
         page.wait_for("theatron.face.state === 'on' && !document.getElementById('own_face').hidden")
-        seen = ben.wait_for(lambda f: faces(f) and faces(f)[0]["frames"] > 10, 40)
+        seen = ben.wait_for(lambda f: faces(f) and faces(f)[0]["frames"] > 10)
         self.assertLess(faces(seen)[0]["fps"], 12)
         page.wait_for("theatron.state.overlay.facts.some(fact => fact.label === 'Webcam' && fact.value === 'you are seen')")
         self.assertEqual(page.evaluate("theatron.state.cameras.length"), 0)  # faces are people
@@ -62,13 +62,13 @@ class WebWebcam(unittest.TestCase):
             run("join", self.link, "--offscreen", pathlib.Path(folder) / "web_webcam_native.png", "--size", "640x360", "--seconds", "2")
         with self.subTest("hidden by the person, it is gone for all"):
             page.evaluate("document.getElementById('hide_face').click()")
-            ben.wait_for(lambda f: not faces(f), 10)
+            ben.wait_for(lambda f: not faces(f))
             self.assertIsNone(page.evaluate("theatron.face.stream"))
             page.wait_for("document.getElementById('own_face').hidden")
         with self.subTest("the panel of people shows it again"):
             page.wait_for("[...document.querySelectorAll('#room_panels button')].some(b => b.textContent === 'Show my face')")
             page.evaluate("[...document.querySelectorAll('#room_panels button')].find(b => b.textContent === 'Show my face').click()")
-            ben.wait_for(lambda f: faces(f) and faces(f)[0]["frames"] > 3, 20)
+            ben.wait_for(lambda f: faces(f) and faces(f)[0]["frames"] > 3)
         self.assertEqual(page.problems, [])
 
     def test_without_a_webcam_the_page_is_in_the_room_and_says_what_to_do(self):

@@ -47,8 +47,8 @@ class Webcam(unittest.TestCase):
             with Process("join", link, "--name", "Ada", "--every", "0.2") as ada, \
                     Process("join", link, "--name", "Ben", "--webcam", "test", "--every", "0.2") as ben:
                 ben.say("stand 0 1.5 -0.7 0 1.5 0")
-                ben.wait_for(lambda f: f["webcam"]["state"] == "seen", 20)
-                shown = ada.wait_for(lambda f: faces(f) and faces(f)[0]["frames"] > 15, 20)
+                ben.wait_for(lambda f: f["webcam"]["state"] == "seen")
+                shown = ada.wait_for(lambda f: faces(f) and faces(f)[0]["frames"] > 15)
                 self.assertEqual(faces(shown)[0]["color_codec"], "jpeg:quality=75")
                 self.assertLess(faces(shown)[0]["fps"], 17)
 
@@ -62,14 +62,14 @@ class Webcam(unittest.TestCase):
                 self.assertAlmostEqual(sum(y for _, y in red + blue) / len(red + blue), SIZE[1] / 2, delta=20)
 
                 ben.say("webcam off")
-                ben.wait_for(lambda f: f["webcam"]["state"] == "off", 10)
-                ada.wait_for(lambda f: not faces(f), 10)
+                ben.wait_for(lambda f: f["webcam"]["state"] == "off")
+                ada.wait_for(lambda f: not faces(f))
                 rows = self.seen(link, "without")
                 self.assertLess(len(places(rows, RED)) + len(places(rows, BLUE)), 50)
                 self.assertGreater(len(places(rows, (235, 235, 235))), 20, "the eyes of the drawn face")
 
                 ben.say("webcam on")
-                ada.wait_for(lambda f: faces(f) and faces(f)[0]["frames"] > 5, 20)
+                ada.wait_for(lambda f: faces(f) and faces(f)[0]["frames"] > 5)
                 # One who joins later is sent the last picture. It is too old to be shown.
                 ben.send(signal.SIGSTOP)
                 time.sleep(3)
@@ -81,18 +81,18 @@ class Webcam(unittest.TestCase):
             environment = {**screen.environment, "XDG_STATE_HOME": str(self.folder / "home")}
             with Process("join", h.greeting["link"], "--name", "Ada", "--every", "0.2") as ada, \
                     Process("join", h.greeting["link"], "--name", "Wim", "--webcam", "test", "--size", "480x360", env=environment):
-                ada.wait_for(lambda f: faces(f) and faces(f)[0]["frames"] > 3, 30)
+                ada.wait_for(lambda f: faces(f) and faces(f)[0]["frames"] > 3)
                 for is_on in (False, True):
                     screen.do("key", "F4")
-                    ada.wait_for(lambda f: bool(faces(f)) == is_on, 20)
+                    ada.wait_for(lambda f: bool(faces(f)) == is_on)
 
     def test_a_missing_webcam_and_an_observer_s_one_keep_nobody_out(self):
         with host(self.folder / "state2", self.lamp) as h:
             with Process("join", h.greeting["link"], "--webcam", "/dev/theatron-none", "--every", "0.2") as ben:
-                ben.wait_for(lambda f: f["phase"] == "joined" and f["webcam"]["state"] == "off", 20)
-                wait_until(lambda: "You are not seen" in "".join(ben.errors), 10)
+                ben.wait_for(lambda f: f["phase"] == "joined" and f["webcam"]["state"] == "off")
+                wait_until(lambda: "You are not seen" in "".join(ben.errors))
             with Process("join", h.greeting["links"]["observer"], "--webcam", "test", "--every", "0.2") as eve:
-                refused = eve.wait_for(lambda f: f["webcam"]["problem"], 20)
+                refused = eve.wait_for(lambda f: f["webcam"]["problem"])
                 self.assertEqual(refused["phase"], "joined")
                 self.assertIn("Observers show no face", refused["webcam"]["problem"])
 

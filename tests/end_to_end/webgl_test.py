@@ -3,9 +3,10 @@
 import pathlib
 import re
 import shutil
-import subprocess
 import tempfile
 import unittest
+
+import patience
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGE = ROOT / "build/web/tests/web/golden_page.html"
@@ -26,11 +27,10 @@ class WebGl(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         with tempfile.TemporaryDirectory(prefix="theatron_browser_") as profile:
-            page = subprocess.run(
+            page = patience.run(
                 [BROWSER, "--headless=new", "--no-sandbox", "--disable-dev-shm-usage",
                  "--use-gl=angle", "--use-angle=gles-egl", "--ignore-gpu-blocklist",
-                 f"--user-data-dir={profile}", "--timeout=60000", "--dump-dom", PAGE.as_uri()],
-                stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=200, check=False)
+                 f"--user-data-dir={profile}", "--timeout=60000", "--dump-dom", PAGE.as_uri()])
         result = re.search(r'<pre id="result">(.*?)</pre>', page.stdout, re.DOTALL)
         assert result, page.stdout[-2000:] + page.stderr[-2000:]
         cls.lines = result.group(1).splitlines()

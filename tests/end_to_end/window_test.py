@@ -6,12 +6,12 @@ import pathlib
 import shutil
 import signal
 import socket
-import subprocess
 import tempfile
 import time
 import unittest
 
 from case_test import write_case
+import patience
 from theatron_process import PROGRAM, Process, host, make_recording, wait_until
 from virtual_screen import VirtualScreen, brightness, difference
 
@@ -185,9 +185,9 @@ class Window(unittest.TestCase):
                 wait_until(lambda: not self.buttons())
             with self.subTest("and K calls the others"):
                 do("key", "k")
-                anna.wait_for(lambda f: [p["name"] for p in f["room"]["people"] if p["calls"]] == ["Ben"], 10)
+                anna.wait_for(lambda f: [p["name"] for p in f["room"]["people"] if p["calls"]] == ["Ben"])
                 do("key", "k")
-                anna.wait_for(lambda f: not any(p["calls"] for p in f["room"]["people"]), 10)
+                anna.wait_for(lambda f: not any(p["calls"] for p in f["room"]["people"]))
                 do("key", "p")
                 wait_until(lambda: len(self.buttons()) >= 3)
             with self.subTest("through a person's eyes the view moves with them"):
@@ -216,7 +216,7 @@ class Window(unittest.TestCase):
         with host(self.state, self.camera, options=("--cases", cases)) as h, \
                 Process("join", h.greeting["link"], "--name", "Ann", "--every", "0.1") as ann, \
                 self.window(h.greeting["link"]):
-            ann.wait_for(lambda f: f["cases"]["offered"], 20)
+            ann.wait_for(lambda f: f["cases"]["offered"])
             ann.say("case open Many")
             self.wait_for_scene()
             self.screen.do("key", "o")
@@ -244,14 +244,14 @@ class Window(unittest.TestCase):
             demo.wait_until(lambda: self.screen.title().startswith("demo operating room"))
             demo.wait_until(lambda: brightness(self.picture()) > 70)
             demo.send(signal.SIGTERM)
-            self.assertEqual(demo.end(20), 0, demo.errors)
+            self.assertEqual(demo.end(), 0, demo.errors)
         self.assertEqual(list((self.folder / "demo").glob("*.png")), [])
 
     def test_a_demo_without_a_usable_display_writes_pictures(self):
         folder = self.folder / "demo_pictures"
         with Process("demo", "--out", str(folder), "--seconds", "8", *self.small_room,
                      env={**self.screen.environment, "DISPLAY": ":31999"}) as demo:
-            self.assertEqual(demo.end(200), 0, demo.errors)
+            self.assertEqual(demo.end(), 0, demo.errors)
             self.assertIn("No window can be opened on this display.", "".join(demo.errors))
         self.assertTrue((folder / "from_between.png").exists())
 
@@ -269,11 +269,11 @@ class Window(unittest.TestCase):
                 viewer.send(signal.SIGTERM)
                 viewer.end()
             self.assertNotIn("https", settings.read_text())
-            anna.wait_for(lambda f: len(f["room"]["people"]) == 1, 10)
+            anna.wait_for(lambda f: len(f["room"]["people"]) == 1)
             with self.window(h.greeting["link"], home=home) as viewer:
                 wait_until(lambda: " splat " in self.screen.title())
                 wait_until(lambda: self.buttons())
-                anna.wait_for(lambda f: "Ben" in [p["name"] for p in f["room"]["people"]], 10)
+                anna.wait_for(lambda f: "Ben" in [p["name"] for p in f["room"]["people"]])
                 viewer.send(signal.SIGTERM)
                 viewer.end()
             settings.write_text("people perhaps\n")
@@ -360,8 +360,7 @@ class Window(unittest.TestCase):
     def test_without_a_display_one_sentence_says_what_to_do(self):
         environment = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
         link = f"https://127.0.0.1:1/#join=x&cert={'0' * 64}"
-        done = subprocess.run([PROGRAM, "join", link], env={**environment, "SDL_VIDEODRIVER": "x11"},
-                              capture_output=True, text=True, timeout=30)
+        done = patience.run([PROGRAM, "join", link], env={**environment, "SDL_VIDEODRIVER": "x11"})
         self.assertEqual(done.returncode, 1)
         self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
         for word in ("no display", "--offscreen", "--no-window"):
