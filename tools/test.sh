@@ -59,6 +59,24 @@ if [ "$all" = --all ]; then
         --seeds 4 --json build/registration.json
     step "Accuracy of registration as promised" tools/check_registration.py build/registration.json
 fi
+# ctest keeps what the tests of its last run printed, so that of both runs is kept apart.
+logs=build/test_logs
+mkdir -p "$logs"
+keep_log() { cp build/release/Testing/Temporary/LastTest.log "$logs/$1.log"; }
+without_processes() {
+    local code=0
+    ctest --preset release || code=$?
+    keep_log release
+    return "$code"
+}
+with_processes() {
+    local code=0
+    ctest --preset process || code=$?
+    keep_log process
+    tools/repeated_tests.py "$logs/process.log" --keep build/repeated_tests.txt --most 2 || code=1
+    return "$code"
+}
+step "Tests in one process" without_processes
 # Last, so that its closing lines are those of the whole.
-step "Tests" ctest --preset release
-tools/skipped_tests.py build/release build/dev build/tsan
+step "Tests that run processes" with_processes
+tools/skipped_tests.py "$logs"/*.log build/dev build/tsan

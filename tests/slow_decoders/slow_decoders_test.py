@@ -129,7 +129,7 @@ class Payloads(unittest.TestCase):
         data = pathlib.Path(os.environ.get("THEATRON_DATA", os.environ["SHARED_DATA"]))
         folders = sorted(str(f) for f in data.glob("*") if (f / "depth").is_dir())
         if not folders:
-            print(f"no {data}: generated pictures only; set THEATRON_DATA to a folder with recorded sequences")
+            print(f"skipped: slow_decoders.recorded_sequences: no {data}: generated pictures only; set THEATRON_DATA to a folder with recorded sequences")
         with tempfile.TemporaryDirectory() as out:
             subprocess.run([os.environ["WRITE_PAYLOADS"], out, *folders], check=True)
             seen = set()
