@@ -3,13 +3,14 @@
 SHELL := /bin/bash
 SECONDS_OF_DEMO := $(if $(filter environment command line,$(origin SECONDS)),--seconds $(SECONDS),)
 
-.PHONY: help setup program build demo test test-all test-tsan tidy soak test-arm64 format fuzz bench-web figures clean
+.PHONY: help setup program build demo test test-all test-timing test-tsan tidy soak test-arm64 format fuzz bench-web figures clean
 
 help:
 	@echo "make demo               install what is needed, build, and meet two people in a streamed room"
 	@echo "make demo SECONDS=20    the same, ending by itself"
 	@echo "make test               build and run every check"
 	@echo "make test-all           the same with what takes long: fuzzing, TSan everywhere, clang-tidy"
+	@echo "make test-timing        rates, ages and shaped links; needs a machine that does nothing else"
 	@echo "make test-tsan          the modules that have threads under the thread sanitizer"
 	@echo "make tidy               clang-tidy on what differs from main, on main from the last commit; SINCE=COMMIT, or ALL=1 for everything"
 	@echo "make soak MINUTES=120   a recorded session under random faults; SEED=n repeats one"
@@ -41,6 +42,10 @@ test: setup
 
 test-all: setup
 	@tools/test.sh --all
+
+test-timing: build
+	@cmake --build --preset release
+	@ctest --preset timing
 
 test-tsan: setup
 	@tools/test_tsan.sh $(MODULES)

@@ -1,10 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Checks every tracked source: clang-format, the licence line at its top, and comments whose subject is named."""
+"""Checks every tracked source: clang-format, the licence line at its top, comments whose subject is named, and that no
+test depends on the speed of the machine (check_tests.py)."""
 import pathlib
 import re
 import subprocess
 import sys
+
+import check_tests
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 LICENCE = "SPDX-License-Identifier: Apache-2.0"
@@ -34,7 +37,7 @@ def main():
     listed = subprocess.run(["git", "ls-files", "--cached", "--others", "--exclude-standard"], cwd=ROOT,
                             check=True, capture_output=True, text=True).stdout
     files = [ROOT / line for line in listed.splitlines() if (ROOT / line).is_file()]
-    problems = []
+    problems = check_tests.problems()
     for file in files:
         if file.suffix in LICENSED or file.name in {"CMakeLists.txt", "Makefile"}:
             text = file.read_text(errors="replace")

@@ -53,6 +53,7 @@ if [ "$all" = --all ]; then
     step "The same for a minute under TSan" tools/test_many.sh tsan 60
     step "An hour before fixed cameras without an alarm" env MINUTES=60 \
         build/release/src/registration/registration_test --gtest_filter='Watching.NoAlarm*'
+    step "Rates, ages and shaped links" ctest --preset timing
     step "Frame rate beside strangers and expensive guests" env PYTHONPATH=tests/end_to_end \
         python3 tests/end_to_end/guests_run.py
     step "Cameras registered, four seeds" build/release/apps/theatron/theatron_bench registration \

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Sixteen cameras that come and go in a session of real processes (tests/end_to_end/many_test.py).
+# Sixteen cameras that come and go in a session of real processes (tests/end_to_end/many_timing.py).
 # Usage: test_many.sh PRESET SECONDS, where PRESET is release or tsan.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -16,4 +16,4 @@ if [ "$preset" = tsan ]; then
     # See test_tsan.sh.
     setarch -R true 2> /dev/null && fixed=(setarch -R)
 fi
-"${fixed[@]}" python3 tests/end_to_end/run.py tests/end_to_end/many_test.py
+"${fixed[@]}" python3 tests/end_to_end/run.py tests/end_to_end/many_timing.py

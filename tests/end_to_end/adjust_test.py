@@ -4,7 +4,6 @@ import json
 import pathlib
 import shutil
 import tempfile
-import time
 import unittest
 
 from theatron_process import Process, host, make_recording, read_png, run, wait_until
@@ -45,8 +44,8 @@ class Adjusting(unittest.TestCase):
                                      "moved by 20.0, -10.0, 5.0 mm; turned by 0.00, 2.00, 0.00 degrees")
                 wait_until(lambda: "moved by 20.0" in run("status", link)[1])
                 self.assertIn("moved by 20.0", run("lobby", link)[1])
-                wait_until(lambda: (self.folder / "session.002.mkv").exists())
-                time.sleep(0.5)
+                second = self.folder / "session.002.mkv"
+                wait_until(lambda: second.exists() and second.stat().st_size > 4096)
                 recorder.process.terminate()
                 recorder.end()
             log = self.folder / "state" / "audit.jsonl"

@@ -166,6 +166,8 @@ class Page:
         try:
             return patience.wait_until(value, condition, of=self.browser)
         except patience.WaitedInVain as vain:
+            if self.browser.has_ended():
+                raise
             state = self.evaluate("JSON.stringify(globalThis.theatron?.state ?? null)")
             raise AssertionError(f"{vain}; {self.problems}; {state}") from None
 

@@ -4,10 +4,9 @@ import json
 import pathlib
 import shutil
 import tempfile
-import time
 import unittest
 
-from theatron_process import Process, host, make_recording, run
+from theatron_process import Process, host, make_recording, run, wait_until
 
 
 class Filters(unittest.TestCase):
@@ -54,10 +53,14 @@ class Filters(unittest.TestCase):
         file.write_text('{"filters": [{"filter": "kalman"}]}')
         with host(self.state, self.camera, options=("--filter", file)) as h, \
                 Process("join", h.greeting["link"], "--every", "0.1") as viewer, \
-                Process("record", h.greeting["link"], self.folder / "changes.mkv", "--seconds", "4") as recorder:
+                Process("record", h.greeting["link"], self.folder / "changes.mkv") as recorder:
             viewer.wait_for(lambda f: f["cameras"] and f["cameras"][0]["filter"] == "kalman" and f["fps"] > 0)
-            time.sleep(1)
+            recording = self.folder / "changes.mkv"
+            wait_until(lambda: recording.exists() and recording.stat().st_size > 4096)
             file.write_text('{"filters": [{"filter": "range", "max_mm": 900}]}')
+            changed = viewer.wait_for(lambda f: f["cameras"][0]["filter"] == "range:max_mm=900")["cameras"][0]["frames"]
+            viewer.wait_for(lambda f: f["cameras"][0]["frames"] > changed + 15)
+            recorder.process.terminate()
             recorder.end()
         code, out, errors = run("inspect", self.folder / "changes.mkv", "--json")
         self.assertEqual(code, 0, errors)

@@ -13,12 +13,22 @@ import json
 import pathlib
 import shutil
 import tempfile
+import time
 
-from strangers_test import Connections, seconds_to_join
+from raw_peer import RawPeer
+from strangers_test import Connections
 from theatron_process import Process, host, run, tell_result
 
 EXPENSIVE = ["zstd:delta=1,level=19", "zstd:level=19", "zstd:delta=1,level=18", "lz4:level=12"]
 LOWEST_FPS = 29.5
+
+
+def seconds_to_join(link):
+    begin = time.monotonic()
+    with RawPeer(link) as peer:
+        peer.join()
+        peer.receive_control("Welcome")
+        return time.monotonic() - begin
 
 
 def rate_of_viewer(link, seconds):

@@ -44,7 +44,7 @@ class Interrupt(unittest.TestCase):
         cache = self.folder / "cache"
         host = self.start("host", "--state", self.folder / "state", "--listen", "127.0.0.1:0", "--camera",
                           f"synthetic:room,cache={cache}")
-        wait_until(lambda: any(cache.glob("*.part")))
+        wait_until(lambda: any(cache.glob("*.part")), of=host)
         host.send_signal(signal.SIGINT)
         _, errors = host.communicate()
         self.assertEqual(host.returncode, 1, errors)
@@ -54,7 +54,7 @@ class Interrupt(unittest.TestCase):
     def test_a_measurement_leaves_nobody_behind(self):
         camera = f"folder:{make_recording(self.folder / 'box')},loop=1"
         bench = self.start("bench", "pipeline", "--camera", camera, "--seconds", 60)
-        wait_until(lambda: len(children_of(bench.pid)) == 2)
+        wait_until(lambda: len(children_of(bench.pid)) == 2, of=bench)
         children = children_of(bench.pid)
         os.kill(bench.pid, signal.SIGINT)
         patience.end_of(bench)
@@ -68,7 +68,7 @@ class Interrupt(unittest.TestCase):
         for i in range(200):
             (source / f"part_{i}.stl").write_text(f"solid a\n{triangle}endsolid\n")
         importing = self.start("case", "import", source, made / "liver")
-        wait_until(lambda: any(made.iterdir()))
+        wait_until(lambda: any(made.iterdir()), of=importing)
         importing.send_signal(signal.SIGINT)
         _, errors = importing.communicate()
         self.assertEqual(importing.returncode, 1, errors)

@@ -136,9 +136,13 @@ class Wait:
 
 
 def wait_until(condition, what=None, *, of=None, every=0.05):
-    """The condition's first true value. `what`: the condition in words; `of`: the process that makes it true, in whose
-    end the wait ends; `every`: seconds between two questions."""
-    wait = Wait(what or condition, of.has_ended if of else lambda: False)
+    """The condition's first true value. `what`: the condition in words; `of`: the process that makes it true (also a
+    subprocess.Popen), in whose end the wait ends; `every`: seconds between two questions."""
+    if isinstance(of, subprocess.Popen):
+        ended = lambda: of.poll() is not None
+    else:
+        ended = of.has_ended if of else lambda: False
+    wait = Wait(what or condition, ended)
     while True:
         ended = wait.ended()  # a last look at what it left
         if value := condition():

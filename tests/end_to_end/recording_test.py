@@ -11,7 +11,7 @@ import tempfile
 import time
 import unittest
 
-from theatron_process import Process, host, make_recording, read_png, run, write_png
+from theatron_process import Process, host, make_recording, read_png, run, wait_until, write_png
 
 FRAMES = 6
 
@@ -154,10 +154,7 @@ class Recording(unittest.TestCase):
         for sig, name in ((signal.SIGINT, "ended.mkv"), (signal.SIGHUP, "hung_up.mkv"), (signal.SIGKILL, "killed.mkv")):
             path = self.folder / name
             with Process("record", "--camera", f"folder:{self.source},loop=1", path) as recorder:
-                for _ in range(200):
-                    if path.exists() and path.stat().st_size > 100_000:
-                        break
-                    time.sleep(0.05)
+                wait_until(lambda: path.exists() and path.stat().st_size > 100_000)
                 recorder.send(sig)
                 recorder.end()
             seen = self.inspect(name)

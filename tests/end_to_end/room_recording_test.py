@@ -48,7 +48,8 @@ class RoomRecording(unittest.TestCase):
                     """Both have the same room, for a while; a moment to compare later."""
                     for person in (anna, zoe):
                         person.wait_for(condition)
-                    time.sleep(0.35)
+                    shown = anna.newest_json()["cameras"][0]["frames"]
+                    anna.wait_for(lambda f: f["cameras"][0]["frames"] > shown + 10)
                     hashes = [person.newest_json()["room"]["hash"] for person in (anna, zoe)]
                     self.assertEqual(*hashes)
                     moments.append(hashes[0])
@@ -153,7 +154,8 @@ class RoomRecording(unittest.TestCase):
             live = picture(h.greeting["link"], "live.png")
             recorder = self.record(h.greeting["link"], recording)
             wait_until(lambda: recording.exists() and recording.stat().st_size > 4096)
-            time.sleep(2)
+            shown = anna.newest_json()["cameras"][0]["frames"]
+            anna.wait_for(lambda f: f["cameras"][0]["frames"] > shown + 60)
             self.stop(recorder)
             anna.say("stand 3 1.6 3 4 1.6 3")
             anna.say("point 3 1.6 3 4 1.6 3")
@@ -183,7 +185,8 @@ class RoomRecording(unittest.TestCase):
             time.sleep(0.5)  # her pose is in the room before the recording begins
             recorder = self.record(h.greeting["link"], recording)
             wait_until(lambda: recording.exists() and recording.stat().st_size > 4096)
-            time.sleep(2)
+            shown = anna.newest_json()["cameras"][0]["frames"]
+            anna.wait_for(lambda f: f["cameras"][0]["frames"] > shown + 60)
             self.stop(recorder)
         code, out, errors = run("inspect", recording, "--json")
         self.assertEqual(code, 0, errors)

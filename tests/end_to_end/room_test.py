@@ -5,7 +5,6 @@ import pathlib
 import shutil
 import struct
 import tempfile
-import time
 import unittest
 
 from raw_peer import STATES, RawPeer
@@ -84,9 +83,8 @@ class Room(unittest.TestCase):
             self.assertGreater(min(max(row[:3]) for row in alone[3]), 5)  # walls and floor
             without = colorful(alone)
             anna.say("stand 0 1.4 0 0 1.4 1")  # where everybody who comes looks
-            time.sleep(0.3)
-            self.assertEqual(look(h.greeting["link"])[0], 0)
-            self.assertGreater(colorful(read_png(picture)), without + 100)
+            # The one who looks comes when her place has arrived at the host, or once more.
+            wait_until(lambda: look(h.greeting["link"])[0] == 0 and colorful(read_png(picture)) > without + 100)
 
     def test_a_picture_is_of_the_place_where_its_person_stands(self):
         with host(self.folder / "state") as h, member(h.greeting["link"], "Anna") as anna:

@@ -20,7 +20,7 @@ CRASHES = [-one for one in (signal.SIGSEGV, signal.SIGABRT, signal.SIGBUS, signa
 DATA = pathlib.Path(os.environ.get("THEATRON_DATA", "../shared/data"))
 
 
-# What a report counts: it moves when the program gets on, and stands when only its timer runs.
+# The counts of a report: they move when the program gets on, and stand when only its timer runs.
 COUNTS = re.compile(r'"(?:\w*frames?|\w*bytes|pictures|packets|joins|segments)": ?\d+')
 
 

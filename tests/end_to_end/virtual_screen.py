@@ -7,6 +7,8 @@ import struct
 import subprocess
 import tempfile
 
+import patience
+
 
 class VirtualScreen:
     def __init__(self, width, height):
@@ -37,6 +39,18 @@ class VirtualScreen:
         """One xdotool command line, for example key Tab."""
         done = subprocess.run(["xdotool", *map(str, arguments)], env=self.environment, capture_output=True, text=True)
         return done.stdout.strip()
+
+    def click_until(self, button, process, condition):
+        """Clicks where button() is, again if rows that came meanwhile have moved it, until a report of the process meets
+        the condition; returns that."""
+        wait = patience.Wait(condition)
+        while True:
+            self.do("mousemove", *button(), "click", 1)
+            for _ in range(30):
+                figures = process.read_json(wait)
+                if condition(figures):
+                    return figures
+            wait.check()
 
     def title(self):
         return self.do("search", "--name", "Theatron", "getwindowname")

@@ -3,7 +3,7 @@
 
 A camera that stays loses no frame and shows none late because of another, and memory stays as it is.
 
-    THEATRON_MANY_SECONDS=600 python3 tests/end_to_end/many_test.py        (20 s without it)
+    THEATRON_MANY_SECONDS=600 python3 tests/end_to_end/many_timing.py        (20 s without it)
 """
 import contextlib
 import json
