@@ -386,12 +386,16 @@ class RecordFaults(unittest.TestCase):
                 for recorder, name in zip(recorders, names):
                     self.begun(recorder, name.with_suffix(".002.mkv"))
                 recorders[1].send(signal.SIGSTOP)
-                time.sleep(1)
+                second = names[0].with_suffix(".002.mkv")
+                self.begun(recorders[0], second, more_than=second.stat().st_size + 20_000)
                 guest.send(signal.SIGINT)
                 guest.end()
-            time.sleep(1)
+            recorders[0].wait_for_error("has left")
             recorders[1].send(signal.SIGCONT)
-            time.sleep(2)
+            recorders[1].wait_for_error("has left")
+            for recorder, name in zip(recorders, names):
+                last = name.with_suffix(".002.mkv")
+                self.begun(recorder, last, more_than=last.stat().st_size + 20_000)
             figures = [self.ends(recorder, COMPLETE) for recorder in recorders]
         guests = [f["cameras"][1]["depth"]["pictures"] for f in figures]
         self.assertGreater(guests[0], 20)

@@ -175,6 +175,7 @@ class Window(unittest.TestCase):
             with self.subTest("a call is an offer, and moves nobody"):
                 do("key", "p", "key", "r")
                 wait_until(lambda: not self.buttons())
+                self.wait_for_return(own)
                 before = self.settled(beside_panel)
                 anna.say("call")
                 wait_until(lambda: len(self.buttons()) == 2)
