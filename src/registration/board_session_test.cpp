@@ -14,7 +14,7 @@ namespace {
 using ::testing::HasSubstr;
 
 // Two cameras a quarter circle apart, and a board in a person's hands.
-class Carrying : public testing::Test {
+class Carrying : public ::testing::Test {
 protected:
     // Frames with the board at `room_from_board`; `blind` cameras see the wall alone.
     void hold(const LatticeTarget& cut, const Pose& room_from_board, int frames = 42,

@@ -18,7 +18,7 @@ double share_before(double at, double edge) {
     return std::clamp(edge - at, 0.0, 1.0);
 }
 
-class Edges : public testing::Test {
+class Edges : public ::testing::Test {
 protected:
     Edges() : camera_(azure_camera(), 1), depth_(camera_.model.size) {}
 

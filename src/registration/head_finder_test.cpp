@@ -50,7 +50,7 @@ TEST(HeadFinder, APersonAtADeskIsFoundAndTheirShouldersTellTheDirection) {
     std::uint32_t seed = 5;
     for (const double distance : {0.7, 1.2, 2.0})
         for (const double yaw : {-0.5, 0.0, 0.4}) {
-            SCOPED_TRACE(testing::Message() << distance << " m, " << yaw);
+            SCOPED_TRACE(::testing::Message() << distance << " m, " << yaw);
             const Vec3 truth{0.12, -0.1, distance};
             const DepthImage image = person(camera, truth, yaw, ++seed);
             const auto head = find_head(camera, image.view());

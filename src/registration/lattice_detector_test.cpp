@@ -16,7 +16,7 @@ double angle_between(const Pose& a, const Pose& b) {
     return 2 * std::asin(std::min(1.0, std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z)));
 }
 
-class LatticeDetection : public testing::Test {
+class LatticeDetection : public ::testing::Test {
 protected:
     double between(double a, double b) {
         return a + (b - a) * double(rng_()) / double(std::mt19937::max());
@@ -43,7 +43,7 @@ TEST_F(LatticeDetection, FindsEitherFaceAtAnyPlaceAndSaysWhich) {
         scene.add(target_, pose, rays_);
         const DepthImage depth = scene.seen_by(sensor_, std::uint32_t(i));
         const auto found = detector_.detect(depth.view());
-        SCOPED_TRACE(testing::Message() << distance << " m, tilted " << tilt << " degrees");
+        SCOPED_TRACE(::testing::Message() << distance << " m, tilted " << tilt << " degrees");
         ASSERT_TRUE(found);
         EXPECT_EQ(found->match.face, face);
         EXPECT_LT(length(found->camera_from_board.translation - pose.translation), 0.010);

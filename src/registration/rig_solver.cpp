@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "registration/rig_solver.h"
 
-#include <ceres/ceres.h>
-#include <ceres/rotation.h>
-
 #include <Eigen/Dense>
 #include <array>
 #include <cassert>
@@ -12,152 +9,14 @@
 #include <memory>
 #include <optional>
 
+#include "registration/least_squares.h"
+#include "registration/view_errors.h"
+
 namespace theatron::registration {
 namespace {
 
 // Standard deviations of depth errors that are tried, relative to RigOptions.
 constexpr double error_scales[] = {1, 0.3, 0.1};
-
-// A pose as the solver has it: quaternion w x y z, then translation.
-using Block = std::array<double, 7>;
-using Bias = std::array<double, 4>;
-
-Block block_of(const Pose& p) {
-    return {p.rotation.w,    p.rotation.x,    p.rotation.y,   p.rotation.z,
-            p.translation.x, p.translation.y, p.translation.z};
-}
-
-Pose pose_of(const Block& b) {
-    return {normalized(Quat{b[0], b[1], b[2], b[3]}), {b[4], b[5], b[6]}};
-}
-
-template <class T>
-struct PoseOf {
-    T rotation[4], translation[3];
-
-    void apply(const T* in, T* out) const {
-        ceres::QuaternionRotatePoint(rotation, in, out);
-        for (int i = 0; i < 3; ++i)
-            out[i] += translation[i];
-    }
-};
-
-template <class T>
-PoseOf<T> constant(const Pose& p) {
-    return {{T(p.rotation.w), T(p.rotation.x), T(p.rotation.y), T(p.rotation.z)},
-            {T(p.translation.x), T(p.translation.y), T(p.translation.z)}};
-}
-
-// The inverse of `a` times `b`.
-template <class T>
-PoseOf<T> relative(const T* a, const T* b) {
-    const T back[4] = {a[0], -a[1], -a[2], -a[3]};
-    const T apart[3] = {b[4] - a[4], b[5] - a[5], b[6] - a[6]};
-    PoseOf<T> result;
-    ceres::QuaternionProduct(back, b, result.rotation);
-    ceres::QuaternionRotatePoint(back, apart, result.translation);
-    return result;
-}
-
-template <class T>
-PoseOf<T> product(const PoseOf<T>& a, const PoseOf<T>& b) {
-    PoseOf<T> result;
-    ceres::QuaternionProduct(a.rotation, b.rotation, result.rotation);
-    a.apply(b.translation, result.translation);
-    return result;
-}
-
-// The pose that a view's edges say, against where camera and board are thought to be.
-struct EdgeError {
-    Pose face_from_camera;  // by the edges
-    Pose board_from_face;
-    Matrix6 root_information;  // its transpose times itself is the inverse of the covariance
-
-    template <class T>
-    bool operator()(const T* camera, const T* board, T* residual) const {
-        const PoseOf<T> error =
-            product(constant<T>(face_from_camera),
-                    product(relative(camera, board), constant<T>(board_from_face)));
-        Eigen::Matrix<T, 6, 1> step;
-        ceres::QuaternionToAngleAxis(error.rotation, step.data());
-        for (int i = 0; i < 3; ++i)
-            step[3 + i] = error.translation[i];
-        Eigen::Map<Eigen::Matrix<T, 6, 1>> out(residual);
-        out = root_information.cast<T>() * step;
-        return true;
-    }
-};
-
-// The depth that a view measures on the face.
-struct DepthError {
-    Plane plane;
-    std::array<Vec3, 3> places;  // in the board's frame
-    Matrix3 root_information;
-
-    template <class T>
-    bool operator()(const T* camera, const T* board, const T* bias, T* residual) const {
-        const PoseOf<T> camera_from_board = relative(camera, board);
-        Eigen::Matrix<T, 3, 1> longer;
-        for (int i = 0; i < 3; ++i) {
-            const Vec3& place = places[std::size_t(i)];
-            const T at[3] = {T(place.x), T(place.y), T(place.z)};
-            T p[3];
-            camera_from_board.apply(at, p);
-            const T x = p[0] / p[2], y = p[1] / p[2];
-            const T measured = T(1) / (plane.q.x * x + plane.q.y * y + plane.q.z);
-            longer[i] = measured - p[2] - DepthBias::at(bias, x, y, p[2]);
-        }
-        Eigen::Map<Eigen::Matrix<T, 3, 1>> out(residual);
-        out = root_information.cast<T>() * longer;
-        return true;
-    }
-};
-
-struct BiasPrior {
-    Bias sigma;
-
-    template <class T>
-    bool operator()(const T* bias, T* residual) const {
-        for (std::size_t i = 0; i < sigma.size(); ++i)
-            residual[i] = bias[i] / sigma[i];
-        return true;
-    }
-};
-
-template <int n>
-Eigen::Matrix<double, n, n> root_of_inverse(const Eigen::Matrix<double, n, n>& covariance) {
-    const Eigen::Matrix<double, n, n> information = covariance.inverse();
-    return information.llt().matrixU();
-}
-
-EdgeError edge_error(const BoardView& view, const LatticeTarget& target) {
-    const LatticeFit& fit = view.detection.fit;
-    return {inverse(fit.camera_from_face_by_edges),
-            board_from_face(target, view.detection.match.face),
-            root_of_inverse<6>(fit.edge_covariance)};
-}
-
-DepthError depth_error(const BoardView& view, const LatticeTarget& target,
-                       const RigOptions& options) {
-    const LatticeFit& fit = view.detection.fit;
-    const Pose from_face = board_from_face(target, view.detection.match.face);
-    DepthError error{fit.plane, {}, {}};
-    Matrix3 rays;
-    Eigen::Vector3d squares;
-    int i = 0;
-    for (const Vec3& place : depth_places(target)) {
-        const Vec3 p = fit.camera_from_face * place;
-        rays.row(i) << p.x / p.z, p.y / p.z, 1;
-        squares[i] = p.z * p.z;
-        error.places[std::size_t(i++)] = from_face * place;
-    }
-    Matrix3 covariance = squares.asDiagonal() * rays * fit.plane_covariance * rays.transpose() *
-                         squares.asDiagonal();
-    covariance.array() += options.view_common_m * options.view_common_m;
-    covariance.diagonal().array() += options.view_slow_m * options.view_slow_m;
-    error.root_information = root_of_inverse<3>(covariance);
-    return error;
-}
 
 // Poses by following views from camera 0.
 struct Start {
@@ -183,57 +42,105 @@ struct Start {
     }
 };
 
+// All poses and depth errors. Camera 0 is the reference and does not move.
+struct RigUnknowns {
+    std::vector<Pose> cameras, boards;
+    std::vector<Bias> biases;  // by camera
+};
+
 class Rig {
 public:
+    using Unknowns = RigUnknowns;
+
     Rig(const Start& start, const std::vector<BoardView>& views, const LatticeTarget& target,
         const RigOptions& options)
-        : views_(views), target_(target), biases_(start.cameras.size(), Bias{}) {
-        for (const auto& camera : start.cameras)
-            cameras_.push_back(block_of(*camera));
-        // The pose of a board that no camera sees does not change.
+        : views_(views),
+          target_(target),
+          outlier_sigmas_(options.outlier_sigmas),
+          bias_sigma_{options.offset_m, options.slope_m, options.slope_m, options.per_m} {
+        for (const auto& camera : start.cameras) {
+            start_.cameras.push_back(*camera);
+            start_.biases.push_back(Bias::Zero());
+            for (const double sigma : bias_sigma_)
+                log_roots_ -= std::log(sigma);
+        }
+        seen_.assign(start.boards.size(), -1);
         for (const auto& board : start.boards)
-            boards_.push_back(block_of(board.value_or(Pose{})));
-        add_parameters();
-        add_views(options);
+            start_.boards.push_back(board.value_or(Pose{}));
+        for (const BoardView& view : views) {
+            int& number = seen_[std::size_t(view.place)];
+            if (number < 0)
+                number = seen_count_++;
+            errors_.emplace_back(view, target, options);
+            log_roots_ += errors_.back().log_root_of_depth();
+        }
+    }
+
+    double cost(const RigUnknowns& at) const {
+        double sum = prior_cost(at);
+        for (std::size_t i = 0; i < views_.size(); ++i) {
+            const auto [edges, depth] = errors(i, at);
+            sum += HuberLoss(edges.value.squaredNorm(), outlier_sigmas_).cost +
+                   HuberLoss(depth.value.squaredNorm(), outlier_sigmas_).cost;
+        }
+        return sum;
+    }
+
+    QuadraticForm form(const RigUnknowns& at) const {
+        QuadraticForm form(unknown_count());
+        form.cost = prior_cost(at);
+        for (std::size_t c = 0; c < at.biases.size(); ++c)
+            for (int i = 0; i < bias_unknowns; ++i) {
+                const double information = 1 / (bias_sigma_[i] * bias_sigma_[i]);
+                form.gradient[bias_column(c) + i] += at.biases[c][i] * information;
+                form.information(bias_column(c) + i, bias_column(c) + i) += information;
+            }
+        for (std::size_t i = 0; i < views_.size(); ++i) {
+            const auto [edges, depth] = errors(i, at);
+            add(form, i, edges);
+            add(form, i, depth);
+        }
+        return form;
+    }
+
+    RigUnknowns moved(const RigUnknowns& from, const Eigen::VectorXd& step) const {
+        RigUnknowns to = from;
+        for (std::size_t c = 0; c < to.cameras.size(); ++c) {
+            if (c > 0)
+                to.cameras[c] = registration::moved(from.cameras[c],
+                                                    step.segment<pose_unknowns>(camera_column(c)));
+            to.biases[c] += step.segment<bias_unknowns>(bias_column(c));
+        }
+        for (std::size_t b = 0; b < to.boards.size(); ++b)
+            if (seen_[b] >= 0)
+                to.boards[b] = registration::moved(from.boards[b],
+                                                   step.segment<pose_unknowns>(board_column(b)));
+        return to;
     }
 
     // The logarithm of the probability of all measurements under these options, up to a constant
     // that does not depend on them; after solve(). Laplace's approximation (MacKay, Neural
     // Computation 1992, "Bayesian interpolation", section 3).
-    double log_evidence() {
-        ceres::CRSMatrix sparse;
-        double cost = 0;
-        problem_.Evaluate({}, &cost, nullptr, nullptr, &sparse);
-        Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(sparse.num_rows, sparse.num_cols);
-        for (int row = 0; row < sparse.num_rows; ++row)
-            for (int i = sparse.rows[std::size_t(row)]; i < sparse.rows[std::size_t(row) + 1]; ++i)
-                jacobian(row, sparse.cols[std::size_t(i)]) = sparse.values[std::size_t(i)];
-        Eigen::MatrixXd information = jacobian.transpose() * jacobian;
-        // Directions that nothing determines, as of a board that no camera sees, do not count.
-        information.diagonal().array() += 1e-6;
-        const Eigen::MatrixXd root = information.llt().matrixL();
-        return log_roots_ - cost - root.diagonal().array().log().sum();
+    double log_evidence() const {
+        QuadraticForm at_end = form(end_);
+        // Directions that nothing determines do not count.
+        at_end.information.diagonal().array() += 1e-6;
+        const Eigen::MatrixXd root = at_end.information.llt().matrixL();
+        return log_roots_ - at_end.cost - root.diagonal().array().log().sum();
     }
 
     RigSolution solve() {
-        ceres::Solver::Options options;
-        options.linear_solver_type = ceres::DENSE_SCHUR;
-        options.max_num_iterations = 100;
-        options.function_tolerance = 1e-10;
-        options.logging_type = ceres::SILENT;
-        ceres::Solver::Summary summary;
-        ceres::Solve(options, &problem_, &summary);
-
         RigSolution solution;
-        solution.converged = summary.IsSolutionUsable();
-        solution.residual = std::sqrt(2 * summary.final_cost / std::max(1, summary.num_residuals));
-        for (std::size_t c = 0; c < cameras_.size(); ++c) {
-            const Bias& b = biases_[c];
+        end_ = start_;
+        solution.converged = minimise(*this, end_);
+        const std::size_t numbers = bias_unknowns * end_.cameras.size() + 9 * views_.size();
+        solution.residual = std::sqrt(2 * cost(end_) / double(numbers));
+        for (std::size_t c = 0; c < end_.cameras.size(); ++c) {
+            const Bias& b = end_.biases[c];
             solution.cameras.push_back(
-                {pose_of(cameras_[c]), Matrix6::Zero(), {b[0], b[1], b[2], b[3]}, {}});
+                {end_.cameras[c], Matrix6::Zero(), {b[0], b[1], b[2], b[3]}, {}});
         }
-        for (const Block& board : boards_)
-            solution.reference_from_board.push_back(pose_of(board));
+        solution.reference_from_board = end_.boards;
         for (const BoardView& view : views_)
             solution.view_error_m.push_back(
                 corner_distance_m(target_,
@@ -244,32 +151,21 @@ public:
     }
 
     // Adds them to the solution that solve() gave.
-    void add_covariances(RigSolution& solution) {
-        std::vector<std::pair<const double*, const double*>> wanted;
-        for (std::size_t c = 0; c < cameras_.size(); ++c) {
-            if (c > 0)
-                wanted.push_back({cameras_[c].data(), cameras_[c].data()});
-            wanted.push_back({biases_[c].data(), biases_[c].data()});
-        }
-        ceres::Covariance::Options options;
-        options.algorithm_type = ceres::DENSE_SVD;
-        ceres::Covariance covariance(options);
-        if (!covariance.Compute(wanted, &problem_)) {
+    void add_covariances(RigSolution& solution) const {
+        const std::optional<Eigen::MatrixXd> covariance = inverse_of_scaled(form(end_).information);
+        if (!covariance) {
             solution.converged = false;
             return;
         }
-        for (std::size_t c = 0; c < cameras_.size(); ++c) {
-            Eigen::Matrix<double, 4, 4, Eigen::RowMajor> bias;
-            covariance.GetCovarianceBlock(biases_[c].data(), biases_[c].data(), bias.data());
-            const Eigen::Vector4d sigma = bias.diagonal().cwiseSqrt();
+        for (std::size_t c = 0; c < end_.cameras.size(); ++c) {
+            const Eigen::Index bias = bias_column(c);
+            const Eigen::Vector4d sigma =
+                covariance->diagonal().segment<bias_unknowns>(bias).cwiseSqrt();
             solution.cameras[c].bias_sigma = {sigma[0], sigma[1], sigma[2], sigma[3]};
             if (c == 0)
                 continue;
-            Eigen::Matrix<double, 6, 6, Eigen::RowMajor> block;
-            covariance.GetCovarianceBlockInTangentSpace(cameras_[c].data(), cameras_[c].data(),
-                                                        block.data());
-            // The solver's tangent is half the angle, about the reference's axes: to the camera's.
-            const Mat3 m = matrix_from_quat(pose_of(cameras_[c]).rotation);
+            // From half angles about the reference's axes to angles about the camera's.
+            const Mat3 m = matrix_from_quat(end_.cameras[c].rotation);
             Matrix3 camera_from_reference;
             for (int i = 0; i < 3; ++i)
                 for (int j = 0; j < 3; ++j)
@@ -277,49 +173,78 @@ public:
             Matrix6 change = Matrix6::Zero();
             change.topLeftCorner<3, 3>() = 2 * camera_from_reference;
             change.bottomRightCorner<3, 3>() = camera_from_reference;
-            solution.cameras[c].covariance = change * block * change.transpose();
+            const Eigen::Index at = camera_column(c);
+            solution.cameras[c].covariance =
+                change * covariance->block<pose_unknowns, pose_unknowns>(at, at) *
+                change.transpose();
         }
     }
 
 private:
-    void add_parameters() {
-        using PoseManifold =
-            ceres::ProductManifold<ceres::QuaternionManifold, ceres::EuclideanManifold<3>>;
-        for (auto* blocks : {&cameras_, &boards_})
-            for (Block& block : *blocks)
-                problem_.AddParameterBlock(block.data(), 7, new PoseManifold);
-        problem_.SetParameterBlockConstant(cameras_[0].data());
+    // Columns: poses of cameras from 1 on, depth errors of all cameras, poses of boards that a
+    // camera sees.
+    Eigen::Index camera_column(std::size_t camera) const {
+        return pose_unknowns * (Eigen::Index(camera) - 1);
+    }
+    Eigen::Index bias_column(std::size_t camera) const {
+        return camera_column(start_.cameras.size()) + bias_unknowns * Eigen::Index(camera);
+    }
+    Eigen::Index board_column(std::size_t board) const {
+        return bias_column(start_.cameras.size()) + pose_unknowns * seen_[board];
+    }
+    Eigen::Index unknown_count() const {
+        return bias_column(start_.cameras.size()) + pose_unknowns * seen_count_;
     }
 
-    void add_views(const RigOptions& options) {
-        const Bias sigma{options.offset_m, options.slope_m, options.slope_m, options.per_m};
-        for (Bias& bias : biases_) {
-            for (const double one : sigma)
-                log_roots_ -= std::log(one);
-            problem_.AddResidualBlock(
-                new ceres::AutoDiffCostFunction<BiasPrior, 4, 4>(new BiasPrior{sigma}), nullptr,
-                bias.data());
-        }
-        for (const BoardView& view : views_) {
-            auto* const depth = new DepthError(depth_error(view, target_, options));
-            log_roots_ += depth->root_information.diagonal().array().log().sum();
-            double* const camera = cameras_[std::size_t(view.camera)].data();
-            double* const board = boards_[std::size_t(view.place)].data();
-            problem_.AddResidualBlock(new ceres::AutoDiffCostFunction<EdgeError, 6, 7, 7>(
-                                          new EdgeError(edge_error(view, target_))),
-                                      new ceres::HuberLoss(options.outlier_sigmas), camera, board);
-            problem_.AddResidualBlock(
-                new ceres::AutoDiffCostFunction<DepthError, 3, 7, 7, 4>(depth),
-                new ceres::HuberLoss(options.outlier_sigmas), camera, board,
-                biases_[std::size_t(view.camera)].data());
+    double prior_cost(const RigUnknowns& at) const {
+        double sum = 0;
+        for (const Bias& bias : at.biases)
+            sum += (bias.array() / bias_sigma_.array()).square().sum() / 2;
+        return sum;
+    }
+
+    ViewErrors::Both errors(std::size_t view, const RigUnknowns& at) const {
+        const std::size_t camera = std::size_t(views_[view].camera);
+        return errors_[view].at(at.cameras[camera], at.boards[std::size_t(views_[view].place)],
+                                at.biases[camera]);
+    }
+
+    template <int n>
+    void add(QuadraticForm& form, std::size_t view, const Residual<n>& residual) const {
+        const HuberLoss loss(residual.value.squaredNorm(), outlier_sigmas_);
+        form.cost += loss.cost;
+        const Eigen::Matrix<double, view_unknowns, 1> gradient =
+            loss.weight * residual.derivatives.transpose() * residual.value;
+        const Eigen::Matrix<double, view_unknowns, view_unknowns> information =
+            loss.weight * residual.derivatives.transpose() * residual.derivatives;
+        // Where the unknowns of a view stand among all, and how many they are.
+        struct Part {
+            Eigen::Index in_view, in_all, count;
+        };
+        const std::size_t camera = std::size_t(views_[view].camera);
+        const Part parts[] = {
+            {0, camera_column(camera), camera > 0 ? pose_unknowns : 0},
+            {pose_unknowns, board_column(std::size_t(views_[view].place)), pose_unknowns},
+            {2 * pose_unknowns, bias_column(camera), bias_unknowns}};
+        for (const Part& a : parts) {
+            if (a.count == 0)
+                continue;
+            form.gradient.segment(a.in_all, a.count) += gradient.segment(a.in_view, a.count);
+            for (const Part& b : parts)
+                if (b.count > 0)
+                    form.information.block(a.in_all, b.in_all, a.count, b.count) +=
+                        information.block(a.in_view, b.in_view, a.count, b.count);
         }
     }
 
     const std::vector<BoardView>& views_;
     const LatticeTarget& target_;
-    std::vector<Block> cameras_, boards_;
-    std::vector<Bias> biases_;
-    ceres::Problem problem_;
+    const double outlier_sigmas_;
+    const Bias bias_sigma_;
+    std::vector<ViewErrors> errors_;  // by view
+    std::vector<int> seen_;           // by place: its number among those that a camera sees, or -1
+    int seen_count_ = 0;
+    RigUnknowns start_, end_;
     double log_roots_ = 0;  // of the determinants of all information that depends on the options
 };
 

@@ -10,7 +10,7 @@ namespace {
 
 using std::chrono::seconds;
 
-class CamerasOnOneArm : public testing::Test {
+class CamerasOnOneArm : public ::testing::Test {
 protected:
     CamerasOnOneArm() {
         for (int i = 0; i < 3; ++i)
@@ -55,7 +55,7 @@ protected:
     void expect_alarms_of_the_arm() const {
         for (std::size_t w = 0; w < watches_.size(); ++w)
             for (std::size_t c = 0; c < 2; ++c) {
-                SCOPED_TRACE(testing::Message() << w + 2 << " cameras, camera " << c);
+                SCOPED_TRACE(::testing::Message() << w + 2 << " cameras, camera " << c);
                 const RigWatch::Motion& motion = watches_[w].motion(c);
                 EXPECT_TRUE(motion.is_alarm);
                 EXPECT_EQ(motion.renewals, 0) << "it is compared with what it sees now";

@@ -34,7 +34,7 @@ double distance_to(const Block& block, Vec3 from, Vec3 way) {
 }
 
 // A camera above the end of a table in a room with a cupboard and a lamp.
-class BlockRoom : public testing::Test {
+class BlockRoom : public ::testing::Test {
 protected:
     BlockRoom() {
         calibration_.depth = {{320, 288}, 252, 252, 159.5, 143.5, {}, {}};

@@ -20,7 +20,7 @@ double cpu_ms() {
 }
 
 // Cameras around a surgeon and an assistant at work.
-class Watching : public testing::Test {
+class Watching : public ::testing::Test {
 protected:
     Watching() {
         for (int i = 0; i < 2; ++i)
@@ -217,7 +217,7 @@ DepthImage bed(const Pose& room_from_camera, const SurfaceCamera& camera, Vec2 h
 }
 
 // Two cameras close above the bed, which is most of their pictures, and one that sees the room.
-class RaisedTable : public testing::Test {
+class RaisedTable : public ::testing::Test {
 protected:
     void add_camera(Vec3 from, Vec3 to) {
         const Calibration c = synthetic::synthetic_camera(synthetic::Variant::room, 0, 2, {});

@@ -14,7 +14,7 @@ double apart_m(const Pose& a, const Pose& b) {
 }
 
 // Two cameras at the room's table, one of them wrongly placed.
-class Refining : public testing::Test {
+class Refining : public ::testing::Test {
 protected:
     Refining() {
         for (int i = 0; i < 2; ++i) {
