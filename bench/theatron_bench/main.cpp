@@ -9,10 +9,13 @@
 #include "base/error.h"
 #include "bench_commands.h"
 #include "capture/mkv_reader.h"
+#include "ffmpeg/ffmpeg.h"
 
 int main(int argc, char** argv) {
     try {
         theatron::sandbox::run_as_child(argc, argv, theatron::capture::foreign_readers);
+        // Yardsticks call it; this program is linked with FFmpeg for further functions anyway.
+        theatron::ffmpeg::load_if_there();
         CLI::App app("Measure codecs, filters, renderers and the whole way of a frame",
                      "theatron bench");
         app.require_subcommand(1);

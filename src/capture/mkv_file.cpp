@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "capture/readable_file.h"
+#include "ffmpeg/ffmpeg.h"
 #include "sandbox/child.h"
 
 namespace theatron::capture {
@@ -61,7 +62,8 @@ bool is_cut_off(ByteView beginning, std::uint64_t file_bytes) {
 
 struct MkvFile::Process {
     Process(const std::filesystem::path& path, const sandbox::Limits& limits)
-        : file(path), child("mkv", file.descriptor(), "the file " + quoted(path), limits) {}
+        : file(path),
+          child(ffmpeg::needed_by("mkv"), file.descriptor(), "the file " + quoted(path), limits) {}
 
     void request(MkvRequest what) {
         const auto message = std::byte(what);

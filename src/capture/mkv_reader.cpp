@@ -12,6 +12,7 @@ extern "C" {
 #include <string_view>
 
 #include "capture/av_input.h"
+#include "ffmpeg/ffmpeg.h"
 
 namespace theatron::capture {
 namespace {
@@ -67,6 +68,7 @@ struct MkvReader::Library {
 };
 
 MkvReader::Kind MkvReader::Library::open() {
+    ffmpeg::load_if_there();
     av_log_set_level(AV_LOG_QUIET);
     file = avformat_alloc_context();
     if (!file)

@@ -13,6 +13,7 @@
 #include "capture/mkv_answer.h"
 #include "capture/source_readers.h"
 #include "capture/video_reader.h"
+#include "ffmpeg/ffmpeg.h"
 #include "sandbox/inside.h"
 
 namespace theatron::capture {
@@ -49,10 +50,10 @@ private:
 
 // For run_as_child(): the readers that cameras need.
 inline constexpr sandbox::Reader foreign_readers[] = {
-    {"mkv", sandbox::Profile::file, MkvReader::serve},
-    {"video", sandbox::Profile::library, serve_video},
-    {"rtsp", sandbox::Profile::stream, serve_rtsp},
+    {"mkv", sandbox::Profile::file, MkvReader::serve, ffmpeg::load_if_there},
+    {"video", sandbox::Profile::library, serve_video, ffmpeg::load_if_there},
+    {"rtsp", sandbox::Profile::stream, serve_rtsp, ffmpeg::load_if_there},
     {"x11", sandbox::Profile::display, serve_x11},
-    {"v4l2", sandbox::Profile::device, serve_v4l2}};
+    {"v4l2", sandbox::Profile::device, serve_v4l2, ffmpeg::load_if_there}};
 
 }  // namespace theatron::capture

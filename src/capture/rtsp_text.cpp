@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "capture/rtsp_text.h"
+#include "ffmpeg/ffmpeg.h"
 
 extern "C" {
 #include <libavutil/base64.h>
@@ -95,6 +96,7 @@ std::string parameter(std::string_view list, std::string_view name) {
 }
 
 std::string md5(const std::string& text) {
+    ffmpeg::load_if_there();
     std::uint8_t sum[16];
     av_md5_sum(sum, reinterpret_cast<const std::uint8_t*>(text.data()), int(text.size()));
     std::string hex;
@@ -267,6 +269,7 @@ std::optional<RtspTrack> find_rtsp_track(std::string_view description, std::stri
 std::string rtsp_authorization(const RtspUrl& url, std::string_view challenge,
                                std::string_view method, std::string_view address) {
     if (begins_with_word(challenge, "Basic")) {
+        ffmpeg::load_if_there();
         const std::string plain = url.user + ":" + url.password;
         std::string coded(AV_BASE64_SIZE(plain.size()), '\0');
         if (!av_base64_encode(coded.data(), int(coded.size()),

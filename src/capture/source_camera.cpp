@@ -16,6 +16,7 @@
 #include "capture/source_inputs.h"
 #include "capture/video_answer.h"
 #include "capture/x11_windows.h"
+#include "ffmpeg/ffmpeg.h"
 #include "geometry/screen.h"
 #include "image/frame_pool.h"
 #include "sandbox/child.h"
@@ -222,7 +223,8 @@ std::unique_ptr<Camera> open_rtsp_camera(Options& options, const Progress&) {
             "A network stream is written as rtsp://HOST/PATH or "
             "rtsp://USER:PASSWORD@HOST:PORT/PATH.");
     const std::string subject = "the stream '" + url->address + "'";
-    Opening opening{"rtsp", subject, "rtsp:" + options.value(), taken.wanted, 30, false};
+    Opening opening{
+        ffmpeg::needed_by("rtsp"), subject, "rtsp:" + options.value(), taken.wanted, 30, false};
     return std::make_unique<SourceCamera>(connect_to(url->host, url->port, subject), opening,
                                           taken.name.empty() ? url->host : taken.name,
                                           taken.width_m);
@@ -235,9 +237,12 @@ std::unique_ptr<Camera> open_v4l2_camera(Options& options, const Progress&) {
         throw Error("A video device needs its file, as in v4l2:/dev/video0.");
     const std::filesystem::path path = options.value();
     const SourceInput device = open_video_device(path);
-    const Opening opening{
-        "v4l2", "the video device " + quoted(path), "", taken.wanted, taken.frames_per_second,
-        false};
+    const Opening opening{ffmpeg::needed_by("v4l2"),
+                          "the video device " + quoted(path),
+                          "",
+                          taken.wanted,
+                          taken.frames_per_second,
+                          false};
     return std::make_unique<SourceCamera>(
         device, opening, taken.name.empty() ? path.filename().string() : taken.name, taken.width_m);
 }

@@ -10,6 +10,7 @@
 #include "capture/readable_file.h"
 #include "capture/source_camera.h"
 #include "capture/video_answer.h"
+#include "ffmpeg/ffmpeg.h"
 #include "geometry/screen.h"
 #include "sandbox/child.h"
 
@@ -24,7 +25,7 @@ public:
     explicit VideoRecording(const std::filesystem::path& path)
         : path_(path),
           file_(path),
-          child_("video", file_.descriptor(), "the file " + quoted(path)) {
+          child_(ffmpeg::needed_by("video"), file_.descriptor(), "the file " + quoted(path)) {
         opened_ = open();
     }
 

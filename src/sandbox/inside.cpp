@@ -81,6 +81,8 @@ std::span<std::byte> map_area(std::size_t bytes) {
 }
 
 int run(const Reader& reader, char** argv) {
+    if (reader.prepare)
+        reader.prepare();
     const std::span<std::byte> area = map_area(number(argv[area_argument]));
     if (area.empty() || !limit_resources(number(argv[memory_argument]), number(argv[cpu_argument])))
         return ended_no_limits;

@@ -35,6 +35,8 @@ struct Reader {
     Profile profile;
     // Runs until receive() returns nullopt. std::bad_alloc is reported as too much memory.
     void (*run)(Inside& inside);
+    // Opens libraries that `run` needs, before the limits and the system-call filter forbid it.
+    void (*prepare)() = nullptr;
 };
 
 // In a child: applies the limits, runs the reader that the parent named, and does not return. In

@@ -8,6 +8,7 @@ extern "C" {
 #include <cassert>
 
 #include "base/error.h"
+#include "ffmpeg/ffmpeg.h"
 #include "video/avc_engine_native.h"
 #include "video/libavcodec_native.h"
 
@@ -117,14 +118,18 @@ struct AvcDecoder::Library {
     }
 };
 
-AvcDecoder::AvcDecoder() : library_(std::make_unique<Library>()) {
+AvcDecoder::AvcDecoder() {
     if (const std::string reason = problem(); !reason.empty())
         throw Error(reason);
+    library_ = std::make_unique<Library>();
 }
 
 AvcDecoder::~AvcDecoder() = default;
 
 std::string AvcDecoder::problem() {
+    if (!ffmpeg::problem().empty())
+        return "There is no H.264 decoder on this machine (" + ffmpeg::problem() +
+               "); choose another codec.";
     if (avcodec_find_decoder(AV_CODEC_ID_H264))
         return "";
     return "There is no H.264 decoder on this machine (its libavcodec is built without); "

@@ -7,6 +7,7 @@ extern "C" {
 
 #include <cassert>
 
+#include "ffmpeg/ffmpeg.h"
 #include "video/avc_engine_native.h"
 #include "video/libavcodec_native.h"
 
@@ -121,7 +122,7 @@ Result<AvcEncoder::Encoded> X264::encode(bool key) {
 }  // namespace
 
 bool has_x264() {
-    return avcodec_find_encoder_by_name(library_name) != nullptr;
+    return ffmpeg::problem().empty() && avcodec_find_encoder_by_name(library_name) != nullptr;
 }
 
 std::unique_ptr<AvcEngine> make_x264(const AvcParams& params) {
