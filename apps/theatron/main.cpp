@@ -12,6 +12,7 @@
 #include "capture/mkv_reader.h"
 #include "cases/foreign_files.h"
 #include "commands.h"
+#include "licences.h"
 #include "link_argument.h"
 #include "session_flags.h"
 #include "unknown_command.h"
@@ -40,6 +41,9 @@ int run(int argc, char** argv) {
         "  theatron demo");
     app.require_subcommand(1);
     app.set_version_flag("--version", THEATRON_VERSION);
+    app.add_flag_callback(
+        "--licences", [] { throw CLI::CallForVersion(std::string(theatron::app::licences()), 0); },
+        "Print the licence of Theatron, and the notices of the works that it contains");
     const std::vector<std::string> arguments = theatron::app::take_arguments(argc, argv);
     theatron::app::PartedWords words{arguments, {}};
     if (argc > 1 && arguments[1] == "host")

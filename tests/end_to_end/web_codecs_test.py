@@ -44,7 +44,7 @@ class UnderNode(unittest.TestCase):
 class InThePage(unittest.TestCase):
     def test_it_shows_the_notices_of_its_libraries(self):
         notices = next(PAGE.parent.glob("licences.*.txt")).read_text()
-        for holder in ("Yann Collet", "Meta Platforms", "Xiph.Org"):
+        for holder in ("Yann Collet", "Meta Platforms", "Xiph.Org", "nlohmann", "musl", "libhwy-dev"):
             self.assertIn(holder, notices)
 
     def test_the_link_and_the_key_choose_a_codec(self):

@@ -1,0 +1,23 @@
+# SPDX-License-Identifier: Apache-2.0
+# theatron_notices(FILE [TEXT text] PACKAGES package...)
+#
+# Writes FILE: the licence of Theatron, TEXT, and the notices of Debian packages whose code becomes part of a
+# program (headers, static libraries, fonts), from the copyright files that the packages install. A shared
+# library comes with its own package and is not named here.
+function(theatron_notices file)
+  cmake_parse_arguments(N "" "TEXT" "PACKAGES" ${ARGN})
+  set(notices "Theatron, copyright 2026 the Theatron authors, Apache License 2.0\n")
+  string(APPEND notices "It contains parts of the works below, under the terms that follow each name.\n${N_TEXT}")
+  foreach(package ${N_PACKAGES})
+    set(copyright /usr/share/doc/${package}/copyright)
+    if(EXISTS ${copyright})
+      file(READ ${copyright} text)
+    else()
+      set(text "The package ${package} installed no ${copyright} where this program was built.\n")
+    endif()
+    string(APPEND notices "\n== ${package}\n\n${text}")
+  endforeach()
+  # An equal file stays untouched, so that nothing is compiled again.
+  file(WRITE ${file}.new "${notices}")
+  file(COPY_FILE ${file}.new ${file} ONLY_IF_DIFFERENT)
+endfunction()
