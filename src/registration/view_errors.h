@@ -27,7 +27,7 @@ struct Residual {
     Eigen::Matrix<double, n, view_unknowns> derivatives;
 };
 
-// What one view measures: a pose by the edges of the board, and the depth of its face.
+// The measurements of one view: a pose by the edges of the board, and the depth of its face.
 class ViewErrors {
 public:
     ViewErrors(const BoardView& view, const LatticeTarget& target, const RigOptions& options);
