@@ -133,7 +133,9 @@ class RealProcesses(unittest.TestCase):
         before = patience.processor_seconds()
         self.assertGreater(before, 0)
         self.assertLess(patience.processor_seconds() - before, patience.MOVES_S)
-        self.start("import subprocess, sys; subprocess.run([sys.executable, '-c', 'while True: pass'])")
+        # It ends by itself: nobody kills a grandchild.
+        work = "import time\nwhile time.process_time() < 1: pass"
+        self.start(f"import subprocess, sys; subprocess.run([sys.executable, '-c', {work!r}])")
         patience.wait_until(lambda: patience.processor_seconds() > before + 0.2, "work of a grandchild")
 
     def test_a_command_runs_to_its_end(self):
