@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Runs every fuzz target for SECONDS, starting from tests/corpus/TARGET (chosen by hand) and
-# tests/corpus/TARGET.tar.gz (what longer runs found, minimised).
+# Runs every fuzz target for SECONDS, starting from tests/corpus/TARGET (chosen by hand),
+# tests/corpus/TARGET.tar.gz (what longer runs found, minimised) and the files that tests/foreign makes.
 # Usage: fuzz.sh [SECONDS [TARGET...]]
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -13,6 +13,8 @@ cmake --build --preset dev --target fuzzers
 mapfile -t targets < build/dev/fuzzers.txt
 [ $# -eq 0 ] || targets=("$@")
 
+python3 -B tests/foreign/foreign_test.py --seeds build/dev/foreign
+
 # Two at a time where there are two cores; each says how it went when it has ended.
 fuzz_one() {
     local time=$1 target=$2 binary found=build/dev/corpus/$2 log=build/dev/$2.log seeds=()
@@ -20,6 +22,7 @@ fuzz_one() {
     mkdir -p "$found"
     [ -f "tests/corpus/$target.tar.gz" ] && tar -xzf "tests/corpus/$target.tar.gz" -C "$found"
     [ -d "tests/corpus/$target" ] && seeds=("tests/corpus/$target")
+    [ -d "build/dev/foreign/$target" ] && seeds+=("build/dev/foreign/$target")
     if ! "$binary" -max_total_time="$time" -rss_limit_mb=2048 -timeout=10 -print_final_stats=1 \
         -artifact_prefix="build/dev/$target-" "$found" "${seeds[@]}" > "$log" 2>&1; then
         printf '%-28s FAILED\n' "$target"

@@ -180,8 +180,8 @@ medical::Window window_of(const std::string& text) {
     medical::Window window;
     int end = 0;
     if (std::sscanf(text.c_str(), "%lf,%lf%n", &window.center, &window.width, &end) != 2 ||
-        end != int(text.size()) || !(window.width >= 1 && window.width <= 1e6) ||
-        !(std::abs(window.center) <= 1e6))
+        end != int(text.size()) || !(window.width > 0 && window.width <= 1e9) ||
+        !(std::abs(window.center) <= 1e9))
         throw Error("'" + text + "' is no window; there are " + names +
                     "or centre and width as in 40,400.");
     return window;

@@ -147,8 +147,8 @@ bool change_screen(client::Participant& participant, const std::string& what, st
                         ", or give centre and width.");
         } else {
             std::istringstream number(which);
-            screen.center = read_number(number, -20'000, 20'000, "The centre of a window");
-            screen.width = read_number(words, 1, 20'000, "The width of a window");
+            screen.center = read_number(number, -1e9, 1e9, "The centre of a window");
+            screen.width = read_number(words, 1e-9, 1e9, "The width of a window");
         }
     }
     return viewer::set_screen(participant, screen);

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cases/dicom_identifiers.h"
 
-#include <gdcmDataSet.h>
-#include <gdcmSequenceOfItems.h>
-
 #include <algorithm>
 
 namespace theatron::cases {
@@ -48,34 +45,24 @@ constexpr KnownTag identifying_inside[] = {{"OtherPatientNames", 0x0010, 0x0010}
                                            {"OtherPatientNames", 0x0010, 0x1001},
                                            {"OtherPatientNames", 0x0010, 0x1005}};
 
-void add(const gdcm::DataSet& data, const KnownTag& tag, std::vector<Identifier>& found) {
-    const gdcm::Tag place(tag.group, tag.element);
-    if (found.size() == max_identifiers || !data.FindDataElement(place))
+void add(const DicomSet& set, const KnownTag& tag, std::vector<Identifier>& found) {
+    if (found.size() == max_identifiers)
         return;
-    const gdcm::ByteValue* value = data.GetDataElement(place).GetByteValue();
-    if (!value)
-        return;
-    std::string text(value->GetPointer(),
-                     std::min<std::size_t>(value->GetLength(), max_dicom_text));
-    while (!text.empty() && (text.back() == ' ' || text.back() == '\0'))
-        text.pop_back();
-    Identifier identifier{tag.name, std::move(text)};
+    const DicomTag place = DicomTag(tag.group) << 16 | tag.element;
+    Identifier identifier{tag.name, set.text(place, max_dicom_text)};
     if (!identifier.value.empty() &&
         std::find(found.begin(), found.end(), identifier) == found.end())
         found.push_back(std::move(identifier));
 }
 
-void add_of_sequences(const gdcm::DataSet& data, int depth, std::vector<Identifier>& found) {
+void add_of_sequences(const DicomSet& set, int depth, std::vector<Identifier>& found) {
     if (depth == deepest_sequence)
         return;
-    for (const gdcm::DataElement& element : data.GetDES()) {
-        if (element.IsEmpty())
+    for (const DicomElement& element : set.elements()) {
+        // Texts begin otherwise than an item does.
+        if (element.tag == pixel_data_tag)
             continue;
-        const auto* sequence = dynamic_cast<const gdcm::SequenceOfItems*>(&element.GetValue());
-        if (!sequence)
-            continue;
-        for (gdcm::SequenceOfItems::SizeType i = 1; i <= sequence->GetNumberOfItems(); ++i) {
-            const gdcm::DataSet& item = sequence->GetItem(i).GetNestedDataSet();
+        for (const DicomSet& item : set.items(element)) {
             for (const KnownTag& tag : identifying_inside)
                 add(item, tag, found);
             add_of_sequences(item, depth + 1, found);
@@ -85,11 +72,11 @@ void add_of_sequences(const gdcm::DataSet& data, int depth, std::vector<Identifi
 
 }  // namespace
 
-std::vector<Identifier> identifiers_in(const gdcm::DataSet& data) {
+std::vector<Identifier> identifiers_in(const DicomSet& set) {
     std::vector<Identifier> found;
     for (const KnownTag& tag : identifying)
-        add(data, tag, found);
-    add_of_sequences(data, 0, found);
+        add(set, tag, found);
+    add_of_sequences(set, 0, found);
     return found;
 }
 

@@ -16,7 +16,8 @@ enum Flag : std::uint8_t {
     inverted = 4,
     deidentified = 8,
     lowered = 16,
-    all_flags = 31
+    has_padding = 32,
+    all_flags = 63
 };
 
 void put_text(ByteWriter& writer, const std::string& text) {
@@ -97,7 +98,13 @@ Bytes encode(const DicomSlice& slice) {
     writer.put(std::uint8_t((slice.has_place ? has_place : 0) |
                             (slice.has_window ? has_window : 0) | (slice.inverted ? inverted : 0) |
                             (slice.deidentified ? deidentified : 0) |
-                            (slice.lowered ? lowered : 0)));
+                            (slice.lowered ? lowered : 0) | (slice.has_padding ? has_padding : 0)));
+    put_text(writer, slice.problem);
+    for (const std::string& key : slice.keys)
+        put_text(writer, key);
+    writer.put(std::uint32_t(slice.instance));
+    writer.put(std::uint32_t(slice.padding_low));
+    writer.put(std::uint32_t(slice.padding_high));
     for (const Vec3 v : {slice.right, slice.down, slice.position_mm})
         put_vec3(writer, v);
     for (const double v : {slice.column_spacing_mm, slice.row_spacing_mm, slice.slope,
@@ -126,6 +133,13 @@ Result<DicomSlice> decode_dicom_slice(ByteView bytes) {
     slice.inverted = flags & inverted;
     slice.deidentified = flags & deidentified;
     slice.lowered = flags & lowered;
+    slice.has_padding = flags & has_padding;
+    slice.problem = get_text(reader, good);
+    for (std::string& key : slice.keys)
+        key = get_text(reader, good);
+    slice.instance = std::int32_t(reader.get<std::uint32_t>());
+    slice.padding_low = std::int32_t(reader.get<std::uint32_t>());
+    slice.padding_high = std::int32_t(reader.get<std::uint32_t>());
     for (Vec3* v : {&slice.right, &slice.down, &slice.position_mm})
         *v = get_vec3(reader);
     for (double* v : {&slice.column_spacing_mm, &slice.row_spacing_mm, &slice.slope,
@@ -138,8 +152,12 @@ Result<DicomSlice> decode_dicom_slice(ByteView bytes) {
                          slice.rows >= 1 && slice.rows <= medical::max_volume_side;
     const bool is_scale = slice.slope != 0 && is_within(slice.slope, -1e9, 1e9) &&
                           is_within(slice.intercept, -1e9, 1e9);
-    const bool is_window =
-        is_within(slice.window.center, -1e9, 1e9) && is_within(slice.window.width, 1, 1e9);
+    const bool is_window = is_within(slice.window.center, -1e9, 1e9) && slice.window.width > 0 &&
+                           slice.window.width <= 1e9;
+    if (!reader.ok())
+        return Status::truncated;
+    if (good && !slice.problem.empty())
+        return slice;
     if (!good || flags > all_flags || !is_side || !is_scale || !is_window ||
         (slice.has_place && !is_place(slice)))
         return Status::malformed;

@@ -5,6 +5,7 @@
 // bytes. Only the fields below pass through. Texts that identify the patient are kept separately.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -26,8 +27,16 @@ struct Identifier {
     auto operator<=>(const Identifier&) const = default;
 };
 
+// Texts that tell phases and reconstructions of one series apart: see series_parts.h.
+inline constexpr std::size_t slice_keys = 8;
+
 struct DicomSlice {
     std::string series_uid, frame_uid, modality;
+    // Why the image cannot be shown as the file means it, as the end of a sentence that begins with
+    // the file's name. Empty: it can.
+    std::string problem;
+    std::array<std::string, slice_keys> keys;
+    int instance = 0;  // its number in the series
     int columns = 0, rows = 0;
     // Unit vectors along rows and columns, the first pixel's centre, spacing: LPS, millimetres.
     Vec3 right, down, position_mm;
@@ -43,6 +52,9 @@ struct DicomSlice {
     // Stored values, row by row. `lowered`: the file has unsigned values beyond 32767, so 32768
     // was subtracted from all values.
     bool lowered = false;
+    // Samples of these values, both included, hold nothing.
+    bool has_padding = false;
+    int padding_low = 0, padding_high = 0;
     std::vector<std::int16_t> samples;
 };
 

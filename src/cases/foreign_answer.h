@@ -11,16 +11,25 @@
 namespace theatron::cases {
 
 enum class Answer : std::uint8_t {
-    content = 1,      // lies in the shared memory
-    end = 2,          // there is no more
-    no_image = 3,     // DICOM, but no image
-    unreadable = 4,   // not of the format, or damaged
-    cut_off = 5,      // ends before its pixels do
-    color = 6,        // not grey
-    many_frames = 7,  // several images in one file
-    compression = 8,  // in a way that the library does not know
-    too_large = 9,    // for the shared memory
-    no_scale = 10,    // all values would be the same
+    content = 1,       // lies in the shared memory
+    content_and_more,  // as content, and there is another one
+    end,               // there is no more
+    unreadable,        // damaged
+    cut_off,           // ends before its pixels do
+    lacks,             // triangles that it announces
+    compression,       // in a way that is not known
+    too_large,         // for the shared memory, or for a case
+    // Not for us: see NotForUs.
+    no_image,       // DICOM, but no image
+    color,          // not grey
+    many_frames,    // several images in one file, without a place of each
+    other_samples,  // of a kind that is no grey image's: bits, floating-point numbers
+    no_dicom,       // other content than the file's name says
+    no_picture,     // the same
+    no_mesh,        // the same
+    no_triangles,   // points, lines, or nothing at all
+    extension,      // of glTF, which is needed and not known; its name follows
+    other_buffer,   // of glTF, in another file
 };
 
 inline void answer(sandbox::Inside& inside, Answer what, std::size_t bytes = 0) {

@@ -8,10 +8,10 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <sstream>
 
 #include "base/error.h"
 #include "base/outside_text.h"
+#include "cases/dicom_elements.h"
 #include "cases/foreign_answer.h"
 #include "cases/quoted_path.h"
 #include "medical/picture.h"
@@ -66,24 +66,6 @@ void require_size(const fs::path& file, std::size_t limit, const char* advice) {
                     std::to_string(limit >> 20) + " MiB are read; " + advice + ".");
 }
 
-// A PLY file announces in its head how much follows. The library would first make room for it.
-void require_announced(int file, const fs::path& path) {
-    std::string head(64 << 10, '\0');
-    const ssize_t size = pread(file, head.data(), head.size(), 0);
-    head.resize(std::size_t(std::max<ssize_t>(size, 0)));
-    std::istringstream lines(head);
-    const off_t bytes = lseek(file, 0, SEEK_END);
-    std::string line, word, element;
-    while (std::getline(lines, line) && !line.starts_with("end_header")) {
-        std::istringstream words(line);
-        double count = 0;
-        if (words >> word && word == "element" && words >> element >> count &&
-            count > double(bytes))
-            throw Error(quoted_path(path) +
-                        " announces more than it has bytes for: it is cut off or damaged.");
-    }
-}
-
 struct Reply {
     Answer what;
     ByteView content;  // in the shared memory, until the next request
@@ -101,23 +83,63 @@ Reply reply_of(sandbox::Child& child) {
 
 const char* reason_of(Answer what) {
     switch (what) {
+        case Answer::no_image:
+            return "holds no image";
         case Answer::cut_off:
             return "is cut off before its pixels end; copy it again";
         case Answer::color:
             return "is a picture in colour, not a grey image of a series; save it as PNG or JPEG "
                    "to show it";
         case Answer::many_frames:
-            return "holds several images in one file, which is not supported; export one file per "
-                   "image";
+            return "holds several images in one file without a place of each, which is not "
+                   "supported; export one file per image";
+        case Answer::other_samples:
+            return "holds no grey image of 8 or 16 bits (it may be a map, a mask or a dose); "
+                   "export it as such an image";
+        case Answer::no_dicom:
+            return "is no DICOM file, whatever its name says";
+        case Answer::no_picture:
+            return "is neither PNG nor JPEG, whatever its name says; save it as one of them";
+        case Answer::no_mesh:
+            return "is no surface of the format that its name says; export it again";
+        case Answer::no_triangles:
+            return "holds no triangles";
+        case Answer::other_buffer:
+            return "keeps its corners in another file; export it as one file (.glb)";
+        case Answer::lacks:
+            return "holds fewer triangles than it announces: it is cut off or damaged; export it "
+                   "again";
         case Answer::compression:
             return "is damaged, or compressed in a way that is not supported";
         case Answer::too_large:
             return "holds more than is read of one file";
-        case Answer::no_scale:
-            return "has a rescale slope of 0, so its values have no meaning; export it again";
         default:
-            return "is damaged";
+            return "is damaged; export it again";
     }
+}
+
+// Such a file is left out: without it nothing else is wrong.
+bool is_not_for_us(Answer what) {
+    switch (what) {
+        case Answer::no_image:
+        case Answer::color:
+        case Answer::many_frames:
+        case Answer::other_samples:
+        case Answer::no_dicom:
+        case Answer::no_picture:
+        case Answer::no_mesh:
+        case Answer::no_triangles:
+        case Answer::other_buffer:
+            return true;
+        default:
+            return false;
+    }
+}
+
+[[noreturn]] void refuse(const fs::path& file, Answer what) {
+    if (is_not_for_us(what))
+        throw NotForUs(file, reason_of(what));
+    throw Error(quoted_path(file) + " " + reason_of(what) + ".");
 }
 
 }  // namespace
@@ -163,16 +185,15 @@ private:
 DicomFiles::DicomFiles() : input_(std::make_unique<Input>()) {}
 DicomFiles::~DicomFiles() = default;
 
-std::optional<DicomSlice> DicomFiles::read(const fs::path& file) {
+std::vector<DicomSlice> DicomFiles::read(const fs::path& file) {
     constexpr std::string_view subject = "a DICOM file";
     require_size(file, max_dicom_file_bytes, "export one image per file");
+    identifiers_.clear();
     constexpr std::uintmax_t least_bytes = 132;  // before the first element
     std::error_code unknown;
     if (fs::file_size(file, unknown) < least_bytes)
-        throw Error(quoted_path(file) +
-                    " is too short for a DICOM file; take it out of the folder.");
+        throw NotForUs(file, "is too short for a DICOM file");
     input_->load(file);
-    identifiers_.clear();
     try {
         if (!child_) {
             sandbox::Limits limits;
@@ -181,30 +202,39 @@ std::optional<DicomSlice> DicomFiles::read(const fs::path& file) {
             child_ = std::make_unique<sandbox::Child>("dicom", input_->descriptor(),
                                                       std::string(subject), limits);
         }
-        const std::byte request{1};
-        child_->send({&request, 1});
-        const Reply reply = reply_of(*child_);
-        // The child can still change the shared memory: a copy is checked, not the memory itself.
-        const Bytes copy(reply.content.begin(), reply.content.end());
-        if (reply.what != Answer::content && !copy.empty()) {
-            Result<std::vector<Identifier>> identifiers = decode_identifiers(copy);
-            if (!identifiers)
-                child_->refuse("impossible texts");
-            identifiers_ = std::move(*identifiers);
+        std::vector<DicomSlice> slices;
+        std::size_t samples = 0;
+        while (true) {
+            const std::byte request{1};
+            child_->send({&request, 1});
+            const Reply reply = reply_of(*child_);
+            // The child can still change the shared memory: a copy is checked, not that itself.
+            const Bytes copy(reply.content.begin(), reply.content.end());
+            if (reply.what != Answer::content && reply.what != Answer::content_and_more) {
+                if (!copy.empty()) {
+                    Result<std::vector<Identifier>> identifiers = decode_identifiers(copy);
+                    if (!identifiers)
+                        child_->refuse("impossible texts");
+                    identifiers_ = std::move(*identifiers);
+                }
+                refuse(file, reply.what);
+            }
+            Result<DicomSlice> slice = decode_dicom_slice(copy);
+            if (!slice)
+                throw Error(quoted_path(file) +
+                            " describes an image with an impossible size, place or scale of "
+                            "values; export it again.");
+            if (slices.empty())
+                identifiers_ = slice->identifiers;
+            samples += slice->samples.size();
+            slices.push_back(std::move(*slice));
+            if (reply.what == Answer::content)
+                return slices;
+            if (samples > medical::max_volume_samples)
+                throw Error(quoted_path(file) + " " + reason_of(Answer::too_large) + ".");
         }
-        if (reply.what == Answer::no_image)
-            return std::nullopt;
-        if (reply.what == Answer::color || reply.what == Answer::many_frames)
-            throw NoSlice(quoted_path(file) + " " + reason_of(reply.what) + ".");
-        if (reply.what != Answer::content)
-            throw Error(quoted_path(file) + " " + reason_of(reply.what) + ".");
-        Result<DicomSlice> slice = decode_dicom_slice(copy);
-        if (!slice)
-            throw Error(quoted_path(file) +
-                        " describes an image with an impossible size, place or scale of values; "
-                        "export it again.");
-        identifiers_ = slice->identifiers;
-        return std::move(*slice);
+    } catch (const NotForUs&) {
+        throw;
     } catch (const Error& error) {
         // The child does not know which file it had.
         const std::string text = error.what();
@@ -214,13 +244,17 @@ std::optional<DicomSlice> DicomFiles::read(const fs::path& file) {
     }
 }
 
+NotForUs::NotForUs(const fs::path& file, std::string reason)
+    : Error(quoted_path(file) + " " + reason + "."), reason_(std::move(reason)) {}
+
 bool is_dicom_file(const fs::path& path) {
     const Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW));
-    char head[132] = {};
-    const bool has_preamble = file.get() >= 0 && ::read(file.get(), head, sizeof(head)) == 132 &&
-                              std::memcmp(head + 128, "DICM", 4) == 0;
+    std::byte head[132];
+    const ssize_t size = file.get() >= 0 ? ::read(file.get(), head, sizeof(head)) : 0;
     const std::string extension = lower_extension(path);
-    return has_preamble || extension == ".dcm" || extension == ".ima";
+    const std::string inner = extension == ".gz" ? lower_extension(path.stem()) : extension;
+    return inner == ".dcm" || inner == ".ima" ||
+           begins_as_dicom(ByteView(head, std::size_t(std::max<ssize_t>(size, 0))));
 }
 
 bool is_mesh_file(const fs::path& file) {
@@ -233,8 +267,6 @@ std::vector<NamedMesh> read_mesh_file(const fs::path& path) {
     const Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW));
     if (file.get() < 0)
         throw Error("Cannot open " + quoted_path(path) + ": " + std::strerror(errno) + ".");
-    if (lower_extension(path) == ".ply")
-        require_announced(file.get(), path);
     sandbox::Limits limits;
     limits.memory_bytes = max_reader_memory_bytes;
     limits.area_bytes = mesh_area_bytes;
@@ -248,11 +280,14 @@ std::vector<NamedMesh> read_mesh_file(const fs::path& path) {
         const Reply reply = reply_of(child);
         if (reply.what == Answer::end)
             break;
+        if (reply.what == Answer::extension) {
+            const std::string name(reinterpret_cast<const char*>(reply.content.data()),
+                                   std::min<std::size_t>(reply.content.size(), 100));
+            throw NotForUs(path, "needs the glTF extension '" + clean_text(name, 60) +
+                                     "', which is not read; export it without");
+        }
         if (reply.what != Answer::content)
-            throw Error(quoted_path(path) + " " +
-                        (reply.what == Answer::unreadable ? "is damaged or no mesh"
-                                                          : reason_of(reply.what)) +
-                        ".");
+            refuse(path, reply.what);
         // The child can still change the shared memory: a copy is checked, not the memory itself.
         const Bytes copy(reply.content.begin(), reply.content.end());
         Result<NamedMesh> mesh = decode_named_mesh(copy);
@@ -264,7 +299,7 @@ std::vector<NamedMesh> read_mesh_file(const fs::path& path) {
         child.send({&next, 1});
     }
     if (meshes.empty())
-        throw Error(quoted_path(path) + " holds no triangles.");
+        refuse(path, Answer::no_triangles);
     return meshes;
 }
 
@@ -286,11 +321,10 @@ ColorImage read_picture_file(const fs::path& path) {
     const std::byte request{1};
     child.send({&request, 1});
     const Reply reply = reply_of(child);
+    if (reply.what == Answer::compression)
+        throw NotForUs(path, "has colours for printing (CMYK); save it with RGB colours");
     if (reply.what != Answer::content)
-        throw Error(quoted_path(path) + " " +
-                    (reply.what == Answer::unreadable ? "is damaged or neither PNG nor JPEG"
-                                                      : reason_of(reply.what)) +
-                    ".");
+        refuse(path, reply.what);
     const Bytes copy(reply.content.begin(), reply.content.end());
     Result<ColorImage> picture = medical::decode_picture(copy);
     if (!picture)

@@ -28,11 +28,17 @@ inline constexpr std::size_t max_picture_file_bytes = std::size_t(128) << 20;
 inline constexpr std::size_t max_reader_memory_bytes = std::size_t(2) << 30;
 inline constexpr std::size_t max_meshes_in_file = 1024;
 
-// A DICOM image that is whole but no slice of a series: a picture in colour, or several images in
-// one file. Scanners put such pictures, of doses for example, beside the series.
-class NoSlice : public Error {
+// A file that holds nothing that is imported, though nothing in it is damaged: a picture in colour
+// or a report beside the series, points instead of a surface, other content than its name says. It
+// is left out, and the others are imported.
+class NotForUs : public Error {
 public:
-    using Error::Error;
+    // `reason` as in "holds no triangles".
+    NotForUs(const std::filesystem::path& file, std::string reason);
+    const std::string& reason() const { return reason_; }
+
+private:
+    std::string reason_;
 };
 
 // Reads DICOM files, one after another, in one process.
@@ -41,11 +47,11 @@ public:
     DicomFiles();
     ~DicomFiles();
 
-    // Nothing where the file is DICOM but holds no image: a directory, a report, a plan. Throws
-    // NoSlice, or Error where the file is damaged.
-    std::optional<DicomSlice> read(const std::filesystem::path& file);
+    // The image in the file, or the images of one that holds several with a place of each. Throws
+    // NotForUs, or Error where the file is damaged.
+    std::vector<DicomSlice> read(const std::filesystem::path& file);
 
-    // The texts that identify, in the file that was read last, also where it is no slice.
+    // The texts that identify, in the file that was read last, also where it was left out.
     const std::vector<Identifier>& identifiers() const { return identifiers_; }
 
 private:
@@ -55,8 +61,8 @@ private:
     std::vector<Identifier> identifiers_;
 };
 
-// True if the file begins as DICOM does (PS3.10), or if its beginning belongs to no other known
-// kind and its name ends like a DICOM file's.
+// True if the file begins as DICOM does, with a preamble (PS3.10) or without, or if its name ends
+// like a DICOM file's, packed (.dcm.gz) or not.
 bool is_dicom_file(const std::filesystem::path& file);
 // STL, OBJ, PLY, GLB, by the end of the name.
 bool is_mesh_file(const std::filesystem::path& file);
@@ -68,10 +74,11 @@ struct NamedMesh {
     std::string name;    // that the file gives it; may be empty
     medical::Mesh mesh;  // as in the file: not welded, no normals, the file's unit and axes
 };
-// All surfaces in a file.
+// All surfaces in a file. Throws NotForUs, or Error where the file is damaged.
 std::vector<NamedMesh> read_mesh_file(const std::filesystem::path& file);
 
-// The picture in a file, as medical/picture.h has it: upright, with sides that it allows.
+// The picture in a file as medical/picture.h has it: upright, with sides that it allows. Throws
+// NotForUs, or Error where the file is damaged.
 ColorImage read_picture_file(const std::filesystem::path& file);
 
 // A mesh as its reader hands it over. Safe for any bytes.

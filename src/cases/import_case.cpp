@@ -58,8 +58,8 @@ void require_labels(const ImportOptions& options, const std::set<int>& found) {
 }
 
 std::vector<ImportedPart> parts_of(const SourceFiles& files, const std::optional<Case>& manifest,
-                                   const ImportOptions& options, std::vector<std::string>& remarks,
-                                   const Progress& progress) {
+                                   const ImportOptions& options, LeftOut& left_out,
+                                   std::vector<std::string>& remarks, const Progress& progress) {
     const bool from_labels = options.surfaces_from_labels || files.meshes.empty();
     if (options.surfaces_from_labels && files.label_maps.empty())
         throw Error("The source holds no label map (NIfTI, NRRD) to make surfaces of.");
@@ -72,22 +72,18 @@ std::vector<ImportedPart> parts_of(const SourceFiles& files, const std::optional
             throw Error(
                 "--label names labels of a label map, which is not used here; give "
                 "--from-labels, too.");
-        return import_meshes(files.meshes, manifest, options, remarks, progress);
+        return import_meshes(files.meshes, manifest, options, left_out, remarks, progress);
     }
     std::vector<ImportedPart> parts;
     std::set<int> found;
     for (const fs::path& file : files.label_maps) {
-        std::vector<ImportedPart> more = import_labels(file, options, found, remarks, progress);
+        std::vector<ImportedPart> more =
+            import_labels(file, options, found, left_out, remarks, progress);
         // A file for each organ, as TotalSegmentator writes them: its name is the organ's.
         if (more.size() == 1 && more[0].part.name == "label 1" && options.labels.empty()) {
             std::string name = file.filename().string();
             name = name.substr(0, name.find('.'));
-            std::replace(name.begin(), name.end(), '_', ' ');
-            medical::Part& part = more[0].part;
-            part.name = clean_text(name, max_name_characters);
-            part.role = medical::role_of_name(part.name);
-            part.color = medical::usual_color(part.role);
-            part.opacity = medical::usual_opacity(part.role);
+            more[0].part = usual_part(name);
         }
         std::move(more.begin(), more.end(), std::back_inserter(parts));
     }
@@ -135,6 +131,22 @@ void remark_on_places(const std::vector<ImportedPart>& parts,
     }
 }
 
+// No file is left out without a word.
+void remark_on_others(const SourceFiles& files, std::vector<std::string>& remarks) {
+    std::set<fs::path> read;
+    for (const fs::path& file : files.label_maps)
+        if (const std::optional<fs::path> samples = sample_file_of(file))
+            read.insert(*samples);
+    std::vector<fs::path> unread;
+    for (const fs::path& file : files.others)
+        if (file.filename() != manifest_name && !read.contains(file))
+            unread.push_back(file);
+    if (!unread.empty())
+        remarks.push_back(
+            std::to_string(unread.size()) + (unread.size() == 1 ? " file was" : " files were") +
+            " not read, being of no kind that is imported: " + first_names(unread) + ".");
+}
+
 // Throws Error if a text that was given for everybody to see has the patient's name in it.
 void require_silent(const ImportOptions& options, const PatientWords& words) {
     const auto require = [&](const std::string& text, const char* option) {
@@ -163,18 +175,21 @@ ImportReport import_case(const fs::path& source, const fs::path& folder,
         report.remarks.push_back("Links in the source are not followed, so what they lead to (" +
                                  std::to_string(files.links) + ") is left out.");
     const std::optional<Case> manifest = manifest_of(files);
-    std::vector<ImportedPart> parts = parts_of(files, manifest, options, report.remarks, progress);
+    LeftOut left_out;
+    std::vector<ImportedPart> parts =
+        parts_of(files, manifest, options, left_out, report.remarks, progress);
     if (!manifest)
         make_regions_translucent(parts);
     std::set<Identifier> identifiers;
     std::vector<ImportedSeries> all_series =
-        import_series(files.images, identifiers, report.remarks, progress);
+        import_series(files.images, identifiers, left_out, report.remarks, progress);
     std::vector<ImportedPicture> pictures =
-        import_pictures(files.pictures, manifest, report.remarks, progress);
+        import_pictures(files.pictures, manifest, left_out, report.remarks, progress);
+    left_out.append_to(report.remarks);
     if (parts.empty() && all_series.empty() && pictures.empty())
         throw Error(quoted_path(source) +
                     " holds neither images nor surfaces nor pictures that could be shown." +
-                    (report.remarks.empty() ? "" : " " + report.remarks.back()));
+                    (report.remarks.empty() ? "" : " " + report.remarks.front()));
 
     Case& result = report.manifest;
     PatientWords words;
@@ -241,6 +256,7 @@ ImportReport import_case(const fs::path& source, const fs::path& folder,
     write_identifiers(target.path(), all_series);
     files::write_file(target.path() / manifest_name, as_bytes(manifest_text(result)));
     progress("Writing", 1);
+    remark_on_others(files, report.remarks);
     target.keep();
     return report;
 }

@@ -17,13 +17,11 @@
 #include "files/file_bytes.h"
 #include "files/png_file.h"
 #include "medical/window.h"
-#include "sandbox/filter.h"
 
 namespace theatron::cases {
 namespace {
 
 using ::testing::AllOf;
-using ::testing::AnyOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
@@ -60,10 +58,10 @@ TEST_F(Import, EveryCompressionGivesTheStoredValues) {
             writer.SetImage(change.GetOutput());
             ASSERT_TRUE(writer.Write());
 
-            const std::optional<DicomSlice> read = DicomFiles().read(packed);
-            ASSERT_TRUE(read) << gdcm::TransferSyntax::GetTSString(syntax);
-            EXPECT_EQ(read->samples, slice.samples) << gdcm::TransferSyntax::GetTSString(syntax);
-            EXPECT_EQ(read->position_mm, original.position_mm);
+            const std::vector<DicomSlice> read = DicomFiles().read(packed);
+            ASSERT_EQ(read.size(), 1u) << gdcm::TransferSyntax::GetTSString(syntax);
+            EXPECT_EQ(read[0].samples, slice.samples) << gdcm::TransferSyntax::GetTSString(syntax);
+            EXPECT_EQ(read[0].position_mm, original.position_mm);
         }
     }
 }
@@ -118,15 +116,17 @@ TEST_F(Import, MissingSlicesAreReported) {
     EXPECT_THAT(read_manifest(target()).series.at(0).missing_slices, ElementsAre(3));
 }
 
-TEST_F(Import, MixedOrientationsAreRefused) {
+TEST_F(Import, AScoutBesideASeriesIsLeftOut) {
     write_series(source());
     DicomSlice turned = image(7);
     turned.right = {0, 1, 0};
     turned.down = {0, 0, -1};
     write_image(source() / "turned.dcm", turned, 7);
-    const std::string text = refusal();
-    EXPECT_THAT(text, HasSubstr("mixed orientations"));
-    EXPECT_THAT(text, HasSubstr("image0.dcm'"));
+    const ImportReport report = import();
+    EXPECT_THAT(report.remarks, ElementsAre(AllOf(HasSubstr("1 image of the series with another"),
+                                                  HasSubstr("image0.dcm'"))));
+    EXPECT_EQ(report.manifest.series.size(), 1u);
+    EXPECT_EQ(read_case(target()).volumes.at(0).grid.slices, 5);
 }
 
 TEST_F(Import, PicturesInColourBesideASeriesAreLeftOut) {
@@ -134,13 +134,13 @@ TEST_F(Import, PicturesInColourBesideASeriesAreLeftOut) {
     files::write_file(source() / "dose.dcm", picture_in_colour());
     const ImportReport report = import();
     EXPECT_EQ(report.manifest.series.size(), 1u);
-    EXPECT_THAT(report.remarks, ElementsAre(AllOf(HasSubstr("1 DICOM file is no slice"),
-                                                  HasSubstr("dose.dcm' is a picture in colour"))));
+    EXPECT_THAT(report.remarks,
+                ElementsAre(HasSubstr("dose.dcm' is left out: it is a picture in colour")));
     fs::remove_all(target());
     fs::remove_all(source());
     fs::create_directories(source());
     files::write_file(source() / "dose.dcm", picture_in_colour());
-    EXPECT_THAT(refusal(), HasSubstr("dose.dcm' is a picture in colour"));
+    EXPECT_THAT(refusal(), HasSubstr("dose.dcm' is left out: it is a picture in colour"));
 }
 
 TEST_F(Import, AnImageOfColoursInATableIsLeftOutAlsoWithoutItsTable) {
@@ -157,7 +157,8 @@ TEST_F(Import, AnImageOfColoursInATableIsLeftOutAlsoWithoutItsTable) {
     files::write_file(source() / "colours.dcm", bytes);
     const ImportReport report = import();
     EXPECT_EQ(report.manifest.series.size(), 1u);
-    EXPECT_THAT(report.remarks, ElementsAre(HasSubstr("colours.dcm' is a picture in colour")));
+    EXPECT_THAT(report.remarks,
+                ElementsAre(HasSubstr("colours.dcm' is left out: it is a picture")));
 }
 
 TEST_F(Import, ImagesThatAreThereTwiceAreTakenOnce) {
@@ -195,34 +196,28 @@ TEST_F(Import, AnImageWhoseValuesMeanNothingIsNamed) {
     write_image(source() / "flat.dcm", slice, 0);
     EXPECT_THAT(refusal(), HasSubstr("flat.dcm' has a rescale slope of 0"));
     std::ofstream(source() / "flat.dcm") << "hello";
-    EXPECT_THAT(refusal(), HasSubstr("flat.dcm' is too short for a DICOM file"));
+    EXPECT_THAT(refusal(), HasSubstr("flat.dcm' is left out: it is too short for a DICOM file"));
 }
 
 TEST_F(Import, ATruncatedImageIsNamed) {
-    if (sandbox::has_sanitizer)
-        GTEST_SKIP() << "a sanitizer ends the child in another way";
     write_series(source());
     const std::uintmax_t size = fs::file_size(source() / "image2.dcm");
     for (const std::uintmax_t kept :
          {size - 1, size - 1000, std::uintmax_t(700), std::uintmax_t(400), std::uintmax_t(140)}) {
         write_image(source() / "image2.dcm", image(2), 2);
         fs::resize_file(source() / "image2.dcm", kept);
-        // The library ends its process at some places; then the sentence is about that.
-        EXPECT_THAT(refusal(), AnyOf(HasSubstr("image2.dcm' is cut off"),
-                                     HasSubstr("image2.dcm' made its reader crash")))
-            << kept << " bytes";
+        EXPECT_THAT(refusal(), HasSubstr("image2.dcm' is cut off")) << kept << " bytes";
     }
 }
 
 TEST_F(Import, BytesThatAreNoImageAreNamed) {
-    if (sandbox::has_sanitizer)
-        GTEST_SKIP() << "a sanitizer ends the child in another way";
     fs::create_directories(source());
     std::ofstream(source() / "noise.dcm") << std::string(5000, 'x');
-    EXPECT_THAT(refusal(), HasSubstr("noise.dcm' is damaged"));
+    EXPECT_THAT(refusal(), HasSubstr("noise.dcm' is left out: it is no DICOM file"));
     fs::remove(source() / "noise.dcm");
     std::ofstream(source() / "notes.txt") << "nothing to import";
-    EXPECT_THAT(refusal(), HasSubstr("holds neither DICOM images nor surfaces"));
+    EXPECT_THAT(refusal(), AllOf(HasSubstr("holds neither DICOM images nor surfaces"),
+                                 HasSubstr("notes.txt'")));
 }
 
 }  // namespace

@@ -8,10 +8,8 @@
 #include "base/outside_text.h"
 #include "cases/foreign_files.h"
 #include "cases/import_parts.h"
-#include "cases/label_surface.h"
 #include "cases/manifest.h"
 #include "cases/quoted_path.h"
-#include "files/file_bytes.h"
 #include "medical/mesh_measures.h"
 #include "medical/mesh_shaping.h"
 
@@ -84,16 +82,6 @@ void finish(Mesh& mesh, std::size_t max_triangles) {
     medical::compute_normals(mesh);
 }
 
-Part usual_part(const std::string& name) {
-    Part part;
-    part.name = clean_text(name, max_name_characters);
-    std::replace(part.name.begin(), part.name.end(), '_', ' ');
-    part.role = medical::role_of_name(part.name);
-    part.color = medical::usual_color(part.role);
-    part.opacity = medical::usual_opacity(part.role);
-    return part;
-}
-
 const Part* named_in(const std::optional<Case>& manifest, const fs::path& file) {
     if (!manifest)
         return nullptr;
@@ -126,7 +114,18 @@ void add_part(const fs::path& file, Part part, Mesh mesh, const ImportOptions& o
     parts.push_back({std::move(part), std::move(mesh)});
 }
 
-// A wrong unit makes organs a thousand times too small or too large.
+}  // namespace
+
+Part usual_part(const std::string& name) {
+    Part part;
+    part.name = clean_text(name, max_name_characters);
+    std::replace(part.name.begin(), part.name.end(), '_', ' ');
+    part.role = medical::role_of_name(part.name);
+    part.color = medical::usual_color(part.role);
+    part.opacity = medical::usual_opacity(part.role);
+    return part;
+}
+
 void remark_on_size(const std::vector<ImportedPart>& parts, std::vector<std::string>& remarks) {
     constexpr double least_mm = 10, most_mm = 2000;
     double largest_mm = 0;
@@ -142,11 +141,9 @@ void remark_on_size(const std::vector<ImportedPart>& parts, std::vector<std::str
     remarks.push_back(std::string(text) + ", which no organ is; check the unit (--unit).");
 }
 
-}  // namespace
-
 std::vector<ImportedPart> import_meshes(const std::vector<fs::path>& files,
                                         const std::optional<Case>& manifest,
-                                        const ImportOptions& options,
+                                        const ImportOptions& options, LeftOut& left_out,
                                         std::vector<std::string>& remarks,
                                         const Progress& progress) {
     if (files.size() > max_parts)
@@ -157,7 +154,12 @@ std::vector<ImportedPart> import_meshes(const std::vector<fs::path>& files,
     for (std::size_t i = 0; i < files.size(); ++i) {
         progress("Reading surfaces", double(i) / double(files.size()));
         const Frame frame = frame_of(files[i], manifest, options);
-        std::vector<NamedMesh> meshes = read_mesh_file(files[i]);
+        std::vector<NamedMesh> meshes;
+        try {
+            meshes = read_mesh_file(files[i]);
+        } catch (const NotForUs& error) {
+            left_out.add(files[i], error.reason());
+        }
         for (NamedMesh& named : meshes) {
             const bool alone = meshes.size() == 1 || named.name.empty();
             Part part = usual_part(alone ? files[i].stem().string() : named.name);
@@ -168,55 +170,6 @@ std::vector<ImportedPart> import_meshes(const std::vector<fs::path>& files,
         }
     }
     progress("Reading surfaces", 1);
-    remark_on_size(parts, remarks);
-    return parts;
-}
-
-LabelMap read_label_map(const fs::path& file) {
-    const Bytes bytes = files::read_file(file, max_label_file_bytes);
-    ParsedLabels parsed = is_nrrd_file(file) ? parse_nrrd(bytes) : parse_nifti(bytes);
-    if (!parsed.problem.empty())
-        throw Error("The label map " + quoted_path(file) + " " + parsed.problem + ".");
-    return std::move(parsed.value);
-}
-
-std::vector<ImportedPart> import_labels(const fs::path& file, const ImportOptions& options,
-                                        std::set<int>& found, std::vector<std::string>& remarks,
-                                        const Progress& progress) {
-    progress("Reading the label map", 0);
-    const LabelMap map = read_label_map(file);
-    const std::vector<LabelCount> labels = labels_in(map);
-    if (labels.empty())
-        remarks.push_back("The label map " + quoted_path(file) + " has no labels but 0.");
-    if (labels.size() > max_parts)
-        throw Error("The label map " + quoted_path(file) + " has more than " +
-                    std::to_string(max_parts) +
-                    " labels; save those that matter as a label map of their own.");
-    std::vector<ImportedPart> parts;
-    for (std::size_t i = 0; i < labels.size(); ++i) {
-        const auto tell = [&] { progress("Making surfaces", double(i) / double(labels.size())); };
-        tell();
-        const int value = labels[i].value;
-        found.insert(value);
-        Part part = usual_part("label " + std::to_string(value));
-        for (const LabelName& known : map.names)
-            if (known.value == value)
-                part = usual_part(known.name);
-        for (const LabelChoice& choice : options.labels)
-            if (choice.value == value) {
-                part = usual_part(choice.name);
-                part.role = choice.role;
-                part.color = medical::usual_color(choice.role);
-                part.opacity = medical::usual_opacity(choice.role);
-            }
-        Mesh mesh = surface_of_label(map, value, options.max_triangles, tell);
-        if (mesh.triangles.empty())
-            remarks.push_back("The label " + std::to_string(value) +
-                              " has a surface of too many triangles and is left out.");
-        else
-            parts.push_back({std::move(part), std::move(mesh)});
-    }
-    progress("Making surfaces", 1);
     remark_on_size(parts, remarks);
     return parts;
 }

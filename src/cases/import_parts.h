@@ -9,6 +9,7 @@
 #include "cases/dicom_slice.h"
 #include "cases/import_case.h"
 #include "cases/label_map.h"
+#include "cases/left_out.h"
 #include "cases/source_files.h"
 #include "image/image.h"
 #include "medical/mesh.h"
@@ -27,7 +28,7 @@ struct ImportedSeries {
 // Adds the texts that identify patients in any of the files, also in those that are left out, to
 // `identifiers`.
 std::vector<ImportedSeries> import_series(const std::vector<std::filesystem::path>& files,
-                                          std::set<Identifier>& identifiers,
+                                          std::set<Identifier>& identifiers, LeftOut& left_out,
                                           std::vector<std::string>& remarks,
                                           const Progress& progress);
 
@@ -39,13 +40,14 @@ struct ImportedPart {
 // `manifest`: the parts as a case.json in the source describes them; without one, defaults apply.
 std::vector<ImportedPart> import_meshes(const std::vector<std::filesystem::path>& files,
                                         const std::optional<medical::Case>& manifest,
-                                        const ImportOptions& options,
+                                        const ImportOptions& options, LeftOut& left_out,
                                         std::vector<std::string>& remarks,
                                         const Progress& progress);
-// Adds the values of the labels to `found`.
+// None where the file is no label map, but an image for example. Adds the values of the labels to
+// `found`.
 std::vector<ImportedPart> import_labels(const std::filesystem::path& file,
                                         const ImportOptions& options, std::set<int>& found,
-                                        std::vector<std::string>& remarks,
+                                        LeftOut& left_out, std::vector<std::string>& remarks,
                                         const Progress& progress);
 
 struct ImportedPicture {
@@ -55,10 +57,24 @@ struct ImportedPicture {
 // In the order of their files. `manifest` may name them.
 std::vector<ImportedPicture> import_pictures(const std::vector<std::filesystem::path>& files,
                                              const std::optional<medical::Case>& manifest,
-                                             std::vector<std::string>& remarks,
+                                             LeftOut& left_out, std::vector<std::string>& remarks,
                                              const Progress& progress);
 
-// The label map in a file. Throws Error with one sentence.
-LabelMap read_label_map(const std::filesystem::path& file);
+// The label map in a file, or one layer of several, whose number goes to `layers`. Throws NotForUs,
+// or Error where the file is damaged.
+LabelMap read_label_map(const std::filesystem::path& file, std::size_t layer, std::size_t& layers);
+inline LabelMap read_label_map(const std::filesystem::path& file) {
+    std::size_t layers = 1;
+    return read_label_map(file, 0, layers);
+}
+
+// The file that holds the samples of an NRRD header (.nhdr); nothing where they follow it.
+std::optional<std::filesystem::path> sample_file_of(const std::filesystem::path& header);
+
+// A part of this name as it usually looks.
+medical::Part usual_part(const std::string& name);
+
+// A wrong unit makes organs a thousand times too small or too large.
+void remark_on_size(const std::vector<ImportedPart>& parts, std::vector<std::string>& remarks);
 
 }  // namespace theatron::cases

@@ -26,7 +26,7 @@ std::string picture_name(const fs::path& file, const std::optional<medical::Case
 
 std::vector<ImportedPicture> import_pictures(const std::vector<fs::path>& files,
                                              const std::optional<medical::Case>& manifest,
-                                             std::vector<std::string>& remarks,
+                                             LeftOut& left_out, std::vector<std::string>& remarks,
                                              const Progress& progress) {
     if (files.size() > max_pictures)
         throw Error(
@@ -36,7 +36,12 @@ std::vector<ImportedPicture> import_pictures(const std::vector<fs::path>& files,
     std::vector<ImportedPicture> pictures;
     for (std::size_t i = 0; i < files.size(); ++i) {
         progress("Reading pictures", double(i) / double(files.size()));
-        pictures.push_back({{picture_name(files[i], manifest), ""}, read_picture_file(files[i])});
+        try {
+            pictures.push_back(
+                {{picture_name(files[i], manifest), ""}, read_picture_file(files[i])});
+        } catch (const NotForUs& error) {
+            left_out.add(files[i], error.reason());
+        }
     }
     if (!pictures.empty())
         remarks.push_back(

@@ -8,9 +8,11 @@
 #include "cases/folded_text.h"
 #include "cases/foreign_files.h"
 #include "cases/import_parts.h"
+#include "cases/left_out.h"
 #include "cases/manifest.h"
 #include "cases/quoted_path.h"
 #include "cases/series_builder.h"
+#include "cases/series_parts.h"
 
 namespace theatron::cases {
 namespace {
@@ -75,15 +77,11 @@ bool may_be_one_patient(const DicomSlice& a, const DicomSlice& b) {
 }
 
 struct Slices {
-    fs::path first;  // file
+    fs::path first;       // file
+    std::string problem;  // a sentence on the first image that cannot be shown as its file means it
     std::vector<DicomSlice> slices;
 };
 using SlicesOfSeries = std::map<std::string, Slices>;
-
-std::string files_that(std::size_t count, const char* one_does, const char* several_do) {
-    return std::to_string(count) + (count == 1 ? " DICOM file " : " DICOM files ") +
-           (count == 1 ? one_does : several_do);
-}
 
 // A folder of one patient has fewer.
 constexpr std::size_t max_texts_of_patients = 100'000;
@@ -97,96 +95,107 @@ void add_identifiers(const fs::path& file, const std::vector<Identifier>& of_fil
                     " on; import the images of one patient.");
 }
 
+// `first` and `first_file`: the first image of all, to which the others are compared.
+void require_one_patient(const fs::path& file, const DicomSlice& slice,
+                         std::optional<DicomSlice>& first, fs::path& first_file) {
+    if (first && !may_be_one_patient(*first, slice))
+        throw Error("The images are of more than one patient: " + quoted_path(first_file) +
+                    " is of another one than " + quoted_path(file) +
+                    "; import those of each patient by themselves.");
+    if (first)
+        return;
+    first = slice;
+    first->samples.clear();
+    first_file = file;
+}
+
 SlicesOfSeries read_slices(const std::vector<fs::path>& files, std::set<Identifier>& identifiers,
-                           std::vector<std::string>& remarks, const Progress& progress) {
+                           LeftOut& left_out, const Progress& progress) {
     SlicesOfSeries series;
     std::optional<DicomSlice> first;  // without its samples
     fs::path first_file;
     DicomFiles reader;
-    std::size_t samples = 0, without_image = 0, no_slices = 0;
-    std::string no_slice;  // the first sentence on one
+    std::size_t samples = 0;
     for (std::size_t i = 0; i < files.size(); ++i) {
         progress("Reading images", double(i) / double(files.size()));
-        std::optional<DicomSlice> slice;
+        std::vector<DicomSlice> slices;
         try {
-            slice = reader.read(files[i]);
-        } catch (const NoSlice& error) {
+            slices = reader.read(files[i]);
+        } catch (const NotForUs& error) {
             add_identifiers(files[i], reader.identifiers(), identifiers);
-            if (no_slices++ == 0)
-                no_slice = error.what();
+            left_out.add(files[i], error.reason());
             continue;
         }
         add_identifiers(files[i], reader.identifiers(), identifiers);
-        if (!slice) {
-            ++without_image;
-            continue;
-        }
-        if (first && !may_be_one_patient(*first, *slice))
-            throw Error("The images are of more than one patient: " + quoted_path(first_file) +
-                        " is of another one than " + quoted_path(files[i]) +
-                        "; import those of each patient by themselves.");
-        if (!first) {
-            first = *slice;
-            first->samples.clear();
-            first_file = files[i];
-        }
-        samples += slice->samples.size();
-        if (samples > medical::max_volume_samples)
-            throw Error("The source holds more images than are read at once, from " +
-                        quoted_path(files[i]) + " on; import one series.");
-        Slices& same = series[slice->series_uid];
-        if (same.slices.empty())
+        require_one_patient(files[i], slices.front(), first, first_file);
+        Slices& same = series[slices.front().series_uid];
+        if (same.slices.empty() && same.problem.empty())
             same.first = files[i];
-        same.slices.push_back(std::move(*slice));
+        for (DicomSlice& slice : slices) {
+            samples += slice.samples.size();
+            if (samples > medical::max_volume_samples)
+                throw Error("The source holds more images than are read at once, from " +
+                            quoted_path(files[i]) + " on; import one series.");
+            if (!slice.problem.empty() && same.problem.empty())
+                same.problem = quoted_path(files[i]) + " " + slice.problem + ".";
+            else if (slice.problem.empty())
+                same.slices.push_back(std::move(slice));
+        }
     }
     progress("Reading images", 1);
-    if (no_slices > 0)
-        remarks.push_back(
-            files_that(no_slices, "is no slice of a series and is", "are no slices and are") +
-            " left out: " + no_slice);
-    if (without_image > 0)
-        remarks.push_back(
-            files_that(without_image, "holds no image and is", "hold no image and are") +
-            " left out.");
     return series;
+}
+
+// Adds the volume of one part of a series to `imported`, or a sentence to `problems`.
+void add_volume(std::vector<DicomSlice> slices, const std::string& begins,
+                std::map<std::string, int>& count, std::vector<ImportedSeries>& imported,
+                std::vector<std::string>& problems, std::vector<std::string>& remarks) {
+    ImportedSeries one;
+    one.series.modality = modality_of(slices.front());
+    one.identifiers = slices.front().identifiers;
+    one.frame_uid = slices.front().frame_uid;
+    one.deidentified = std::all_of(slices.begin(), slices.end(),
+                                   [](const DicomSlice& slice) { return slice.deidentified; });
+    BuiltSeries built = build_series(slices);
+    if (!built.problem.empty()) {
+        problems.push_back(built.problem + begins);
+        return;
+    }
+    if (!built.missing_slices.empty())
+        remarks.push_back("The series lacks " + std::to_string(built.missing_slices.size()) +
+                          " of " + std::to_string(built.volume.grid.slices) +
+                          " slices, which stay empty." + begins);
+    if (built.repeated > 0)
+        remarks.push_back(std::to_string(built.repeated) +
+                          (built.repeated == 1 ? " image is" : " images are") +
+                          " in the series twice and taken once." + begins);
+    const int number = ++count[one.series.modality];
+    one.series.name = one.series.modality + (number > 1 ? " " + std::to_string(number) : "");
+    one.series.missing_slices = std::move(built.missing_slices);
+    one.volume = std::move(built.volume);
+    imported.push_back(std::move(one));
 }
 
 }  // namespace
 
 std::vector<ImportedSeries> import_series(const std::vector<fs::path>& files,
-                                          std::set<Identifier>& identifiers,
+                                          std::set<Identifier>& identifiers, LeftOut& left_out,
                                           std::vector<std::string>& remarks,
                                           const Progress& progress) {
     std::vector<ImportedSeries> imported;
     std::vector<std::string> problems;
     std::map<std::string, int> count;
-    for (auto& [uid, read] : read_slices(files, identifiers, remarks, progress)) {
-        std::vector<DicomSlice>& slices = read.slices;
+    for (auto& [uid, read] : read_slices(files, identifiers, left_out, progress)) {
         const std::string begins = " The series begins with " + quoted_path(read.first) + ".";
-        ImportedSeries one;
-        one.series.modality = modality_of(slices.front());
-        one.identifiers = slices.front().identifiers;
-        one.deidentified = std::all_of(slices.begin(), slices.end(),
-                                       [](const DicomSlice& slice) { return slice.deidentified; });
-        BuiltSeries built = build_series(slices);
-        if (!built.problem.empty()) {
-            problems.push_back(built.problem + begins);
+        if (!read.problem.empty()) {
+            problems.push_back(read.problem);
             continue;
         }
-        if (!built.missing_slices.empty())
-            remarks.push_back("The series lacks " + std::to_string(built.missing_slices.size()) +
-                              " of " + std::to_string(built.volume.grid.slices) +
-                              " slices, which stay empty." + begins);
-        if (built.repeated > 0)
-            remarks.push_back(std::to_string(built.repeated) +
-                              (built.repeated == 1 ? " image is" : " images are") +
-                              " in the series twice and taken once." + begins);
-        const int number = ++count[one.series.modality];
-        one.series.name = one.series.modality + (number > 1 ? " " + std::to_string(number) : "");
-        one.series.missing_slices = std::move(built.missing_slices);
-        one.frame_uid = slices.front().frame_uid;
-        one.volume = std::move(built.volume);
-        imported.push_back(std::move(one));
+        SeriesParts split = split_series(std::move(read.slices));
+        for (const std::string& remark : split.remarks)
+            remarks.push_back(remark + begins);
+        for (std::vector<DicomSlice>& part : split.parts)
+            add_volume(std::move(part), begins, count, imported, problems, remarks);
     }
     if (imported.empty() && !problems.empty())
         throw Error(problems.front());

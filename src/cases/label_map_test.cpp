@@ -103,15 +103,14 @@ TEST(Nrrd, EachProblemIsNamed) {
     };
     EXPECT_THAT(parse_nrrd(bytes_of("PNG")).problem, HasSubstr("no NRRD"));
     EXPECT_THAT(parse_nrrd(bytes_of(nrrd_head)).problem, HasSubstr("cut off"));
-    EXPECT_THAT(problem("dimension: 3", "dimension: 4"), HasSubstr("overlapping segments"));
+    EXPECT_THAT(problem("dimension: 3", "dimension: 4"), HasSubstr("three dimensions"));
     EXPECT_THAT(problem("sizes: 3 2 2", "sizes: 3 2 3"), HasSubstr("less than its header"));
     EXPECT_THAT(problem("sizes: 3 2 2", "sizes: 3 2 -2"), HasSubstr("side of no samples"));
     EXPECT_THAT(problem("sizes: 3 2 2", "sizes: 4000 4000 4000"), HasSubstr("more samples"));
     EXPECT_THAT(problem("space: left", "space: top"), HasSubstr("where in the patient"));
     EXPECT_THAT(problem("(0,0.5,0)", "(0.5,0,0)"), HasSubstr("impossible"));
     EXPECT_THAT(problem("unsigned char", "block"), HasSubstr("type"));
-    EXPECT_THAT(problem("", "", "encoding: bzip2\n"), HasSubstr("gzip"));
-    EXPECT_THAT(problem("", "", "encoding: raw\ndata file: x.raw\n"), HasSubstr("another file"));
+    EXPECT_THAT(problem("", "", "encoding: hex\n"), HasSubstr("gzip"));
     EXPECT_THAT(problem("", "", "encoding: gzip\n"), HasSubstr("damaged"));
     EXPECT_THAT(problem("unsigned char", "signed char"), HasSubstr("no labels"));
 }
@@ -182,6 +181,80 @@ TEST(Nifti, AQuaternionGivesThePlaceWhereThereIsNoMatrix) {
     EXPECT_NEAR(length(parsed.value.grid.slice_step_mm - Vec3{0, 0, -2}), 0, 1e-6);
 }
 
+TEST(Nrrd, LayersAreReadOneByOne) {
+    std::string head = nrrd_head;
+    head.replace(head.find("dimension: 3"), 12, "dimension: 4");
+    head.replace(head.find("sizes: 3 2 2"), 12, "sizes: 2 3 2 1");
+    head.replace(head.find("directions: "), 12, "directions: none ");
+    const std::string keys =
+        "encoding: raw\nSegment0_Name:=liver\nSegment0_LabelValue:=1\nSegment0_Layer:=0\n"
+        "Segment1_Name:=tumour\nSegment1_LabelValue:=1\nSegment1_Layer:=1\n";
+    const Bytes file = nrrd(keys, twelve_labels, head);
+    const ParsedLabels first = parse_nrrd(file, 0), second = parse_nrrd(file, 1);
+    ASSERT_EQ(first.problem, "");
+    EXPECT_EQ(first.layers, 2u);
+    EXPECT_THAT(first.value.labels, ElementsAre(0, 1, 2, 0, 0, 0));
+    EXPECT_THAT(second.value.labels, ElementsAre(1, 0, 2, 0, 7, 255));
+    EXPECT_THAT(second.value.names, ElementsAre(LabelName{1, "tumour"}));
+}
+
+TEST(Nrrd, UnitsBecomeMillimetresOrAreNamed) {
+    const auto read = [](const std::string& units) {
+        return parse_nrrd(nrrd("encoding: raw\nSpace Units: " + units + "\n", twelve_labels));
+    };
+    EXPECT_EQ(read("\"cm\" \"cm\" \"cm\"").value.grid.origin_mm, (Vec3{-100, 200, -300}));
+    EXPECT_EQ(read("\"m\" \"m\" \"m\"").value.grid.slice_step_mm, (Vec3{0, 0, 2000}));
+    const ParsedLabels other = read("\"inch\" \"inch\" \"inch\"");
+    EXPECT_THAT(other.problem, HasSubstr("inch"));
+    EXPECT_TRUE(other.is_other_content);
+}
+
+TEST(Nifti, SamplesNearALabelAreThatLabel) {
+    const auto read = [](std::initializer_list<float> values) {
+        Bytes content;
+        for (const float value : values) {
+            content.resize(content.size() + 4);
+            std::memcpy(content.data() + content.size() - 4, &value, 4);
+        }
+        content.resize(48);
+        return parse_nifti(nifti(16, content));
+    };
+    const ParsedLabels parsed = read({0.9999999f, 2.0004f, NAN, -0.0f});
+    ASSERT_EQ(parsed.problem, "");
+    EXPECT_EQ(parsed.value.labels[0], 1);
+    EXPECT_EQ(parsed.value.labels[1], 2);
+    EXPECT_EQ(parsed.value.labels[2], 0);
+    EXPECT_TRUE(read({0.5f}).is_other_content);
+    EXPECT_TRUE(read({-3}).is_other_content);
+}
+
+TEST(Nifti, SeveralPackedPartsAreOneFile) {
+    const Bytes whole = nifti(2, twelve_labels);
+    const auto part = [&](std::size_t begin, std::size_t size) {
+        return gzip(ByteView(whole).subspan(begin, size));
+    };
+    Bytes file = part(0, 100) + part(100, 253) + part(353, whole.size() - 353);
+    file.resize(file.size() + 64);
+    const ParsedLabels parsed = parse_nifti(file);
+    ASSERT_EQ(parsed.problem, "");
+    EXPECT_THAT(parsed.value.labels, ElementsAre(0, 1, 1, 0, 2, 2, 0, 0, 0, 7, 0, 255));
+}
+
+TEST(LabelMap, AnImageIsToldFromAnAtlas) {
+    LabelMap map;
+    map.grid = {32, 32, 32, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    map.labels.resize(map.grid.size());
+    for (std::size_t i = 0; i < map.labels.size(); ++i)
+        map.labels[i] = std::uint16_t(1 + i * 7919 % 199);
+    EXPECT_TRUE(looks_like_an_image(map));
+    for (int z = 0; z < 32; ++z)
+        for (int y = 0; y < 32; ++y)
+            for (int x = 0; x < 32; ++x)
+                map.labels[map.grid.index(x, y, z)] =
+                    std::uint16_t(1 + x / 4 + 8 * (y / 4) + 64 * (z / 8));
+    EXPECT_FALSE(looks_like_an_image(map)) << "256 parcels";
+}
+
 TEST(Nifti, EachProblemIsNamed) {
     const auto changed = [](auto change) {
         Bytes file = nifti(2, twelve_labels);
@@ -191,14 +264,15 @@ TEST(Nifti, EachProblemIsNamed) {
     EXPECT_THAT(parse_nifti({}).problem, HasSubstr("no NIfTI"));
     EXPECT_THAT(changed([](Bytes& f) { f.resize(300); }), HasSubstr("cut off"));
     EXPECT_THAT(changed([](Bytes& f) { f.pop_back(); }), HasSubstr("less than its header"));
-    EXPECT_THAT(changed([](Bytes& f) { f[344] = std::byte('x'); }), HasSubstr("version 1"));
+    EXPECT_THAT(changed([](Bytes& f) { f[344] = std::byte('x'); }), HasSubstr("version 1 or 2"));
     EXPECT_THAT(changed([](Bytes& f) { f[70] = std::byte(3); }), HasSubstr("type"));
     EXPECT_THAT(changed([](Bytes& f) { f[48] = std::byte(5), f[40] = std::byte(4); }),
                 HasSubstr("three dimensions"));
     EXPECT_THAT(changed([](Bytes& f) { f[254] = std::byte(0); }),
                 HasSubstr("where in the patient"));
-    EXPECT_THAT(changed([](Bytes& f) { f[114] = std::byte(0), f[115] = std::byte(0x40); }),
-                HasSubstr("scales"));
+    EXPECT_THAT(changed([](Bytes& f) { f[114] = std::byte(0x80), f[115] = std::byte(0x3e); }),
+                HasSubstr("no labels"))
+        << "a quarter of a label";
     EXPECT_THAT(changed([](Bytes& f) { store_le(&f[108], 0xbf800000u); }), HasSubstr("place"));
     Bytes packed = gzip(nifti(2, twelve_labels));
     packed.resize(packed.size() - 12);

@@ -90,6 +90,29 @@ std::vector<LabelCount> labels_in(const LabelMap& map) {
     return found;
 }
 
+bool looks_like_an_image(const LabelMap& map) {
+    constexpr std::size_t many_values = 40, least_pairs = 1000;
+    constexpr double equal_neighbours = 0.35;
+    if (labels_in(map).size() < many_values)
+        return false;
+    const VolumeGrid& grid = map.grid;
+    const std::size_t row = std::size_t(grid.columns), slice = row * std::size_t(grid.rows);
+    const std::size_t steps[] = {1, row, slice};
+    double least_share = 1;
+    // Pairs at the ends of rows and slices are too few to matter.
+    for (const std::size_t step : steps) {
+        std::size_t pairs = 0, equal = 0;
+        for (std::size_t i = step; i < map.labels.size(); ++i)
+            if (map.labels[i] != 0 && map.labels[i - step] != 0) {
+                ++pairs;
+                equal += map.labels[i] == map.labels[i - step];
+            }
+        if (pairs >= least_pairs)
+            least_share = std::min(least_share, double(equal) / double(pairs));
+    }
+    return least_share < equal_neighbours;
+}
+
 double sample_volume_mm3(const VolumeGrid& grid) {
     return std::abs(dot(grid.column_step_mm, cross(grid.row_step_mm, grid.slice_step_mm)));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads STL, OBJ, PLY and GLB with assimp. Runs in a sandbox, because the library is large and the
-// files are untrusted.
+// Reads STL, PLY and GLB with readers of our own (mesh_files.h), OBJ with assimp. Runs in a
+// sandbox, because the library is large and the files are untrusted.
 #include <assimp/importerdesc.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -15,6 +15,8 @@
 
 #include "cases/foreign_answer.h"
 #include "cases/foreign_files.h"
+#include "cases/foreign_input.h"
+#include "cases/mesh_files.h"
 
 namespace theatron::cases {
 namespace {
@@ -94,84 +96,90 @@ void keep_loaders(Assimp::Importer& importer, const std::string& extension) {
         importer.UnregisterLoader(other);
 }
 
-class Walk {
+// Hands one mesh after another to the parent, each when the next is asked for.
+class Sender {
 public:
-    explicit Walk(sandbox::Inside& inside) : inside_(inside) {}
+    explicit Sender(sandbox::Inside& inside) : inside_(inside) {}
 
-    // Sends one mesh after another, each when the next is asked for.
-    void send(const aiScene& scene, const aiNode& node, const aiMatrix4x4& parent, int depth) {
-        if (depth > deepest_node)
-            return;
-        const aiMatrix4x4 place = parent * node.mTransformation;
-        for (unsigned i = 0; i < node.mNumMeshes; ++i)
-            send(*scene.mMeshes[node.mMeshes[i]], node.mName, place);
-        for (unsigned i = 0; i < node.mNumChildren; ++i)
-            send(scene, *node.mChildren[i], place, depth + 1);
-    }
-    bool wanted() { return wanted_ = wanted_ && inside_.receive().has_value(); }
-
-private:
-    void send(const aiMesh& mesh, const aiString& node_name, const aiMatrix4x4& place) {
-        const aiString& name =
-            mesh.mName.length > 0 && node_name.length == 0 ? mesh.mName : node_name;
-        std::size_t triangles = 0;
-        for (unsigned i = 0; i < mesh.mNumFaces; ++i)
-            triangles += mesh.mFaces[i].mNumIndices == 3;
-        if (triangles == 0)
-            return;
-        const std::size_t name_bytes = std::min<std::size_t>(name.length, max_name_bytes);
+    // False once no further one is wanted.
+    bool send(const NamedMesh& named) {
+        const medical::Mesh& mesh = named.mesh;
+        if (!wanted_ || mesh.triangles.empty())
+            return wanted_;
+        const std::size_t name_bytes = std::min<std::size_t>(named.name.size(), max_name_bytes);
         const std::size_t size =
-            1 + name_bytes + 8 + 12 * std::size_t(mesh.mNumVertices) + 12 * triangles;
-        if (size > inside_.area().size())
-            return answer_and_wait(Answer::too_large, 0);
+            1 + name_bytes + 8 + 12 * mesh.positions.size() + 12 * mesh.triangles.size();
+        if (size > inside_.area().size()) {
+            answer(inside_, Answer::too_large);
+            return wanted_ = false;
+        }
         std::byte* at = inside_.area().data();
         *at++ = std::byte(name_bytes);
-        std::memcpy(at, name.data, name_bytes);
+        std::memcpy(at, named.name.data(), name_bytes);
         at += name_bytes;
-        store_le(at, mesh.mNumVertices);
-        store_le(at + 4, std::uint32_t(triangles));
+        store_le(at, std::uint32_t(mesh.positions.size()));
+        store_le(at + 4, std::uint32_t(mesh.triangles.size()));
         at += 8;
-        for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
-            const aiVector3D p = place * mesh.mVertices[i];
+        for (const medical::Vec3f& p : mesh.positions) {
             const float coordinates[] = {p.x, p.y, p.z};
             std::memcpy(at, coordinates, 12);
             at += 12;
         }
-        const bool mirrored = place.Determinant() < 0;
-        for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
-            const aiFace& face = mesh.mFaces[i];
-            if (face.mNumIndices != 3)
-                continue;
-            store_le(at, face.mIndices[0]);
-            store_le(at + 4, face.mIndices[mirrored ? 2 : 1]);
-            store_le(at + 8, face.mIndices[mirrored ? 1 : 2]);
-            at += 12;
-        }
-        answer_and_wait(Answer::content, size);
+        for (const medical::Triangle& t : mesh.triangles)
+            for (const std::uint32_t corner : t) {
+                store_le(at, corner);
+                at += 4;
+            }
+        answer(inside_, Answer::content, size);
+        return wanted_ = inside_.receive().has_value();
     }
+    bool wanted() const { return wanted_; }
 
-    void answer_and_wait(Answer what, std::size_t bytes) {
-        if (!wanted_)
-            return;
-        answer(inside_, what, bytes);
-        wanted();
-    }
-
+private:
     sandbox::Inside& inside_;
     bool wanted_ = true;
 };
 
-}  // namespace
+void add(const aiMesh& mesh, const aiMatrix4x4& place, medical::Mesh& out) {
+    const auto first = std::uint32_t(out.positions.size());
+    for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
+        const aiVector3D p = place * mesh.mVertices[i];
+        out.positions.push_back({p.x, p.y, p.z});
+    }
+    const bool mirrored = place.Determinant() < 0;
+    for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
+        const aiFace& face = mesh.mFaces[i];
+        if (face.mNumIndices == 3)
+            out.triangles.push_back({first + face.mIndices[0],
+                                     first + face.mIndices[mirrored ? 2 : 1],
+                                     first + face.mIndices[mirrored ? 1 : 2]});
+    }
+}
 
-void serve_meshes(sandbox::Inside& inside) {
-    const std::optional<Bytes> request = inside.receive();
-    if (!request)
+// The library makes a mesh of each material; an organ is all meshes of a node.
+void send(const aiScene& scene, const aiNode& node, const aiMatrix4x4& parent, int depth,
+          Sender& sender) {
+    if (depth > deepest_node || !sender.wanted())
         return;
-    const std::string extension(reinterpret_cast<const char*>(request->data()), request->size());
-    const std::string name = "mesh." + extension;
+    const aiMatrix4x4 place = parent * node.mTransformation;
+    NamedMesh named;
+    named.name.assign(node.mName.data, node.mName.length);
+    for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+        const aiMesh& mesh = *scene.mMeshes[node.mMeshes[i]];
+        if (named.name.empty())
+            named.name.assign(mesh.mName.data, mesh.mName.length);
+        add(mesh, place, named.mesh);
+    }
+    sender.send(named);
+    for (unsigned i = 0; i < node.mNumChildren; ++i)
+        send(scene, *node.mChildren[i], place, depth + 1, sender);
+}
+
+Answer read_obj(int descriptor, Sender& sender) {
+    const std::string name = "mesh.obj";
     Assimp::Importer importer;
-    keep_loaders(importer, extension);
-    importer.SetIOHandler(new OneFile(inside.input(), name));
+    keep_loaders(importer, "obj");
+    importer.SetIOHandler(new OneFile(descriptor, name));
     const aiScene* scene = nullptr;
     try {
         scene = importer.ReadFile(name, aiProcess_Triangulate | aiProcess_SortByPType);
@@ -183,12 +191,36 @@ void serve_meshes(sandbox::Inside& inside) {
         // The library turns a lack of memory into a text.
         if (std::strstr(importer.GetErrorString(), "bad_alloc"))
             throw std::bad_alloc();
-        answer(inside, Answer::unreadable);
-    } else {
-        Walk walk(inside);
-        walk.send(*scene, *scene->mRootNode, aiMatrix4x4(), 0);
-        answer(inside, Answer::end);
+        return Answer::unreadable;
     }
+    send(*scene, *scene->mRootNode, aiMatrix4x4(), 0, sender);
+    return Answer::end;
+}
+
+}  // namespace
+
+void serve_meshes(sandbox::Inside& inside) {
+    const std::optional<Bytes> request = inside.receive();
+    if (!request)
+        return;
+    const std::string extension(reinterpret_cast<const char*>(request->data()), request->size());
+    Sender sender(inside);
+    const TakeMesh take = [&](const NamedMesh& named) { return sender.send(named); };
+    std::string needed;
+    Answer result = Answer::no_mesh;
+    if (extension == "obj") {
+        result = read_obj(inside.input(), sender);
+    } else {
+        const Bytes file = bytes_of(inside, max_mesh_file_bytes);
+        if (extension == "stl")
+            result = read_stl(file, take);
+        else if (extension == "ply")
+            result = read_ply(file, take);
+        else if (extension == "glb")
+            result = read_glb(file, take, needed);
+    }
+    if (sender.wanted())
+        answer(inside, result, as_bytes(needed));
     while (inside.receive()) {
     }
 }

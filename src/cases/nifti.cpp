@@ -1,37 +1,63 @@
 // SPDX-License-Identifier: Apache-2.0
-// NIfTI-1: https://nifti.nimh.nih.gov/pub/dist/src/niftilib/nifti1.h describes the header.
+// NIfTI: https://nifti.nimh.nih.gov/pub/dist/src/niftilib/nifti1.h and .../nifti2.h describe the
+// headers.
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstring>
+#include <optional>
 
+#include "base/outside_text.h"
 #include "cases/label_map.h"
 #include "cases/sample_stream.h"
 
 namespace theatron::cases {
 namespace {
 
-constexpr std::size_t header_size = 348;
+constexpr std::size_t header_size = 348, header_size_2 = 540, max_offset = 1 << 20;
 
-// Fields of the header at their places, in either order of bytes.
+// Fields of the header of either version, in either order of bytes.
 class Header {
 public:
+    // At least header_size_2 bytes, zeros where the file has fewer.
     explicit Header(ByteView bytes) : bytes_(bytes) {
-        big_endian_ = get<std::int16_t>(40) < 1 || get<std::int16_t>(40) > 7;
+        for (const bool big_endian : {false, true}) {
+            big_endian_ = big_endian;
+            version_ = get<std::int32_t>(0) == 348 && has_magic(344, "n+1") ? 1
+                       : get<std::int32_t>(0) == 540 && has_magic(4, "n+2") ? 2
+                                                                            : 0;
+            if (version_ != 0)
+                return;
+        }
     }
     bool big_endian() const { return big_endian_; }
-    bool is_nifti() const {
-        const char* magic = reinterpret_cast<const char*>(bytes_.data()) + 344;
-        return get<std::int32_t>(0) == 348 && std::memcmp(magic, "n+1", 4) == 0;
+    int version() const { return version_; }  // 0: no NIfTI in one piece
+    std::size_t size() const { return version_ == 1 ? header_size : header_size_2; }
+    double dim(std::size_t i) const {
+        return version_ == 1 ? double(get<std::int16_t>(40 + 2 * i))
+                             : double(get<std::int64_t>(16 + 8 * i));
     }
-    int dim(int i) const { return get<std::int16_t>(40 + 2 * std::size_t(i)); }
-    float pixdim(int i) const { return real(76 + 4 * std::size_t(i)); }
-    int integer(std::size_t at) const { return get<std::int16_t>(at); }
-    int octet(std::size_t at) const { return std::to_integer<int>(bytes_[at]); }
-    float real(std::size_t at) const {
-        const auto bits = get<std::uint32_t>(at);
-        float value;
-        std::memcpy(&value, &bits, sizeof(value));
-        return value;
+    double pixdim(std::size_t i) const { return real(76 + 4 * i, 104 + 8 * i); }
+    int type() const { return get<std::int16_t>(version_ == 1 ? 70 : 12); }
+    double offset() const {
+        return version_ == 1 ? double(get_float(108)) : double(get<std::int64_t>(168));
+    }
+    double slope() const { return real(112, 176); }
+    double intercept() const { return real(116, 184); }
+    int unit() const {
+        return (version_ == 1 ? std::to_integer<int>(bytes_[123]) : get<std::int32_t>(500)) & 7;
+    }
+    bool has_quaternion() const {
+        return (version_ == 1 ? get<std::int16_t>(252) : get<std::int32_t>(344)) > 0;
+    }
+    bool has_matrix() const {
+        return (version_ == 1 ? get<std::int16_t>(254) : get<std::int32_t>(348)) > 0;
+    }
+    double quaternion(std::size_t i) const { return real(256 + 4 * i, 352 + 8 * i); }
+    double quaternion_origin(std::size_t i) const { return real(268 + 4 * i, 376 + 8 * i); }
+    Vec3 matrix_column(std::size_t i) const {
+        return {real(280 + 4 * i, 400 + 8 * i), real(296 + 4 * i, 432 + 8 * i),
+                real(312 + 4 * i, 464 + 8 * i)};
     }
 
 private:
@@ -43,9 +69,25 @@ private:
             std::reverse(bytes, bytes + sizeof(T));
         return load_le<T>(bytes);
     }
+    template <class T, class Bits>
+    T get_real(std::size_t at) const {
+        const auto bits = get<Bits>(at);
+        T value;
+        std::memcpy(&value, &bits, sizeof(value));
+        return value;
+    }
+    float get_float(std::size_t at) const { return get_real<float, std::uint32_t>(at); }
+    // Version 1 has numbers of 32 bits, version 2 of 64.
+    double real(std::size_t at, std::size_t at_2) const {
+        return version_ == 1 ? double(get_float(at)) : get_real<double, std::uint64_t>(at_2);
+    }
+    bool has_magic(std::size_t at, const char* magic) const {
+        return std::memcmp(bytes_.data() + at, magic, 4) == 0;
+    }
 
     ByteView bytes_;
     bool big_endian_ = false;
+    int version_ = 0;
 };
 
 bool sample_type(int code, SampleType& type) {
@@ -86,7 +128,7 @@ bool sample_type(int code, SampleType& type) {
 
 // "Method 2" of the header's description: a quaternion, an offset and the size of a sample.
 void place_by_quaternion(const Header& header, Vec3 (&columns)[3], Vec3& origin) {
-    const double b = header.real(256), c = header.real(260), d = header.real(264);
+    const double b = header.quaternion(0), c = header.quaternion(1), d = header.quaternion(2);
     const double a = std::sqrt(std::max(0.0, 1 - (b * b + c * c + d * d)));
     const double turn = header.pixdim(0) < 0 ? -1 : 1;
     columns[0] = Vec3{a * a + b * b - c * c - d * d, 2 * (b * c + a * d), 2 * (b * d - a * c)} *
@@ -95,16 +137,20 @@ void place_by_quaternion(const Header& header, Vec3 (&columns)[3], Vec3& origin)
                  header.pixdim(2);
     columns[2] = Vec3{2 * (b * d + a * c), 2 * (c * d - a * b), a * a + d * d - b * b - c * c} *
                  (header.pixdim(3) * turn);
-    origin = {header.real(268), header.real(272), header.real(276)};
+    origin = {header.quaternion_origin(0), header.quaternion_origin(1),
+              header.quaternion_origin(2)};
 }
 
-void place_by_matrix(const Header& header, Vec3 (&columns)[3], Vec3& origin) {
-    const auto column = [&](std::size_t i) {
-        return Vec3{header.real(280 + 4 * i), header.real(296 + 4 * i), header.real(312 + 4 * i)};
-    };
-    for (std::size_t i = 0; i < 3; ++i)
-        columns[i] = column(i);
-    origin = column(3);
+// False where the matrix spans no space: some programs set its code and leave it empty.
+bool place_by_matrix(const Header& header, Vec3 (&columns)[3], Vec3& origin) {
+    double product = 1;
+    for (std::size_t i = 0; i < 3; ++i) {
+        columns[i] = header.matrix_column(i);
+        product *= length(columns[i]);
+    }
+    origin = header.matrix_column(3);
+    constexpr double least_share = 0.01;
+    return std::abs(dot(columns[0], cross(columns[1], columns[2]))) > least_share * product;
 }
 
 Vec3 lps_from_ras(Vec3 v) {
@@ -112,29 +158,33 @@ Vec3 lps_from_ras(Vec3 v) {
 }
 
 std::string read_grid(const Header& header, medical::VolumeGrid& grid) {
-    const int dimensions = header.dim(0);
+    const double dimensions = header.dim(0);
+    if (!(dimensions >= 1 && dimensions <= 7))
+        return "is damaged: it has " + std::to_string(int(dimensions)) + " dimensions";
     int sides[3] = {1, 1, 1};
-    for (int i = 1; i <= dimensions; ++i) {
-        const int side = header.dim(i);
+    for (std::size_t i = 1; i <= std::size_t(dimensions); ++i) {
+        const double side = header.dim(i);
         if (side < 1)
             return "is damaged: one of its sides has no samples";
         if (i > 3 && side != 1)
             return "is no label map: it has more than three dimensions";
+        if (side > medical::max_volume_side)
+            return "has a side of more than " + std::to_string(medical::max_volume_side) +
+                   " samples";
         if (i <= 3)
-            sides[i - 1] = side;
+            sides[i - 1] = int(side);
     }
     grid.columns = sides[0];
     grid.rows = sides[1];
     grid.slices = sides[2];
     Vec3 columns[3];
-    if (header.integer(254) > 0)
-        place_by_matrix(header, columns, grid.origin_mm);
-    else if (header.integer(252) > 0)
+    const bool by_matrix = header.has_matrix() && place_by_matrix(header, columns, grid.origin_mm);
+    if (!by_matrix && header.has_quaternion())
         place_by_quaternion(header, columns, grid.origin_mm);
-    else
+    else if (!by_matrix)
         return "does not say where in the patient it lies (neither sform nor qform)";
     double mm = 1;
-    if (const int unit = header.octet(123) & 7; unit == 1 || unit == 3)
+    if (const int unit = header.unit(); unit == 1 || unit == 3)
         mm = unit == 1 ? 1000 : 0.001;
     grid.origin_mm = lps_from_ras(grid.origin_mm) * mm;
     grid.column_step_mm = lps_from_ras(columns[0]) * mm;
@@ -147,67 +197,100 @@ std::string read_grid(const Header& header, medical::VolumeGrid& grid) {
                : "describes a volume with impossible sides, steps or place; export it again";
 }
 
+// The value of an attribute, as in Key="1".
+std::string_view attribute(std::string_view tag, std::string_view name) {
+    const std::size_t at = tag.find(std::string(name) + "=\"");
+    if (at == std::string_view::npos)
+        return {};
+    const std::size_t begin = at + name.size() + 2;
+    return tag.substr(begin, tag.find('"', begin) - begin);
+}
+
+// Names that TotalSegmentator and Connectome Workbench write behind the header:
+// <Label Key="1" ...><![CDATA[liver]]></Label>.
+std::vector<LabelName> names_in(ByteView behind_header) {
+    std::string_view text(reinterpret_cast<const char*>(behind_header.data()),
+                          behind_header.size());
+    std::vector<LabelName> names;
+    std::size_t at = 0;
+    while (names.size() < max_labels && (at = text.find("<Label ", at)) != std::string_view::npos) {
+        const std::size_t open = text.find('>', at), close = text.find("</Label>", at);
+        if (open == std::string_view::npos || close == std::string_view::npos || close < open)
+            break;
+        const std::string_view key = attribute(text.substr(at, open - at), "Key");
+        std::string_view name = text.substr(open + 1, close - open - 1);
+        constexpr std::string_view quote = "<![CDATA[";
+        if (name.starts_with(quote) && name.ends_with("]]>"))
+            name = name.substr(quote.size(), name.size() - quote.size() - 3);
+        int value = 0;
+        std::from_chars(key.data(), key.data() + key.size(), value);
+        if (value >= 1 && value <= 65'535 && !name.empty())
+            names.push_back({value, clean_text(name, 64)});
+        at = close;
+    }
+    return names;
+}
+
+// The first `size` bytes of the content; fewer where it has fewer.
+Bytes first_bytes(ByteView file, bool packed, std::size_t size) {
+    if (!packed) {
+        const ByteView head = file.first(std::min(size, file.size()));
+        return {head.begin(), head.end()};
+    }
+    Bytes head;
+    bool damaged = false;
+    unpack(
+        file, Packing::gzip, size,
+        [&](ByteView piece) {
+            head.insert(head.end(), piece.begin(), piece.end());
+            return true;
+        },
+        damaged);
+    return head;
+}
+
 }  // namespace
 
 ParsedLabels parse_nifti(ByteView file) {
     const bool packed = file.size() > 2 && file[0] == std::byte(0x1f) && file[1] == std::byte(0x8b);
-    Bytes head(header_size);
-    if (packed) {
-        std::size_t done = 0;
-        const bool whole = unpack_gzip(file, header_size, [&](ByteView piece) {
-            std::copy(piece.begin(), piece.end(), head.begin() + std::ptrdiff_t(done));
-            done += piece.size();
-            return true;
-        });
-        if (!whole)
-            return {{}, "is no NIfTI file, or cut off"};
-    } else if (file.size() < header_size) {
+    Bytes head = first_bytes(file, packed, header_size_2);
+    if (head.size() < header_size)
         return {{}, "is no NIfTI file, or cut off"};
-    } else {
-        std::copy_n(file.begin(), header_size, head.begin());
-    }
+    head.resize(header_size_2);
     const Header header(head);
-    if (!header.is_nifti())
-        return {{}, "is no NIfTI file of version 1 in one piece"};
-    SampleType type;
-    if (!sample_type(header.integer(70), type))
-        return {{}, "has samples of a type that is no label's"};
-    const float slope = header.real(112), intercept = header.real(116);
-    if ((slope != 0 && slope != 1) || (slope != 0 && intercept != 0))
-        return {{}, "scales its samples, as no label map does"};
+    if (header.version() == 0)
+        return {{}, "is no NIfTI file of version 1 or 2 in one piece", true};
     ParsedLabels parsed;
+    parsed.is_other_content = true;
+    SampleLayout layout;
+    if (!sample_type(header.type(), layout.type)) {
+        parsed.problem = "has samples of a type that is no label's";
+        return parsed;
+    }
     parsed.problem = read_grid(header, parsed.value.grid);
     if (!parsed.problem.empty())
         return parsed;
-    const double offset = header.real(108);
-    if (!(offset >= double(header_size) && offset <= 1 << 20))
-        return {{}, "begins its samples at an impossible place"};
-
-    // Unpacking begins again at the header and skips all bytes before the samples.
-    const auto skipped = std::size_t(offset);
-    std::vector<std::uint16_t>& labels = parsed.value.labels;
-    const std::size_t count = parsed.value.grid.size();
-    if (!packed) {
-        parsed.problem = file.size() < skipped ? "is cut off"
-                                               : read_labels(file.subspan(skipped), false, count,
-                                                             type, header.big_endian(), labels);
+    parsed.is_other_content = false;
+    const double offset = header.offset();
+    if (!(offset >= double(header.size()) && offset <= double(max_offset))) {
+        parsed.problem = "begins its samples at an impossible place";
         return parsed;
     }
-    const std::size_t wanted = skipped + count * size_of(type);
-    if (wanted > file.size() * gzip_most_ratio)
-        return {{}, "holds less than its header announces"};
-    labels.reserve(count);
-    LabelCollector collector(type, header.big_endian(), labels);
-    std::size_t passed = 0;
-    const bool whole = unpack_gzip(file, wanted, [&](ByteView piece) {
-        const std::size_t skip = std::min(piece.size(), skipped - std::min(passed, skipped));
-        passed += piece.size();
-        return collector.take(piece.subspan(skip));
-    });
-    if (!collector.good())
-        parsed.problem = "holds values that are no labels: images are read as DICOM";
-    else if (!whole)
-        parsed.problem = "is damaged or cut off";
+    // 0 and no number both stand for no scale.
+    const double slope = header.slope(), intercept = header.intercept();
+    if (std::isfinite(slope) && slope != 0 && std::isfinite(intercept)) {
+        layout.slope = slope;
+        layout.intercept = intercept;
+    }
+    layout.big_endian = header.big_endian();
+    layout.count = parsed.value.grid.size();
+    layout.skipped_bytes = std::size_t(offset);
+    const Bytes before = first_bytes(file, packed, layout.skipped_bytes);
+    parsed.value.names = names_in(ByteView(before).subspan(std::min(header.size(), before.size())));
+    ReadSamples read = read_labels(file, packed ? std::optional(Packing::gzip) : std::nullopt,
+                                   layout, parsed.value.labels);
+    parsed.problem = std::move(read.problem);
+    parsed.is_other_content = read.is_other_content;
     return parsed;
 }
 

@@ -11,6 +11,7 @@
 #include "base/outside_text.h"
 #include "cases/label_map.h"
 #include "cases/sample_stream.h"
+#include "cases/text_words.h"
 
 namespace theatron::cases {
 namespace {
@@ -18,6 +19,7 @@ namespace {
 constexpr std::size_t max_header_bytes = 1 << 20;
 constexpr std::size_t max_fields = 8192;
 
+// Names of fields are in small letters; those of keys (":=") as they are.
 using Fields = std::map<std::string, std::string, std::less<>>;
 
 std::string_view trimmed(std::string_view text) {
@@ -28,7 +30,15 @@ std::string_view trimmed(std::string_view text) {
     return text;
 }
 
-// The header's fields and where the content begins. Nothing: no header.
+std::string lower(std::string_view text) {
+    std::string small(text);
+    for (char& c : small)
+        c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
+    return small;
+}
+
+// The header's fields and where the content begins, which may be the file's end. Nothing: no
+// header.
 std::optional<std::size_t> read_header(ByteView file, Fields& fields) {
     const std::string_view text(reinterpret_cast<const char*>(file.data()),
                                 std::min(file.size(), max_header_bytes));
@@ -36,20 +46,32 @@ std::optional<std::size_t> read_header(ByteView file, Fields& fields) {
         return std::nullopt;
     std::size_t at = text.find('\n');
     while (at != std::string_view::npos && fields.size() < max_fields) {
-        const std::size_t begin = at + 1, end = text.find('\n', begin);
-        if (end == std::string_view::npos)
-            return std::nullopt;
+        const std::size_t begin = at + 1;
+        std::size_t end = text.find('\n', begin);
+        if (end == std::string_view::npos) {
+            // A header with its samples in another file needs no empty line at its end.
+            if (text.size() == max_header_bytes || !fields.contains("data file"))
+                return std::nullopt;
+            end = text.size();
+        }
         const std::string_view line = trimmed(text.substr(begin, end - begin));
         at = end;
         if (line.empty())
-            return end + 1;
+            return std::min(end + 1, text.size());
         if (line[0] == '#')
             continue;
         const std::size_t colon = line.find(':');
         if (colon == std::string_view::npos || colon + 1 == line.size())
             continue;
-        const std::size_t value = colon + (line[colon + 1] == '=' ? 2 : 1);
-        fields.emplace(trimmed(line.substr(0, colon)), trimmed(line.substr(value)));
+        const bool is_key = line[colon + 1] == '=';
+        const std::string_view name = trimmed(line.substr(0, colon)),
+                               value = trimmed(line.substr(colon + (is_key ? 2 : 1)));
+        std::string known = is_key ? std::string(name) : lower(name);
+        if (known == "datafile")
+            known = "data file";
+        if (known == "lineskip" || known == "byteskip")
+            known.insert(4, " ");
+        fields.emplace(std::move(known), value);
     }
     return std::nullopt;
 }
@@ -76,80 +98,157 @@ std::vector<double> numbers_of(const std::string& text, std::size_t most) {
     return numbers;
 }
 
-bool sample_type(const std::string& name, SampleType& type) {
+std::optional<SampleType> sample_type(std::string name) {
+    name = lower(name);
     static const std::map<std::string_view, SampleType> types{
-        {"signed char", SampleType::i8},   {"int8", SampleType::i8},
-        {"int8_t", SampleType::i8},        {"uchar", SampleType::u8},
-        {"unsigned char", SampleType::u8}, {"uint8", SampleType::u8},
-        {"uint8_t", SampleType::u8},       {"short", SampleType::i16},
-        {"short int", SampleType::i16},    {"signed short", SampleType::i16},
-        {"int16", SampleType::i16},        {"int16_t", SampleType::i16},
-        {"ushort", SampleType::u16},       {"unsigned short", SampleType::u16},
-        {"uint16", SampleType::u16},       {"uint16_t", SampleType::u16},
-        {"int", SampleType::i32},          {"signed int", SampleType::i32},
-        {"int32", SampleType::i32},        {"int32_t", SampleType::i32},
-        {"uint", SampleType::u32},         {"unsigned int", SampleType::u32},
-        {"uint32", SampleType::u32},       {"uint32_t", SampleType::u32},
-        {"longlong", SampleType::i64},     {"int64", SampleType::i64},
-        {"int64_t", SampleType::i64},      {"ulonglong", SampleType::u64},
-        {"uint64", SampleType::u64},       {"uint64_t", SampleType::u64},
-        {"float", SampleType::f32},        {"double", SampleType::f64}};
-    const auto found = types.find(name);
-    if (found == types.end())
-        return false;
-    type = found->second;
-    return true;
+        {"char", SampleType::i8},       {"int8", SampleType::i8},    {"int8_t", SampleType::i8},
+        {"uchar", SampleType::u8},      {"uint8", SampleType::u8},   {"uint8_t", SampleType::u8},
+        {"short", SampleType::i16},     {"int16", SampleType::i16},  {"int16_t", SampleType::i16},
+        {"ushort", SampleType::u16},    {"uint16", SampleType::u16}, {"uint16_t", SampleType::u16},
+        {"int", SampleType::i32},       {"int32", SampleType::i32},  {"int32_t", SampleType::i32},
+        {"uint", SampleType::u32},      {"uint32", SampleType::u32}, {"uint32_t", SampleType::u32},
+        {"longlong", SampleType::i64},  {"int64", SampleType::i64},  {"int64_t", SampleType::i64},
+        {"ulonglong", SampleType::u64}, {"uint64", SampleType::u64}, {"uint64_t", SampleType::u64},
+        {"float", SampleType::f32},     {"double", SampleType::f64}};
+    // C's names have several words: "signed short int" is a short.
+    const bool is_unsigned = name.starts_with("unsigned ");
+    if (is_unsigned || name.starts_with("signed "))
+        name = name.substr(name.find(' ') + 1);
+    if (name.ends_with(" int"))
+        name.resize(name.size() - 4);
+    if (name == "long long")
+        name = "longlong";
+    const auto found = types.find(is_unsigned ? "u" + name : name);
+    return found == types.end() ? std::nullopt : std::optional(found->second);
 }
 
 // Signs that take the file's axes to LPS.
-std::optional<Vec3> lps_signs(const std::string& space) {
-    if (space == "left-posterior-superior" || space == "LPS")
+std::optional<Vec3> lps_signs(const std::string& written) {
+    const std::string space = lower(written);
+    if (space == "left-posterior-superior" || space == "lps")
         return Vec3{1, 1, 1};
-    if (space == "right-anterior-superior" || space == "RAS")
+    if (space == "right-anterior-superior" || space == "ras")
         return Vec3{-1, -1, 1};
-    if (space == "left-anterior-superior" || space == "LAS")
+    if (space == "left-anterior-superior" || space == "las")
         return Vec3{1, -1, 1};
     return std::nullopt;
 }
 
-std::string read_grid(const Fields& fields, medical::VolumeGrid& grid) {
+// Millimetres of the units along the three axes of space.
+std::optional<Vec3> millimetres(const std::string& units) {
+    if (units.empty())
+        return Vec3{1, 1, 1};
+    std::vector<double> found;
+    std::size_t at = 0;
+    while ((at = units.find('"', at)) != std::string::npos) {
+        const std::size_t end = units.find('"', at + 1);
+        if (end == std::string::npos)
+            return std::nullopt;
+        const std::string unit = lower(units.substr(at + 1, end - at - 1));
+        at = end + 1;
+        if (unit == "mm" || unit == "millimeter" || unit == "millimeters" || unit.empty())
+            found.push_back(1);
+        else if (unit == "cm" || unit == "centimeter" || unit == "centimeters")
+            found.push_back(10);
+        else if (unit == "m" || unit == "meter" || unit == "meters")
+            found.push_back(1000);
+        else if (unit == "um" || unit == "\xc2\xb5m" || unit == "micrometer")
+            found.push_back(0.001);
+        else
+            return std::nullopt;
+    }
+    if (found.size() != 3)
+        return std::nullopt;
+    return Vec3{found[0], found[1], found[2]};
+}
+
+// The directions of the axes; nothing for one that is none of space (a list of layers).
+std::vector<std::optional<Vec3>> directions_of(const std::string& text) {
+    std::vector<std::optional<Vec3>> axes;
+    std::size_t at = 0;
+    while (at < text.size() && axes.size() < 8) {
+        if (text[at] == '(') {
+            const std::size_t end = std::min(text.find(')', at), text.size());
+            const std::vector<double> v = numbers_of(text.substr(at, end - at), 4);
+            axes.push_back(v.size() == 3 ? std::optional(Vec3{v[0], v[1], v[2]}) : std::nullopt);
+            at = end + 1;
+        } else if (lower(text.substr(at, 4)) == "none") {
+            axes.emplace_back();
+            at += 4;
+        } else {
+            ++at;
+        }
+    }
+    return axes;
+}
+
+struct Axes {
+    std::vector<std::size_t> sizes;  // of space
+    std::vector<Vec3> directions;
+    std::size_t layers = 1;
+    bool layers_come_first = true;  // each place has all layers, one after another
+};
+
+// Returns the problem as the end of a sentence, or nothing.
+std::string read_axes(const Fields& fields, Axes& axes) {
+    const std::vector<double> sizes = numbers_of(field(fields, "sizes"), 9);
+    const std::vector<std::optional<Vec3>> directions =
+        directions_of(field(fields, "space directions"));
     const std::string dimension = field(fields, "dimension");
-    if (dimension == "4")
-        return "holds overlapping segments in several layers; export them as one label map";
-    const std::vector<double> sizes = numbers_of(field(fields, "sizes"), 4);
-    if (dimension != "3" || sizes.size() != 3)
+    if ((dimension != "3" && dimension != "4") || sizes.size() != std::size_t(dimension[0] - '0'))
         return "is no label map: it has not three dimensions";
-    std::size_t samples = 1;
-    for (const double side : sizes) {
-        if (!(side >= 1 && side <= medical::max_volume_side) || side != std::floor(side))
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+        if (!(sizes[i] >= 1 && sizes[i] <= medical::max_volume_side) ||
+            sizes[i] != std::floor(sizes[i]))
             return "has a side of no samples, or of more than " +
                    std::to_string(medical::max_volume_side);
-        samples *= std::size_t(side);
+        if (i >= directions.size())
+            continue;
+        if (directions[i]) {
+            axes.sizes.push_back(std::size_t(sizes[i]));
+            axes.directions.push_back(*directions[i]);
+        } else if (i == 0 || i == 3) {
+            axes.layers = std::size_t(sizes[i]);
+            axes.layers_come_first = i == 0;
+        }
     }
-    if (samples > max_label_samples)
-        return "has more samples than are read";
+    if (axes.layers > max_label_layers)
+        return "has more than " + std::to_string(max_label_layers) + " layers, so it is an image";
+    return "";
+}
+
+std::string read_grid(const Fields& fields, const Axes& axes, medical::VolumeGrid& grid) {
     const std::optional<Vec3> signs = lps_signs(field(fields, "space"));
-    const std::vector<double> directions = numbers_of(field(fields, "space directions"), 10);
     const std::vector<double> origin = numbers_of(field(fields, "space origin"), 4);
-    if (!signs || directions.size() != 9 || origin.size() != 3)
+    if (!signs || axes.directions.size() != 3 || origin.size() != 3)
         return "does not say where in the patient it lies (space, space directions, space origin)";
-    const auto vec = [&](const std::vector<double>& v, std::size_t i) {
-        return Vec3{v[i] * signs->x, v[i + 1] * signs->y, v[i + 2] * signs->z};
+    const std::string units = field(fields, "space units");
+    const std::optional<Vec3> mm = millimetres(units);
+    if (!mm)
+        return "has the unit " + clean_text(units, 40) +
+               " (space units), and mm, cm, m and um are read; save it in millimetres";
+    if (axes.sizes[0] * axes.sizes[1] * axes.sizes[2] > max_label_samples / axes.layers)
+        return "has more samples than are read";
+    const auto placed = [&](Vec3 v) {
+        return Vec3{v.x * signs->x * mm->x, v.y * signs->y * mm->y, v.z * signs->z * mm->z};
     };
-    grid = {int(sizes[0]),      int(sizes[1]),      int(sizes[2]),     vec(origin, 0),
-            vec(directions, 0), vec(directions, 3), vec(directions, 6)};
+    grid = {int(axes.sizes[0]),         int(axes.sizes[1]),
+            int(axes.sizes[2]),         placed({origin[0], origin[1], origin[2]}),
+            placed(axes.directions[0]), placed(axes.directions[1]),
+            placed(axes.directions[2])};
     return medical::is_valid(grid)
                ? ""
                : "describes a volume with impossible sides, steps or place; export it again";
 }
 
-std::vector<LabelName> read_names(const Fields& fields) {
+std::vector<LabelName> read_names(const Fields& fields, std::size_t layer) {
     std::vector<LabelName> names;
     for (std::size_t i = 0; i < max_labels; ++i) {
         const std::string segment = "Segment" + std::to_string(i) + "_";
         const std::string name = field(fields, segment + "Name");
         const std::vector<double> value = numbers_of(field(fields, segment + "LabelValue"), 1);
-        if (name.empty() || value.empty())
+        const std::vector<double> of_layer = numbers_of(field(fields, segment + "Layer"), 1);
+        if (name.empty() || value.empty() || (of_layer.empty() ? 0 : of_layer[0]) != double(layer))
             continue;
         if (value[0] >= 1 && value[0] <= 65535)
             names.push_back({int(value[0]), clean_text(name, 64)});
@@ -157,34 +256,92 @@ std::vector<LabelName> read_names(const Fields& fields) {
     return names;
 }
 
+// Moves `content` behind the lines and bytes that the header skips. False: there are fewer.
+bool skip(const Fields& fields, bool is_packed, ByteView& content, SampleLayout& layout) {
+    const std::vector<double> lines = numbers_of(field(fields, "line skip"), 1);
+    for (double i = 0; !lines.empty() && i < lines[0]; ++i) {
+        const auto end = std::find(content.begin(), content.end(), std::byte('\n'));
+        if (end == content.end())
+            return false;
+        content = content.subspan(std::size_t(end - content.begin()) + 1);
+    }
+    const std::vector<double> bytes = numbers_of(field(fields, "byte skip"), 1);
+    if (bytes.empty() || bytes[0] == 0)
+        return true;
+    if (bytes[0] == -1 && !is_packed) {
+        // The samples are the last bytes.
+        if (layout.bytes() > content.size())
+            return false;
+        content = content.last(layout.bytes());
+        return true;
+    }
+    constexpr double most = 1 << 30;
+    if (!(bytes[0] > 0 && bytes[0] <= most))
+        return false;
+    layout.skipped_bytes = std::size_t(bytes[0]);
+    return true;
+}
+
+ParsedLabels other_content(std::string problem) {
+    return {{}, std::move(problem), true};
+}
+
 }  // namespace
 
-ParsedLabels parse_nrrd(ByteView file) {
+std::string detached_data_of(ByteView file) {
     Fields fields;
-    const std::optional<std::size_t> content = read_header(file, fields);
-    if (!content)
+    return read_header(file, fields) ? field(fields, "data file") : "";
+}
+
+ParsedLabels parse_nrrd(ByteView file, std::size_t layer, ByteView data) {
+    Fields fields;
+    const std::optional<std::size_t> begin = read_header(file, fields);
+    if (!begin)
         return {{}, "is no NRRD file, or cut off"};
-    if (fields.contains("data file") || fields.contains("datafile"))
-        return {{}, "keeps its samples in another file; save it in one piece (.nrrd)"};
-    for (const char* skip : {"line skip", "lineskip", "byte skip", "byteskip"})
-        if (const std::string value = field(fields, skip); !value.empty() && value != "0")
-            return {{}, "passes over bytes before its samples, which is not supported"};
+    Axes axes;
     ParsedLabels parsed;
-    parsed.problem = read_grid(fields, parsed.value.grid);
+    parsed.is_other_content = true;
+    parsed.problem = read_axes(fields, axes);
+    if (parsed.problem.empty())
+        parsed.problem = read_grid(fields, axes, parsed.value.grid);
     if (!parsed.problem.empty())
         return parsed;
-    SampleType type;
-    if (!sample_type(field(fields, "type"), type))
-        return {{}, "has samples of a type that is no label's"};
-    const std::string encoding = field(fields, "encoding");
-    const bool packed = encoding == "gzip" || encoding == "gz";
-    if (!packed && encoding != "raw")
-        return {{},
-                "is encoded as '" + clean_text(encoding, 20) +
-                    "', which is not read; save it raw or with gzip"};
-    parsed.value.names = read_names(fields);
-    parsed.problem = read_labels(file.subspan(*content), packed, parsed.value.grid.size(), type,
-                                 field(fields, "endian") == "big", parsed.value.labels);
+    parsed.layers = axes.layers;
+    const std::optional<SampleType> type = sample_type(field(fields, "type"));
+    if (!type)
+        return other_content("has samples of the type '" + clean_text(field(fields, "type"), 30) +
+                             "', which is no label's");
+    const std::string encoding = lower(field(fields, "encoding"));
+    std::optional<Packing> packing;
+    if (encoding == "gzip" || encoding == "gz")
+        packing = Packing::gzip;
+    else if (encoding == "bzip2" || encoding == "bz2")
+        packing = Packing::bzip2;
+    const bool is_text = encoding == "txt" || encoding == "text" || encoding == "ascii";
+    if (!packing && !is_text && encoding != "raw")
+        return other_content("is encoded as '" + clean_text(encoding, 20) +
+                             "', which is not read; save it raw or with gzip");
+    SampleLayout layout;
+    layout.type = *type;
+    layout.big_endian = lower(field(fields, "endian")) == "big";
+    layout.count = parsed.value.grid.size();
+    if (axes.layers_come_first) {
+        layout.step = axes.layers;
+        layout.first = layer;
+    } else {
+        layout.skipped = layer * layout.count;
+    }
+    ByteView content = data.empty() ? file.subspan(*begin) : data;
+    parsed.is_other_content = false;
+    if (!skip(fields, packing.has_value() || is_text, content, layout)) {
+        parsed.problem = "holds less than its header announces: it is cut off or damaged";
+        return parsed;
+    }
+    parsed.value.names = read_names(fields, layer);
+    ReadSamples read = is_text ? read_label_text(content, layout, parsed.value.labels)
+                               : read_labels(content, packing, layout, parsed.value.labels);
+    parsed.problem = std::move(read.problem);
+    parsed.is_other_content = read.is_other_content;
     return parsed;
 }
 

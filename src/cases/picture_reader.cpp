@@ -4,7 +4,6 @@
 
 #include <png.h>
 #include <turbojpeg.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstring>
@@ -12,6 +11,7 @@
 #include <new>
 
 #include "cases/foreign_files.h"
+#include "cases/foreign_input.h"
 #include "medical/picture.h"
 
 namespace theatron::cases {
@@ -164,7 +164,7 @@ Answer read_picture(ByteView file, ColorImage& out) {
     if (begins(jpeg))
         return read_jpeg(file, out);
     if (!begins(png))
-        return Answer::unreadable;
+        return Answer::no_picture;
     const Answer read = read_png(file, out);
     if (read == Answer::content)
         out = medical::reduced(std::move(out), medical::max_picture_side);
@@ -174,17 +174,7 @@ Answer read_picture(ByteView file, ColorImage& out) {
 void serve_pictures(sandbox::Inside& inside) {
     if (!inside.receive())
         return;
-    const off_t size = lseek(inside.input(), 0, SEEK_END);
-    Bytes file(std::min(std::size_t(std::max<off_t>(size, 0)), max_picture_file_bytes));
-    std::size_t done = 0;
-    while (done < file.size()) {
-        const ssize_t count =
-            pread(inside.input(), file.data() + done, file.size() - done, off_t(done));
-        if (count <= 0)
-            break;
-        done += std::size_t(count);
-    }
-    file.resize(done);
+    const Bytes file = bytes_of(inside, max_picture_file_bytes);
     ColorImage picture;
     const Answer read = read_picture(file, picture);
     if (read == Answer::content)

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cases/sample_stream.h"
 
-#include <zlib.h>
-
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
+
+#include "cases/text_words.h"
 
 namespace theatron::cases {
 namespace {
@@ -45,45 +46,15 @@ double value_of(SampleType type, const std::byte* bytes) {
 
 }  // namespace
 
-bool unpack_gzip(ByteView packed, std::size_t wanted, const std::function<bool(ByteView)>& take) {
-    z_stream stream{};
-    constexpr int gzip_only = 16 + MAX_WBITS;
-    if (inflateInit2(&stream, gzip_only) != Z_OK)
-        throw std::bad_alloc();
-    Bytes piece(64 << 10);
-    std::size_t given = 0, done = 0;
-    bool good = true, ended = false;
-    while (good && !ended && done < wanted) {
-        if (stream.avail_in == 0) {
-            // zlib counts with 32 bits.
-            const std::size_t more = std::min(packed.size() - given, std::size_t(1) << 30);
-            stream.next_in =
-                reinterpret_cast<Bytef*>(const_cast<std::byte*>(packed.data() + given));
-            stream.avail_in = uInt(more);
-            given += more;
-        }
-        const std::size_t room = std::min(piece.size(), wanted - done);
-        stream.next_out = reinterpret_cast<Bytef*>(piece.data());
-        stream.avail_out = uInt(room);
-        const int result = inflate(&stream, Z_NO_FLUSH);
-        const std::size_t count = room - stream.avail_out;
-        if (count > 0)
-            good = take(ByteView(piece).first(count));
-        done += count;
-        ended = result == Z_STREAM_END;
-        if (result != Z_OK && !ended)
-            good = false;
-    }
-    inflateEnd(&stream);
-    return good && done == wanted;
-}
-
 std::size_t size_of(SampleType type) {
     constexpr std::size_t sizes[] = {1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
     return sizes[std::size_t(type)];
 }
 
 bool LabelCollector::take(ByteView piece) {
+    const std::size_t skip = std::min(to_skip_, piece.size());
+    to_skip_ -= skip;
+    piece = piece.subspan(skip);
     while (good_ && !piece.empty()) {
         if (part_size_ == 0 && piece.size() >= size_) {
             good_ = add(piece.data());
@@ -104,29 +75,76 @@ bool LabelCollector::add(const std::byte* sample) {
     static_assert(std::endian::native == std::endian::little);
     std::byte bytes[8];
     std::copy_n(sample, size_, bytes);
-    if (big_endian_)
+    if (layout_.big_endian)
         std::reverse(bytes, bytes + size_);
-    const double value = value_of(type_, bytes);
-    if (!(value >= 0 && value <= 65535) || value != double(int(value)))
-        return false;
-    out_.push_back(std::uint16_t(value));
+    return add_value(value_of(layout_.type, bytes));
+}
+
+bool LabelCollector::add_value(double value) {
+    const std::size_t at = at_++;
+    if (at < layout_.skipped || (at - layout_.skipped) % layout_.step != layout_.first)
+        return true;
+    value = std::isnan(value) ? 0 : layout_.slope * value + layout_.intercept;
+    constexpr double rounding = 1e-3;
+    const double whole = std::round(value);
+    if (!(whole >= 0 && whole <= 65535) || std::abs(value - whole) > rounding)
+        return good_ = false;
+    out_.push_back(std::uint16_t(whole));
     return true;
 }
 
-std::string read_labels(ByteView content, bool packed, std::size_t count, SampleType type,
-                        bool big_endian, std::vector<std::uint16_t>& out) {
-    const std::size_t wanted = count * size_of(type);
-    const std::size_t most = packed ? content.size() * gzip_most_ratio : content.size();
+namespace {
+
+ReadSamples result_of(bool is_good, std::size_t found, std::size_t wanted, bool damaged) {
+    if (!is_good)
+        return {"holds values that are no labels: images are read as DICOM", true};
+    if (damaged)
+        return {"is damaged or cut off"};
+    if (found < wanted)
+        return {"holds less than its header announces: it is cut off or damaged"};
+    return {};
+}
+
+}  // namespace
+
+ReadSamples read_labels(ByteView content, std::optional<Packing> packing,
+                        const SampleLayout& layout, std::vector<std::uint16_t>& out) {
+    const std::size_t wanted = layout.bytes();
+    const std::size_t most = packing ? content.size() * most_ratio(*packing) : content.size();
     if (wanted > most)
-        return "holds less than its header announces";
-    // `count` has been checked against the file's size, so this reservation is bounded.
-    out.reserve(count);
-    LabelCollector collector(type, big_endian, out);
+        return {"holds less than its header announces: it is cut off or damaged"};
+    // A bomb of bzip2 may hold so much more than it has bytes that this would take all memory.
+    if (!packing || *packing != Packing::bzip2)
+        out.reserve(layout.count);
+    LabelCollector collector(layout, out);
     const auto take = [&](ByteView piece) { return collector.take(piece); };
-    const bool whole = packed ? unpack_gzip(content, wanted, take) : take(content.first(wanted));
-    if (!collector.good())
-        return "holds values that are no labels: images are read as DICOM";
-    return whole ? "" : "is damaged or cut off";
+    bool damaged = false;
+    if (packing)
+        unpack(content, *packing, wanted, take, damaged);
+    else
+        take(content.first(wanted));
+    return result_of(collector.good(), out.size(), layout.count, damaged);
+}
+
+ReadSamples read_label_text(ByteView content, const SampleLayout& layout,
+                            std::vector<std::uint16_t>& out) {
+    // Each number has a digit and a blank behind it.
+    if (layout.count > content.size())
+        return {"holds less than its header announces: it is cut off or damaged"};
+    out.reserve(layout.count);
+    LabelCollector collector(layout, out);
+    TextWords words(content);
+    while (out.size() < layout.count && !words.at_end()) {
+        const std::string_view word = words.next();
+        double value = 0;
+        if (word.empty())
+            break;
+        if (!to_number(word, value))
+            return {"is damaged: its samples are no numbers"};
+        if (!collector.add_value(value))
+            break;
+    }
+    return result_of(collector.good(), out.size(), layout.count, false);
 }
 
 }  // namespace theatron::cases

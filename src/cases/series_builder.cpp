@@ -5,15 +5,18 @@
 #include <cmath>
 #include <cstdio>
 
+#include "cases/series_values.h"
+
 namespace theatron::cases {
 namespace {
 
 using medical::Volume;
 
-constexpr double same_direction = 1e-4, same_spacing_mm = 1e-3;
-constexpr double same_place_mm = 0.01;
-// Positions are written with two or three digits, and tables do not move evenly.
-constexpr double uneven_share = 0.1;
+// Directions that differ move no pixel further than this, and turn the picture no more.
+constexpr double same_pixel_mm = 0.5, most_turn = 0.02;
+constexpr double same_spacing_mm = 1e-3;
+// Positions are written with one to three digits, and tables do not move evenly.
+constexpr double uneven_share = 0.1, rounded_share = 0.25, rounded_mm = 0.5;
 constexpr double sideways_mm = 0.5;
 constexpr int max_missing_in_a_row = 50;
 
@@ -32,25 +35,11 @@ std::string in_mm(double value) {
     return text;
 }
 
-// Returns a sentence if the two images cannot belong to one volume; empty if they can.
-std::string difference(const DicomSlice& a, const DicomSlice& b) {
-    if (!b.has_place)
-        return "An image of the series says nothing about its place in the patient, so the series "
-               "cannot be shown as a volume.";
-    if (differ(a.right, b.right, same_direction) || differ(a.down, b.down, same_direction))
-        return "The images of the series have mixed orientations; export each orientation as a "
-               "series of its own.";
-    if (a.frame_uid != b.frame_uid)
-        return "The images of the series have different frames of reference, so their places "
-               "cannot be compared.";
-    if (a.columns != b.columns || a.rows != b.rows ||
-        std::abs(a.column_spacing_mm - b.column_spacing_mm) > same_spacing_mm ||
-        std::abs(a.row_spacing_mm - b.row_spacing_mm) > same_spacing_mm)
-        return "The images of the series have different sizes; export each size as a series of "
-               "its own.";
-    if (a.slope != b.slope || a.intercept != b.intercept || a.inverted != b.inverted)
-        return "The images of the series have different scales of values, which is not supported.";
-    return "";
+bool is_turned(const DicomSlice& a, const DicomSlice& b) {
+    const double across = length(a.right - b.right), along = length(a.down - b.down);
+    return std::max(across, along) > most_turn ||
+           across * a.columns * a.column_spacing_mm + along * a.rows * a.row_spacing_mm >
+               same_pixel_mm;
 }
 
 BuiltSeries problem_of(std::string sentence) {
@@ -77,64 +66,107 @@ double usual_distance(const std::vector<Sorted>& order) {
     std::vector<double> distances;
     for (std::size_t i = 1; i < order.size(); ++i)
         distances.push_back(order[i].along_mm - order[i - 1].along_mm);
-    std::nth_element(distances.begin(), distances.begin() + std::ptrdiff_t(distances.size() / 2),
+    // The smaller one of two: a slice is missing rather than added.
+    const std::size_t middle = (distances.size() - 1) / 2;
+    std::nth_element(distances.begin(), distances.begin() + std::ptrdiff_t(middle),
                      distances.end());
-    return distances[distances.size() / 2];
+    return distances[middle];
+}
+
+// Two distances in one series, a thin and a thick one: several gaps of one size follow one another,
+// which missing slices do not do. `steps`: from each slice to the next.
+bool has_two_distances(const std::vector<int>& steps) {
+    std::size_t run = 0;
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        run = steps[i] > 1 && i > 0 && steps[i] == steps[i - 1] ? run + 1 : steps[i] > 1;
+        const bool at_an_end = i + 1 == steps.size() || run == i + 1;
+        if (run >= 3 || (run == 2 && at_an_end))
+            return true;
+    }
+    return false;
+}
+
+struct Line {
+    double begin_mm, step_mm;
+};
+
+// The places as begin + number * step, with the least squares.
+Line line_through(const std::vector<Sorted>& order, const std::vector<int>& numbers) {
+    double n = 0, sum_k = 0, sum_p = 0, sum_kk = 0, sum_kp = 0;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        const double k = numbers[i], p = order[i].along_mm - order[0].along_mm;
+        n += 1, sum_k += k, sum_p += p, sum_kk += k * k, sum_kp += k * p;
+    }
+    const double step = (n * sum_kp - sum_k * sum_p) / (n * sum_kk - sum_k * sum_k);
+    return {order[0].along_mm + (sum_p - step * sum_k) / n, step};
 }
 
 // Slice numbers by place; empty and a problem where they are uneven.
 std::vector<int> number_slices(const std::vector<Sorted>& order, double step_mm,
                                std::string& problem) {
-    std::vector<int> numbers{0};
+    std::vector<int> numbers{0}, all_steps;
     for (std::size_t i = 1; i < order.size(); ++i) {
-        const double distance = order[i].along_mm - order[i - 1].along_mm;
-        const double steps = std::round(distance / step_mm);
-        if (steps < 1 || std::abs(distance - steps * step_mm) > uneven_share * step_mm) {
-            problem = "The images of the series lie unevenly: most are " + in_mm(step_mm) +
-                      " apart, two are " + in_mm(distance) + ".";
-            return {};
-        }
+        const double steps = std::round((order[i].along_mm - order[i - 1].along_mm) / step_mm);
         if (steps > max_missing_in_a_row + 1) {
             problem = "The series lacks " + std::to_string(int(std::min(steps, 1e6)) - 1) +
                       " slices in a row; import only the part that belongs together.";
             return {};
         }
-        numbers.push_back(numbers.back() + int(steps));
+        all_steps.push_back(std::max(1, int(steps)));
+        numbers.push_back(numbers.back() + all_steps.back());
     }
+    if (order.size() < 2)
+        return numbers;
+    if (has_two_distances(all_steps)) {
+        const int other = *std::max_element(all_steps.begin(), all_steps.end());
+        problem = "The images of the series lie unevenly: some are " + in_mm(step_mm) +
+                  " apart, others " + in_mm(other * step_mm) +
+                  "; export each distance as a series of its own.";
+        return {};
+    }
+    // Places are compared with the line that all of them make, so that rounded ones count once.
+    const Line line = line_through(order, numbers);
+    const double limit =
+        std::max(uneven_share * line.step_mm, std::min(rounded_mm, rounded_share * line.step_mm));
+    for (std::size_t i = 0; i < order.size(); ++i)
+        if (std::abs(order[i].along_mm - line.begin_mm - numbers[i] * line.step_mm) > limit) {
+            const std::size_t a = i > 0 ? i - 1 : 0;
+            problem = "The images of the series lie unevenly: most are " + in_mm(step_mm) +
+                      " apart, two are " + in_mm(order[a + 1].along_mm - order[a].along_mm) + ".";
+            return {};
+        }
     return numbers;
 }
 
-medical::Window usual_window(const std::vector<DicomSlice>& slices, const Volume& volume) {
-    for (const DicomSlice& slice : slices)
-        if (slice.has_window)
-            return slice.window;
-    const auto [low, high] = std::minmax_element(volume.samples.begin(), volume.samples.end());
-    const double a = volume.slope * *low + volume.intercept;
-    const double b = volume.slope * *high + volume.intercept;
-    return {(a + b) / 2, std::max(1.0, std::abs(b - a))};
-}
-
-// All samples in one way: lowered where one image has to be.
-void bring_to_one_scale(std::vector<DicomSlice>& slices, Volume& volume) {
-    const bool lowered = std::any_of(slices.begin(), slices.end(),
-                                     [](const DicomSlice& slice) { return slice.lowered; });
-    if (!lowered)
-        return;
-    for (DicomSlice& slice : slices)
-        if (!slice.lowered)
-            for (std::int16_t& sample : slice.samples)
-                sample = std::int16_t(sample - 32768);
-    volume.intercept += 32768 * volume.slope;
-}
-
 }  // namespace
+
+std::string place_difference(const DicomSlice& a, const DicomSlice& b) {
+    if (!b.has_place)
+        return "An image of the series says nothing about its place in the patient, so the series "
+               "cannot be shown as a volume.";
+    if (a.columns != b.columns || a.rows != b.rows ||
+        std::abs(a.column_spacing_mm - b.column_spacing_mm) > same_spacing_mm ||
+        std::abs(a.row_spacing_mm - b.row_spacing_mm) > same_spacing_mm)
+        return "The images of the series have different sizes; export each size as a series of "
+               "its own.";
+    if (is_turned(a, b))
+        return "The images of the series have mixed orientations; export each orientation as a "
+               "series of its own.";
+    if (!a.frame_uid.empty() && !b.frame_uid.empty() && a.frame_uid != b.frame_uid)
+        return "The images of the series have different frames of reference, so their places "
+               "cannot be compared.";
+    if (a.inverted != b.inverted)
+        return "Some images of the series show high values bright, others dark; export each kind "
+               "as a series of its own.";
+    return "";
+}
 
 BuiltSeries build_series(std::vector<DicomSlice>& slices) {
     if (slices.empty())
         return problem_of("The series holds no images.");
     const DicomSlice& first = slices.front();
     for (const DicomSlice& slice : slices)
-        if (std::string problem = difference(first, slice); !problem.empty())
+        if (std::string problem = place_difference(first, slice); !problem.empty())
             return problem_of(std::move(problem));
 
     const Vec3 normal = cross(first.right, first.down);
@@ -180,27 +212,30 @@ BuiltSeries build_series(std::vector<DicomSlice>& slices) {
         built.problem = "The series is larger than what can be shown.";
         return built;
     }
-    volume.slope = first.slope;
-    volume.intercept = first.intercept;
     volume.inverted = first.inverted;
-    bring_to_one_scale(slices, volume);
+    const ValueScale scale = common_scale(slices);
+    volume.slope = scale.slope;
+    volume.intercept = scale.intercept;
 
-    std::int16_t lowest = 32767;
-    for (const DicomSlice& slice : slices)
-        lowest = std::min(lowest, *std::min_element(slice.samples.begin(), slice.samples.end()));
-    volume.samples.assign(volume.grid.size(), lowest);
+    SampleCounts counts;
     std::vector<bool> there(std::size_t(volume.grid.slices));
+    volume.samples.resize(volume.grid.size());
     for (std::size_t i = 0; i < order.size(); ++i) {
-        std::vector<std::int16_t>& samples = slices[order[i].index].samples;
-        std::copy(samples.begin(), samples.end(),
+        DicomSlice& slice = slices[order[i].index];
+        bring_to_scale(slice, scale, counts);
+        std::copy(slice.samples.begin(), slice.samples.end(),
                   volume.samples.begin() + std::ptrdiff_t(volume.grid.index(0, 0, numbers[i])));
-        samples = {};
+        slice.samples = {};
         there[std::size_t(numbers[i])] = true;
     }
+    const std::size_t in_slice = volume.grid.index(0, 0, 1);
     for (int k = 0; k < volume.grid.slices; ++k)
-        if (!there[std::size_t(k)])
+        if (!there[std::size_t(k)]) {
             built.missing_slices.push_back(k);
-    volume.window = usual_window(slices, volume);
+            std::fill_n(volume.samples.begin() + std::ptrdiff_t(volume.grid.index(0, 0, k)),
+                        in_slice, counts.lowest());
+        }
+    volume.window = window_of(slices, counts, scale);
     return built;
 }
 

@@ -93,8 +93,8 @@ TEST(Series, WhatDoesNotFitTogetherIsRefused) {
     EXPECT_THAT(changed([](auto& s) { s[1].has_place = false; }), HasSubstr("its place"));
     EXPECT_THAT(changed([](auto& s) { s[1].columns = 3, s[1].rows = 4; }),
                 HasSubstr("different sizes"));
-    EXPECT_THAT(changed([](auto& s) { s[1].slope = 2; }), HasSubstr("scales of values"));
-    EXPECT_THAT(changed([](auto& s) { s[1].frame_uid = "1.2"; }), HasSubstr("reference"));
+    EXPECT_THAT(changed([](auto& s) { s[0].frame_uid = "1.3", s[1].frame_uid = "1.2"; }),
+                HasSubstr("reference"));
     EXPECT_THAT(changed([](auto& s) { s[1].position_mm.z = 10; }), HasSubstr("same place"));
     EXPECT_THAT(changed([](auto& s) { s[1].position_mm.z = 7; }), HasSubstr("lie unevenly"));
     EXPECT_THAT(changed([](auto& s) { s[1].position_mm.x += 20; }), HasSubstr("in one line"));

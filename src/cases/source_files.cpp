@@ -7,6 +7,7 @@
 #include "cases/case_folder.h"
 #include "cases/foreign_files.h"
 #include "cases/import_case.h"
+#include "cases/left_out.h"
 #include "cases/quoted_path.h"
 
 namespace theatron::cases {
@@ -75,7 +76,7 @@ bool is_nifti_file(const fs::path& file) {
 }
 
 bool is_nrrd_file(const fs::path& file) {
-    return ends_with(file, ".nrrd");
+    return ends_with(file, ".nrrd") || ends_with(file, ".nhdr");
 }
 
 SourceFiles find_source_files(const fs::path& source) {
@@ -101,6 +102,7 @@ SourceFiles find_source_files(const fs::path& source) {
         throw Error(name +
                     " holds neither DICOM images nor surfaces (STL, OBJ, PLY, GLB) nor label "
                     "maps (NIfTI, NRRD) nor pictures (PNG, JPEG)" +
+                    (files.others.empty() ? "" : ", but " + first_names(files.others)) +
                     (files.links > 0 ? "; links in it are not followed." : "."));
     }
     return files;

@@ -265,12 +265,12 @@ TEST(Synth, TheCaseAndItsDicomSeriesAreWhole) {
     EXPECT_THAT(report.remarks, IsEmpty());
 
     const medical::Volume& volume = coarse().volume;
-    const std::optional<DicomSlice> slice = DicomFiles().read(dicom / "0020.dcm");
-    ASSERT_TRUE(slice);
-    EXPECT_TRUE(slice->deidentified);
-    EXPECT_EQ(slice->intercept, volume.intercept);
-    EXPECT_NEAR(length(slice->position_mm - volume.grid.point_at(0, 0, 19)), 0, 1e-6);
-    EXPECT_TRUE(std::equal(slice->samples.begin(), slice->samples.end(),
+    const std::vector<DicomSlice> slices = DicomFiles().read(dicom / "0020.dcm");
+    ASSERT_EQ(slices.size(), 1u);
+    EXPECT_TRUE(slices[0].deidentified);
+    EXPECT_EQ(slices[0].intercept, volume.intercept);
+    EXPECT_NEAR(length(slices[0].position_mm - volume.grid.point_at(0, 0, 19)), 0, 1e-6);
+    EXPECT_TRUE(std::equal(slices[0].samples.begin(), slices[0].samples.end(),
                            volume.samples.begin() + std::ptrdiff_t(volume.grid.index(0, 0, 19))));
     const LoadedCase loaded = read_case(target);
     EXPECT_EQ(picture_of_parts(loaded, {200, 160}).size, (Size{200, 160}));

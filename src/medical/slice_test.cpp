@@ -186,6 +186,10 @@ TEST(Window, GreysFollowTheLinearFunctionOfDicom) {
     // A width of 1 is a threshold at c - 0.5.
     EXPECT_EQ(grey_of(99, {100, 1}), 0);
     EXPECT_EQ(grey_of(100, {100, 1}), 255);
+    // Maps have values below 1: a thousandth of a mm2/s, in steps of a millionth.
+    EXPECT_EQ(grey_of(0, {0.0015, 0.003}, 1e-6), 0);
+    EXPECT_NEAR(grey_of(0.0015, {0.0015, 0.003}, 1e-6), 128, 1);
+    EXPECT_EQ(grey_of(0.003, {0.0015, 0.003}, 1e-6), 255);
 }
 
 TEST(Window, ATableKnowsSlopeInterceptAndInversion) {

@@ -39,7 +39,7 @@ Vec3 get_vec3(ByteReader& reader) {
 bool is_scale(double slope, double intercept, Window window) {
     constexpr double limit = 1e9;
     return slope != 0 && std::abs(slope) <= limit && std::abs(intercept) <= limit &&
-           std::abs(window.center) <= limit && window.width >= 1 && window.width <= limit;
+           std::abs(window.center) <= limit && window.width > 0 && window.width <= limit;
 }
 
 }  // namespace

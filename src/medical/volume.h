@@ -66,7 +66,7 @@ Box box_of(const VolumeGrid& grid);
 
 // The values that are shown as the darkest to the brightest grey.
 struct Window {
-    double center = 40, width = 400;  // width at least 1
+    double center = 40, width = 400;  // width above 0
     bool operator==(const Window&) const = default;
 };
 

@@ -18,8 +18,10 @@ std::span<const WindowPreset> window_presets() {
     return presets;
 }
 
-std::uint8_t grey_of(double value, Window window) {
-    const double center = window.center - 0.5, width = window.width - 1;
+std::uint8_t grey_of(double value, Window window, double slope) {
+    // DICOM's steps of 1, of which measured values below 1 (SUV, mm2/s) have many.
+    const double step = std::min(1.0, std::abs(slope));
+    const double center = window.center - step / 2, width = std::max(window.width - step, 0.0);
     if (value <= center - width / 2)
         return 0;
     if (value > center + width / 2)
@@ -29,7 +31,7 @@ std::uint8_t grey_of(double value, Window window) {
 
 GreyTable::GreyTable(Window window, double slope, double intercept, bool inverted) : greys_(65536) {
     for (int sample = -32768; sample < 32768; ++sample) {
-        const std::uint8_t grey = grey_of(slope * sample + intercept, window);
+        const std::uint8_t grey = grey_of(slope * sample + intercept, window, slope);
         greys_[std::size_t(sample + 32768)] = inverted ? std::uint8_t(255 - grey) : grey;
     }
 }

@@ -20,8 +20,9 @@ struct WindowPreset {
 // Usual windows of CT images, the most general first.
 std::span<const WindowPreset> window_presets();
 
-// The grey of a value, 0 darkest. `window.width` is at least 1.
-std::uint8_t grey_of(double value, Window window);
+// The grey of a value, 0 darkest. `window.width` is above 0. `slope` is that of the volume: values
+// that lie closer together than 1 have a window that may be narrower than 1.
+std::uint8_t grey_of(double value, Window window, double slope = 1);
 
 // The greys of all samples of one volume in one window, so that a picture costs one look-up a
 // pixel. Used by any number of threads.

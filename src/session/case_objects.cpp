@@ -10,7 +10,7 @@ namespace {
 // A screen with a picture or a presenter has a tag of its own, which older programs leave out.
 constexpr std::uint8_t organ_tag = 1, part_tag = 2, screen_tag = 3, full_screen_tag = 4;
 constexpr std::uint16_t no_picture = 0xffff;
-constexpr double max_position_mm = 1e5, max_value = 1e6;
+constexpr double max_position_mm = 1e5, max_value = 1e9;
 // The screen's middle, seen from that of the organ.
 constexpr Vec3 screen_from_organ{0.48, 0.12, -0.1};
 
@@ -64,7 +64,7 @@ std::optional<CaseObject> read(ByteView properties) {
             screen.orientation >= CaseScreen::orientations ||
             !(std::abs(screen.position_mm) <= max_position_mm) ||
             !(std::abs(screen.center) <= max_value) ||
-            !(screen.width >= 1 && screen.width <= max_value))
+            !(screen.width > 0 && screen.width <= max_value))
             return std::nullopt;
         object = screen;
     }

@@ -10,7 +10,8 @@
 namespace theatron::viewer {
 namespace {
 
-constexpr double least_width = 1, most_width = 20'000, most_center = 20'000;
+// In steps of the images' values.
+constexpr double least_width = 1, most_width = 65'536, most_center = 65'536;
 
 }  // namespace
 
@@ -111,8 +112,12 @@ void ScreenHandling::on_input(xr::WindowInput& input, std::optional<double> surf
     if (drags_window_) {
         const double right = std::exchange(input.steering.turn.x, 0) / aspect,
                      down = std::exchange(input.steering.turn.y, 0);
-        next.width = std::clamp(next.width + right * units_per_picture, least_width, most_width);
-        next.center = std::clamp(next.center - down * units_per_picture, -most_center, most_center);
+        // Maps (diffusion, SUV) have values far below 1, activities far above.
+        const double step = volume ? std::abs(volume->slope) : 1;
+        next.width = std::clamp(next.width + right * units_per_picture * step, least_width * step,
+                                most_width * step);
+        next.center = std::clamp(next.center - down * units_per_picture * step, -most_center * step,
+                                 most_center * step);
     }
     if (input.released)
         drags_window_ = false;

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cases/glb_accessor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "cases/foreign_files.h"
+
+namespace theatron::cases::glb {
+
+const Json& no_list() {
+    static const Json none = Json::array();
+    return none;
+}
+
+const Json& list_of(const Json& object, const char* name) {
+    if (!object.is_object())
+        return no_list();
+    const auto found = object.find(name);
+    return found != object.end() && found->is_array() ? *found : no_list();
+}
+
+std::optional<std::size_t> index_of(const Json& object, const char* name) {
+    if (!object.is_object())
+        return std::nullopt;
+    const auto found = object.find(name);
+    if (found == object.end() || !found->is_number_unsigned())
+        return std::nullopt;
+    return found->get<std::size_t>();
+}
+
+std::string text_of(const Json& object, const char* name) {
+    if (!object.is_object())
+        return "";
+    const auto found = object.find(name);
+    return found != object.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+bool has_extension(const Json& object, const char* name) {
+    if (!object.is_object())
+        return false;
+    const auto all = object.find("extensions");
+    return all != object.end() && all->is_object() && all->contains(name);
+}
+
+namespace {
+
+enum Component : std::size_t {
+    i8 = 5120,
+    u8 = 5121,
+    i16 = 5122,
+    u16 = 5123,
+    u32 = 5125,
+    f32 = 5126
+};
+
+// 0: not known.
+std::size_t size_of(std::size_t component) {
+    switch (component) {
+        case i8:
+        case u8:
+            return 1;
+        case i16:
+        case u16:
+            return 2;
+        case u32:
+        case f32:
+            return 4;
+        default:
+            return 0;
+    }
+}
+
+template <class T>
+double as(const std::byte* at) {
+    T value;
+    std::memcpy(&value, at, sizeof(T));
+    return double(value);
+}
+
+double value_at(const std::byte* at, std::size_t component) {
+    switch (component) {
+        case i8:
+            return as<std::int8_t>(at);
+        case u8:
+            return as<std::uint8_t>(at);
+        case i16:
+            return as<std::int16_t>(at);
+        case u16:
+            return as<std::uint16_t>(at);
+        case u32:
+            return as<std::uint32_t>(at);
+        default:
+            return as<float>(at);
+    }
+}
+
+// The largest value of a type, which stands for 1 in normalized accessors; 1 where nothing changes.
+double one_of(std::size_t component) {
+    switch (component) {
+        case i8:
+            return 127;
+        case u8:
+            return 255;
+        case i16:
+            return 32'767;
+        case u16:
+            return 65'535;
+        default:
+            return 1;
+    }
+}
+
+}  // namespace
+
+struct Accessors::Numbers {
+    std::size_t count = 0, component = f32, components = 1;
+    bool normalized = false;
+    std::size_t bytes() const { return components * size_of(component); }
+    double at(const std::byte* place) const {
+        const double value = value_at(place, component);
+        return normalized ? std::max(value / one_of(component), -1.0) : value;
+    }
+};
+
+bool Accessors::has_bytes(std::size_t accessor) const {
+    const Json& all = list_of(root_, "accessors");
+    return accessor < all.size() && index_of(all[accessor], "bufferView").has_value();
+}
+
+Answer Accessors::find(std::size_t accessor, std::size_t components, Numbers& out) {
+    const Json& all = list_of(root_, "accessors");
+    if (accessor >= all.size())
+        return Answer::unreadable;
+    const Json& about = all[accessor];
+    const auto count = index_of(about, "count");
+    out.component = index_of(about, "componentType").value_or(0);
+    out.components = components;
+    out.normalized =
+        about.value("normalized", Json()).is_boolean() && about["normalized"].get<bool>();
+    if (!count || size_of(out.component) == 0 ||
+        text_of(about, "type") != (components == 3 ? "VEC3" : "SCALAR"))
+        return Answer::unreadable;
+    if (*count > max_loose_vertices)
+        return Answer::too_large;
+    out.count = *count;
+    return Answer::content;
+}
+
+// The bytes of a buffer's view from the holder's offset on, of which `needed` must be there.
+Answer Accessors::find_view(const Json& holder, std::size_t needed, ByteView& bytes,
+                            std::size_t& stride) {
+    const Json& views = list_of(root_, "bufferViews");
+    const auto number = index_of(holder, "bufferView");
+    if (!number || *number >= views.size())
+        return Answer::unreadable;
+    const Json& view = views[*number];
+    // Packed bytes are in the extension's own buffer; this one may have none.
+    if (has_extension(view, "EXT_meshopt_compression") ||
+        has_extension(view, "KHR_meshopt_compression")) {
+        extension_ = "EXT_meshopt_compression";
+        return Answer::extension;
+    }
+    const std::size_t buffer = index_of(view, "buffer").value_or(0);
+    const Json& buffers = list_of(root_, "buffers");
+    if (buffer != 0 || (!buffers.empty() && buffers[0].contains("uri")))
+        return Answer::other_buffer;
+    const std::size_t begin = index_of(view, "byteOffset").value_or(0);
+    const std::size_t length = index_of(view, "byteLength").value_or(0);
+    const std::size_t offset = index_of(holder, "byteOffset").value_or(0);
+    stride = index_of(view, "byteStride").value_or(0);
+    if (begin > buffer_.size() || length > buffer_.size() - begin || offset > length ||
+        needed > length - offset)
+        return Answer::lacks;
+    bytes = buffer_.subspan(begin + offset, length - offset);
+    return Answer::content;
+}
+
+Answer Accessors::replace_sparse(const Json& accessor, const Numbers& about,
+                                 std::vector<double>& values) {
+    const auto found = accessor.find("sparse");
+    if (found == accessor.end())
+        return Answer::content;
+    const Json& sparse = *found;
+    Numbers indices{index_of(sparse, "count").value_or(0)};
+    if (!sparse.is_object() || indices.count > about.count || !sparse.contains("indices") ||
+        !sparse.contains("values"))
+        return Answer::unreadable;
+    indices.component = index_of(sparse["indices"], "componentType").value_or(0);
+    if (size_of(indices.component) == 0 || indices.component == f32)
+        return Answer::unreadable;
+    ByteView places, content;
+    std::size_t stride = 0;
+    if (const Answer view =
+            find_view(sparse["indices"], indices.count * indices.bytes(), places, stride);
+        view != Answer::content)
+        return view;
+    if (const Answer view =
+            find_view(sparse["values"], indices.count * about.bytes(), content, stride);
+        view != Answer::content)
+        return view;
+    for (std::size_t i = 0; i < indices.count; ++i) {
+        const double place = indices.at(places.data() + i * indices.bytes());
+        if (!(place >= 0 && place < double(about.count)))
+            return Answer::unreadable;
+        for (std::size_t k = 0; k < about.components; ++k)
+            values[std::size_t(place) * about.components + k] =
+                about.at(content.data() + i * about.bytes() + k * size_of(about.component));
+    }
+    return Answer::content;
+}
+
+Answer Accessors::read(std::size_t accessor, std::size_t components, std::vector<double>& out) {
+    Numbers about;
+    if (const Answer found = find(accessor, components, about); found != Answer::content)
+        return found;
+    const Json& json = list_of(root_, "accessors")[accessor];
+    out.assign(about.count * components, 0);
+    if (about.count == 0)
+        return Answer::content;
+    if (json.contains("bufferView")) {
+        ByteView bytes;
+        std::size_t stride = 0;
+        if (const Answer view = find_view(json, about.bytes(), bytes, stride);
+            view != Answer::content)
+            return view;
+        stride = std::max(stride, about.bytes());
+        if ((bytes.size() - about.bytes()) / stride < about.count - 1)
+            return Answer::lacks;
+        for (std::size_t i = 0; i < about.count; ++i)
+            for (std::size_t k = 0; k < components; ++k)
+                out[i * components + k] =
+                    about.at(bytes.data() + i * stride + k * size_of(about.component));
+    }
+    return replace_sparse(json, about, out);
+}
+
+Answer Accessors::read_positions(std::size_t accessor, std::vector<Vec3>& out) {
+    std::vector<double> numbers;
+    const Answer found = read(accessor, 3, numbers);
+    for (std::size_t i = 0; found == Answer::content && i + 2 < numbers.size(); i += 3)
+        out.push_back({numbers[i], numbers[i + 1], numbers[i + 2]});
+    return found;
+}
+
+Answer Accessors::read_indices(std::size_t accessor, std::vector<std::uint32_t>& out) {
+    std::vector<double> numbers;
+    const Answer found = read(accessor, 1, numbers);
+    if (found != Answer::content)
+        return found;
+    for (const double number : numbers) {
+        if (!(number >= 0 && number <= 4294967295.0))
+            return Answer::unreadable;
+        out.push_back(std::uint32_t(number));
+    }
+    return found;
+}
+
+}  // namespace theatron::cases::glb

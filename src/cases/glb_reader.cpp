@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: Apache-2.0
+// glTF 2.0 in one file: https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "cases/glb_accessor.h"
+#include "cases/mesh_files.h"
+
+namespace theatron::cases {
+namespace {
+
+using glb::Json;
+
+constexpr int deepest_node = 64;
+constexpr std::size_t max_nodes = 100'000;
+
+// Extensions that may be needed without changing where a corner lies.
+bool is_harmless(const std::string& name) {
+    for (const char* begin : {"KHR_materials_", "KHR_texture_", "EXT_texture_", "KHR_lights_",
+                              "EXT_lights_", "KHR_xmp", "MSFT_texture_", "ADOBE_materials_"})
+        if (name.starts_with(begin))
+            return true;
+    return name == "KHR_mesh_quantization";
+}
+
+// Columns as glTF has them.
+using Matrix = std::array<double, 16>;
+
+Matrix product(const Matrix& a, const Matrix& b) {
+    Matrix out{};
+    for (std::size_t column = 0; column < 4; ++column)
+        for (std::size_t row = 0; row < 4; ++row)
+            for (std::size_t i = 0; i < 4; ++i)
+                out[4 * column + row] += a[4 * i + row] * b[4 * column + i];
+    return out;
+}
+
+Vec3 placed(const Matrix& m, Vec3 p) {
+    return {m[0] * p.x + m[4] * p.y + m[8] * p.z + m[12],
+            m[1] * p.x + m[5] * p.y + m[9] * p.z + m[13],
+            m[2] * p.x + m[6] * p.y + m[10] * p.z + m[14]};
+}
+
+bool is_mirrored(const Matrix& m) {
+    return m[0] * (m[5] * m[10] - m[6] * m[9]) - m[4] * (m[1] * m[10] - m[2] * m[9]) +
+               m[8] * (m[1] * m[6] - m[2] * m[5]) <
+           0;
+}
+
+// `count` numbers of a node's property; false where they are there and are none.
+template <std::size_t count>
+bool read_numbers(const Json& node, const char* name, std::array<double, count>& out) {
+    const auto list = node.find(name);
+    if (list == node.end())
+        return true;
+    if (!list->is_array() || list->size() != count)
+        return false;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!(*list)[i].is_number())
+            return false;
+        out[i] = (*list)[i].template get<double>();
+    }
+    return true;
+}
+
+bool read_place(const Json& node, Matrix& out) {
+    out = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    if (node.contains("matrix"))
+        return read_numbers(node, "matrix", out);
+    std::array<double, 3> t{}, s{1, 1, 1};
+    std::array<double, 4> q{0, 0, 0, 1};
+    if (!read_numbers(node, "translation", t) || !read_numbers(node, "rotation", q) ||
+        !read_numbers(node, "scale", s))
+        return false;
+    const auto [x, y, z, w] = q;
+    out = {(1 - 2 * (y * y + z * z)) * s[0],
+           2 * (x * y + z * w) * s[0],
+           2 * (x * z - y * w) * s[0],
+           0,
+           2 * (x * y - z * w) * s[1],
+           (1 - 2 * (x * x + z * z)) * s[1],
+           2 * (y * z + x * w) * s[1],
+           0,
+           2 * (x * z + y * w) * s[2],
+           2 * (y * z - x * w) * s[2],
+           (1 - 2 * (x * x + y * y)) * s[2],
+           0,
+           t[0],
+           t[1],
+           t[2],
+           1};
+    return true;
+}
+
+class Scene {
+public:
+    Scene(const Json& root, ByteView buffer, const TakeMesh& take, std::string& extension)
+        : root_(root), accessors_(root, buffer, extension), take_(take), extension_(extension) {}
+
+    Answer walk() {
+        const Json& nodes = glb::list_of(root_, "nodes");
+        if (nodes.size() > max_nodes)
+            return Answer::too_large;
+        visited_.resize(nodes.size());
+        const Matrix here{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+        for (const std::size_t node : first_nodes(nodes)) {
+            if (const Answer sent = send(nodes, node, here, 0); sent != Answer::content)
+                return sent;
+        }
+        return any_ ? Answer::end : Answer::no_triangles;
+    }
+
+private:
+    std::vector<std::size_t> first_nodes(const Json& nodes) const {
+        const Json& scenes = glb::list_of(root_, "scenes");
+        std::vector<std::size_t> first;
+        const std::size_t scene = glb::index_of(root_, "scene").value_or(0);
+        if (scene < scenes.size()) {
+            for (const Json& node : glb::list_of(scenes[scene], "nodes"))
+                if (node.is_number_unsigned())
+                    first.push_back(node.get<std::size_t>());
+            return first;
+        }
+        // Without a scene: all that are no children.
+        std::vector<bool> is_child(nodes.size());
+        for (const Json& node : nodes)
+            for (const Json& child : glb::list_of(node, "children"))
+                if (child.is_number_unsigned() && child.get<std::size_t>() < nodes.size())
+                    is_child[child.get<std::size_t>()] = true;
+        for (std::size_t i = 0; i < nodes.size(); ++i)
+            if (!is_child[i])
+                first.push_back(i);
+        return first;
+    }
+
+    Answer send(const Json& nodes, std::size_t at, const Matrix& parent, int depth) {
+        // Each node has one place in the tree.
+        if (at >= nodes.size() || visited_[at] || depth > deepest_node)
+            return Answer::unreadable;
+        visited_[at] = true;
+        const Json& node = nodes[at];
+        Matrix local;
+        if (!read_place(node, local))
+            return Answer::unreadable;
+        if (glb::has_extension(node, "EXT_mesh_gpu_instancing")) {
+            extension_ = "EXT_mesh_gpu_instancing";
+            return Answer::extension;
+        }
+        const Matrix place = product(parent, local);
+        if (const auto mesh = glb::index_of(node, "mesh")) {
+            const Json& meshes = glb::list_of(root_, "meshes");
+            if (*mesh >= meshes.size())
+                return Answer::unreadable;
+            if (const Answer sent = send_mesh(node, meshes[*mesh], place); sent != Answer::content)
+                return sent;
+        }
+        for (const Json& child : glb::list_of(node, "children")) {
+            if (!child.is_number_unsigned())
+                return Answer::unreadable;
+            if (const Answer sent = send(nodes, child.get<std::size_t>(), place, depth + 1);
+                sent != Answer::content)
+                return sent;
+        }
+        return Answer::content;
+    }
+
+    Answer send_mesh(const Json& node, const Json& mesh, const Matrix& place) {
+        NamedMesh named;
+        named.name = glb::text_of(node, "name");
+        if (named.name.empty())
+            named.name = glb::text_of(mesh, "name");
+        for (const Json& primitive : glb::list_of(mesh, "primitives"))
+            if (const Answer added = add(primitive, place, named.mesh); added != Answer::content)
+                return added;
+        if (named.mesh.triangles.empty())
+            return Answer::content;
+        any_ = true;
+        return take_(named) ? Answer::content : Answer::end;
+    }
+
+    Answer add(const Json& primitive, const Matrix& place, medical::Mesh& mesh) {
+        constexpr std::size_t triangles = 4, strip = 5, fan = 6;
+        const std::size_t mode = glb::index_of(primitive, "mode").value_or(triangles);
+        if (mode < triangles || mode > fan)
+            return Answer::content;  // points and lines
+        constexpr const char* draco = "KHR_draco_mesh_compression";
+        const Json& attributes =
+            primitive.contains("attributes") ? primitive["attributes"] : glb::no_list();
+        const auto position = glb::index_of(attributes, "POSITION");
+        if (!position)
+            return Answer::content;
+        if (glb::has_extension(primitive, draco) && !accessors_.has_bytes(*position)) {
+            extension_ = draco;
+            return Answer::extension;
+        }
+        std::vector<Vec3> corners;
+        if (const Answer read = accessors_.read_positions(*position, corners);
+            read != Answer::content)
+            return read;
+        std::vector<std::uint32_t> indices;
+        if (const auto list = glb::index_of(primitive, "indices")) {
+            if (const Answer read = accessors_.read_indices(*list, indices);
+                read != Answer::content)
+                return read;
+        } else {
+            for (std::size_t i = 0; i < corners.size(); ++i)
+                indices.push_back(std::uint32_t(i));
+        }
+        const std::size_t first = mesh.positions.size();
+        if (first + corners.size() > max_loose_vertices ||
+            mesh.triangles.size() + indices.size() > max_loose_vertices)
+            return Answer::too_large;
+        for (const Vec3 corner : corners)
+            mesh.positions.push_back(medical::to_float(placed(place, corner)));
+        const bool mirrored = is_mirrored(place);
+        const std::size_t step = mode == triangles ? 3 : 1;
+        for (std::size_t i = 0; i + 3 <= indices.size(); i += step) {
+            std::size_t a = i, b = i + 1, c = i + 2;
+            if (mode == strip && i % 2 == 1)
+                std::swap(a, b);
+            if (mode == fan)
+                a = 0;
+            medical::Triangle t{indices[a], indices[mirrored ? c : b], indices[mirrored ? b : c]};
+            for (std::uint32_t& corner : t) {
+                if (corner >= corners.size())
+                    return Answer::unreadable;
+                corner += std::uint32_t(first);
+            }
+            mesh.triangles.push_back(t);
+        }
+        return mesh.triangles.size() > medical::max_mesh_triangles ? Answer::too_large
+                                                                   : Answer::content;
+    }
+
+    const Json& root_;
+    glb::Accessors accessors_;
+    const TakeMesh& take_;
+    std::string& extension_;
+    std::vector<bool> visited_;
+    bool any_ = false;
+};
+
+}  // namespace
+
+Answer read_glb(ByteView file, const TakeMesh& take, std::string& extension) {
+    constexpr std::size_t header_bytes = 12, chunk_head = 8;
+    if (file.size() < header_bytes || std::memcmp(file.data(), "glTF", 4) != 0)
+        return Answer::no_mesh;
+    if (load_le<std::uint32_t>(file.data() + 4) != 2)
+        return Answer::no_mesh;
+    constexpr std::uint32_t json_kind = 0x4e4f534a, buffer_kind = 0x004e4942;
+    ByteView json, buffer;
+    std::size_t at = header_bytes;
+    while (file.size() - at >= chunk_head) {
+        const std::size_t size = load_le<std::uint32_t>(file.data() + at);
+        const auto kind = load_le<std::uint32_t>(file.data() + at + 4);
+        at += chunk_head;
+        if (size > file.size() - at)
+            return Answer::unreadable;
+        if (kind == json_kind && json.empty())
+            json = file.subspan(at, size);
+        if (kind == buffer_kind && buffer.empty())
+            buffer = file.subspan(at, size);
+        at += size;
+    }
+    const char* text = reinterpret_cast<const char*>(json.data());
+    const Json root = Json::parse(text, text + json.size(), nullptr, false);
+    if (!root.is_object())
+        return Answer::unreadable;
+    for (const Json& name : glb::list_of(root, "extensionsRequired"))
+        if (name.is_string() && !is_harmless(name.get<std::string>()) &&
+            name.get<std::string>() != "KHR_draco_mesh_compression" &&
+            name.get<std::string>() != "EXT_meshopt_compression") {
+            extension = name.get<std::string>();
+            return Answer::extension;
+        }
+    return Scene(root, buffer, take, extension).walk();
+}
+
+}  // namespace theatron::cases

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// Label maps on their way into a case: a surface for each label.
+#include <set>
+
+#include "base/error.h"
+#include "cases/foreign_files.h"
+#include "cases/import_parts.h"
+#include "cases/label_surface.h"
+#include "cases/manifest.h"
+#include "cases/quoted_path.h"
+#include "files/file_bytes.h"
+
+namespace theatron::cases {
+namespace {
+
+namespace fs = std::filesystem;
+using medical::Mesh;
+using medical::Part;
+
+// The part of a label as the options have it, else the file, else by its number.
+Part part_of(int value, const LabelMap& map, const ImportOptions& options) {
+    Part part = usual_part("label " + std::to_string(value));
+    for (const LabelName& known : map.names)
+        if (known.value == value)
+            part = usual_part(known.name);
+    for (const LabelChoice& choice : options.labels)
+        if (choice.value == value) {
+            part = usual_part(choice.name);
+            part.role = choice.role;
+            part.color = medical::usual_color(choice.role);
+            part.opacity = medical::usual_opacity(choice.role);
+        }
+    return part;
+}
+
+void add_parts(const LabelMap& map, const fs::path& file, const ImportOptions& options,
+               std::set<int>& found, std::vector<ImportedPart>& parts,
+               std::vector<std::string>& remarks, const Progress& progress) {
+    const std::vector<LabelCount> labels = labels_in(map);
+    if (looks_like_an_image(map))
+        throw NotForUs(file,
+                       "is an image and no label map: its values change from sample to "
+                       "sample; images are read as DICOM");
+    if (labels.empty())
+        remarks.push_back("The label map " + quoted_path(file) + " has no labels but 0.");
+    if (labels.size() > max_parts)
+        throw NotForUs(file, "has more than " + std::to_string(max_parts) +
+                                 " labels; save those that matter as a label map of their own");
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        const auto tell = [&] { progress("Making surfaces", double(i) / double(labels.size())); };
+        tell();
+        const int value = labels[i].value;
+        found.insert(value);
+        Part part = part_of(value, map, options);
+        Mesh mesh = surface_of_label(map, value, options.max_triangles, tell);
+        if (mesh.triangles.empty())
+            remarks.push_back("The label " + std::to_string(value) +
+                              " has a surface of too many triangles and is left out.");
+        else
+            parts.push_back({std::move(part), std::move(mesh)});
+    }
+}
+
+}  // namespace
+
+std::optional<fs::path> sample_file_of(const fs::path& header) {
+    constexpr std::size_t most = std::size_t(1) << 20;
+    std::error_code failed;
+    if (!is_nrrd_file(header) || fs::file_size(header, failed) > most || failed)
+        return std::nullopt;
+    const std::string name = detached_data_of(files::read_file(header, most));
+    if (name.empty())
+        return std::nullopt;
+    // Beside the header, and nowhere else.
+    return header.parent_path() / fs::path(name).filename();
+}
+
+LabelMap read_label_map(const fs::path& file, std::size_t layer, std::size_t& layers) {
+    const Bytes bytes = files::read_file(file, max_label_file_bytes);
+    ParsedLabels parsed;
+    if (!is_nrrd_file(file)) {
+        parsed = parse_nifti(bytes);
+    } else if (const std::string name = detached_data_of(bytes); name.empty()) {
+        parsed = parse_nrrd(bytes, layer);
+    } else {
+        const fs::path data = file.parent_path() / fs::path(name).filename();
+        std::error_code failed;
+        if (!fs::is_regular_file(fs::symlink_status(data, failed)))
+            throw NotForUs(file, "keeps its samples in another file, '" + data.filename().string() +
+                                     "', which is not beside it; save it in one piece (.nrrd)");
+        parsed = parse_nrrd(bytes, layer, files::read_file(data, max_label_file_bytes));
+    }
+    layers = parsed.layers;
+    if (!parsed.problem.empty() && parsed.is_other_content)
+        throw NotForUs(file, parsed.problem);
+    if (!parsed.problem.empty())
+        throw Error("The label map " + quoted_path(file) + " " + parsed.problem + ".");
+    return std::move(parsed.value);
+}
+
+std::vector<ImportedPart> import_labels(const fs::path& file, const ImportOptions& options,
+                                        std::set<int>& found, LeftOut& left_out,
+                                        std::vector<std::string>& remarks,
+                                        const Progress& progress) {
+    progress("Reading the label map", 0);
+    std::vector<ImportedPart> parts;
+    try {
+        std::size_t layers = 1;
+        for (std::size_t layer = 0; layer < layers; ++layer)
+            add_parts(read_label_map(file, layer, layers), file, options, found, parts, remarks,
+                      progress);
+    } catch (const NotForUs& error) {
+        left_out.add(file, error.reason());
+        return {};
+    }
+    progress("Making surfaces", 1);
+    remark_on_size(parts, remarks);
+    return parts;
+}
+
+}  // namespace theatron::cases

@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Files as other programs and devices write them, generated: each is imported, and what comes out is
+compared with what went in. Generated are also the files with which the fuzz targets begin:
+
+    python3 tests/foreign/foreign_test.py --seeds FOLDER
+    python3 tests/foreign/foreign_test.py --write FOLDER [PART OF A NAME]
+"""
+
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+import dicom_inputs  # noqa: E402
+import label_inputs  # noqa: E402
+import mesh_inputs  # noqa: E402
+from expected import problem  # noqa: E402
+
+LEAST = 200
+FUZZERS = {".stl": "stl_fuzz", ".ply": "ply_fuzz", ".glb": "glb_fuzz", ".nii": "nifti_fuzz",
+           ".nrrd": "nrrd_fuzz", ".nhdr": "nrrd_fuzz", ".dcm": "dicom_fuzz", "": "dicom_fuzz"}
+longest_seed = 1 << 16
+
+
+def inputs():
+    for module in (dicom_inputs, label_inputs, mesh_inputs):
+        yield from module.inputs()
+
+
+def write(files, folder):
+    for name, data in files.items():
+        path = folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(data)
+
+
+def plain_name(name):
+    return re.sub("[^A-Za-z0-9.-]+", "_", name)
+
+
+def write_seeds(folder):
+    """The first file of each input, for the target that reads its kind."""
+    for one in inputs():
+        name, data = next(iter(one.files.items()))
+        name = name.removesuffix(".gz")
+        extension = pathlib.PurePath(name).suffix
+        target = FUZZERS.get(extension)
+        if target and len(data) <= longest_seed:
+            path = folder / target / plain_name(one.name)
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_bytes(data)
+
+
+class ForeignFiles(unittest.TestCase):
+    def run_all(self, module):
+        program = os.environ["THEATRON"]
+        count = 0
+        for one in module.inputs():
+            count += 1
+            with self.subTest(one.name), tempfile.TemporaryDirectory() as temporary:
+                folder = pathlib.Path(temporary)
+                write(one.files, folder / "source")
+                done = subprocess.run([program, "case", "import", folder / "source", folder / "case"],
+                                      capture_output=True, text=True, timeout=120)
+                text = (done.stdout + done.stderr).replace(str(folder), "")
+                self.assertIsNone(problem(one, done.returncode, text, folder / "case"))
+        return count
+
+    def test_dicom(self):
+        self.run_all(dicom_inputs)
+
+    def test_label_maps(self):
+        self.run_all(label_inputs)
+
+    def test_surfaces_and_pictures(self):
+        self.run_all(mesh_inputs)
+
+    def test_there_are_enough_and_each_has_its_name(self):
+        names = [one.name for one in inputs()]
+        self.assertGreaterEqual(len(names), LEAST)
+        self.assertEqual(len(set(names)), len(names))
+
+
+def main():
+    if len(sys.argv) >= 3 and sys.argv[1] == "--seeds":
+        write_seeds(pathlib.Path(sys.argv[2]))
+    elif len(sys.argv) >= 3 and sys.argv[1] == "--write":
+        for one in inputs():
+            if len(sys.argv) < 4 or sys.argv[3] in one.name:
+                write(one.files, pathlib.Path(sys.argv[2]) / plain_name(one.name))
+    else:
+        unittest.main()
+
+
+if __name__ == "__main__":
+    main()
