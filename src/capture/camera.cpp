@@ -54,7 +54,7 @@ std::unique_ptr<Camera> open(const Kind& kind, Options& options, const Progress&
         if (crop.any())
             camera = make_cropped_camera(std::move(camera), crop);
         if (faults) {
-            const WatchedCamera::Clock clock = WatchedCamera::steady_clock();
+            const Clock clock = steady_clock();
             camera = make_faulty_camera(std::move(camera), *faults, clock.now, clock.sleep);
         }
         return camera;

@@ -39,7 +39,7 @@ struct FaultPlan {
     std::optional<Fault> at(TimePoint now) const;
 };
 
-// `clock` and `sleep` as in WatchedCamera::Clock. Throws Error while unplugged.
+// `clock` and `sleep` as in capture/clock.h. Throws Error while unplugged.
 std::unique_ptr<Camera> make_faulty_camera(std::unique_ptr<Camera> camera, const FaultPlan& plan,
                                            std::function<TimePoint()> now,
                                            std::function<void(Duration)> sleep);

@@ -3,10 +3,8 @@
 
 #include <algorithm>
 #include <cstring>
-#include <thread>
 
 #include "base/log.h"
-#include "base/steady_clock.h"
 #include "capture/device_clock.h"
 #include "capture/k4a_device.h"
 #include "capture/time_pairing.h"
@@ -19,16 +17,18 @@ namespace {
 // A colour picture may arrive this many frames after its depth picture.
 constexpr std::size_t max_depth_waiting = 2;
 
-HostNow host_now() {
+HostNow host_now(TimePoint now) {
     const auto since_1970 = std::chrono::system_clock::now().time_since_epoch();
-    return {steady_now(), std::chrono::duration_cast<Duration>(since_1970)};
+    return {now, std::chrono::duration_cast<Duration>(since_1970)};
 }
 
 class K4aCamera final : public Camera {
 public:
-    K4aCamera(const Library& library, const Settings& settings, const Patience& patience)
+    K4aCamera(const Library& library, const Settings& settings, const Patience& patience,
+              Clock clock)
         : settings_(settings),
           patience_(patience),
+          time_(std::move(clock)),
           device_(library, settings),
           pairing_(settings.period() / 2, settings.period() / 4,
                    settings.color == Size{} ? 0 : max_depth_waiting) {
@@ -45,7 +45,7 @@ public:
     Capture next(Duration timeout) override {
         if (over_)
             return *over_;
-        TimePoint now = steady_now();
+        TimePoint now = time_.now();
         const TimePoint deadline = now + timeout;
         do {
             if (const auto frame = take_paired())
@@ -58,14 +58,13 @@ public:
                 add(capture);
             else
                 // Prevents a busy loop if the library does not wait.
-                std::this_thread::sleep_for(
-                    std::clamp<Duration>(deadline - steady_now(), 0ms, 1ms));
+                time_.sleep(std::clamp<Duration>(deadline - time_.now(), 0ms, 1ms));
             if (const auto frame = take_paired())
                 return deliver(frame);
-            waited_ += steady_now() - now;
+            waited_ += time_.now() - now;
             if (const std::string problem = silence(); !problem.empty())
                 return fail(problem);
-            now = steady_now();
+            now = time_.now();
         } while (now < deadline);
         return {};
     }
@@ -106,7 +105,7 @@ private:
         clear(frame->color);
         // Depth is computed after the transfer, so it arrives about one frame late.
         const TimePoint arrived =
-            host_time(device_.system_ns(image), host_now(), settings_.period());
+            host_time(device_.system_ns(image), host_now(time_.now()), settings_.period());
         frame->times = {};
         frame->times.captured = clock_.captured(device_.device_time(image), arrived);
         return frame;
@@ -144,7 +143,7 @@ private:
 
     Capture deliver(const FramePointer& frame) {
         frame->number = number_++;
-        frame->times.delivered = steady_now();
+        frame->times.delivered = time_.now();
         waited_ = {};
         damaged_ = false;
         return {.kind = Capture::Kind::frame, .frame = frame, .problem = {}};
@@ -185,6 +184,7 @@ private:
 
     Settings settings_;
     Patience patience_;
+    const Clock time_;
     OpenDevice device_;
     CameraInfo info_;
     FramePool pool_;
@@ -202,8 +202,8 @@ private:
 }  // namespace
 
 std::unique_ptr<Camera> start_camera(const Library& library, const Settings& settings,
-                                     const Patience& patience) {
-    return std::make_unique<K4aCamera>(library, settings, patience);
+                                     const Patience& patience, Clock clock) {
+    return std::make_unique<K4aCamera>(library, settings, patience, std::move(clock));
 }
 
 }  // namespace k4a

@@ -4,6 +4,7 @@
 
 #include "base/options.h"
 #include "capture/camera.h"
+#include "capture/clock.h"
 #include "capture/k4a_library.h"
 #include "capture/k4a_settings.h"
 
@@ -26,9 +27,10 @@ struct Patience {
     Duration between = 2s;
 };
 
-// Starts a camera with given settings and library. Throws Error.
+// Starts a camera with given settings and library; its patience and the times at which pictures
+// arrive are those of the clock. Throws Error.
 std::unique_ptr<Camera> start_camera(const Library& library, const Settings& settings,
-                                     const Patience& patience);
+                                     const Patience& patience, Clock clock = steady_clock());
 
 }  // namespace k4a
 }  // namespace theatron::capture

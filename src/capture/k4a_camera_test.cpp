@@ -7,12 +7,11 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <thread>
 
 #include "base/error.h"
 #include "base/log.h"
-#include "base/steady_clock.h"
 #include "capture/k4a_device.h"
+#include "testing/manual_clock.h"
 #include "testing/shared_data.h"
 #include "video/jpeg_header.h"
 
@@ -59,10 +58,24 @@ protected:
         return {};
     }
 
+    // On the test's clock. The stand-in waits in real time.
     static std::unique_ptr<Camera> impatient(const std::string& specification,
-                                             const k4a::Patience& patience = {120ms, 120ms}) {
+                                             const k4a::Patience& patience, Clock clock) {
         Options options = Options::parse(specification);
-        return k4a::start_camera(k4a::load_library(), k4a::take_settings(options), patience);
+        return k4a::start_camera(k4a::load_library(), k4a::take_settings(options), patience,
+                                 std::move(clock));
+    }
+    // When the camera has waited in vain, so much time passes, and none otherwise.
+    Clock idle_takes(Duration time) {
+        return {[this] { return clock_.now(); }, [this, time](Duration) { clock_.pass(time); }};
+    }
+    // Every look at it takes a millisecond.
+    Clock every_look_takes_time() {
+        return {[this] {
+                    clock_.pass(1ms);
+                    return clock_.now();
+                },
+                [](Duration) {}};
     }
 
     // The number of frames, at most ten, and the first result after them.
@@ -83,6 +96,7 @@ protected:
     static int depth_number(const Frame& frame) { return frame.depth.pixels[0]; }
 
     void* library_ = nullptr;
+    testing::ManualClock clock_;
 };
 
 TEST_F(K4aCamera, DeliversDepthAndUntouchedColor) {
@@ -205,7 +219,7 @@ TEST_F(K4aCamera, DepthThatIsNotOfTheAgreedSizeIsRefused) {
                             "depth_stride=1278", "depth_stride=-1280", "depth_stride=2000000000",
                             "depth_bytes=0", "depth_bytes=737278", "depth_format=5", "no_depth"}) {
         behave(lie);
-        const auto camera = impatient("k4a:0");
+        const auto camera = impatient("k4a:0", {120ms, 120ms}, every_look_takes_time());
         const auto [frames, end] = play(*camera);
         EXPECT_EQ(frames, 0) << lie;
         EXPECT_EQ(end.kind, Kind::failed) << lie;
@@ -235,13 +249,13 @@ TEST_F(K4aCamera, CapturedIsWhenThePictureCameByWhicheverClock) {
 }
 
 TEST_F(K4aCamera, NothingInTimeIsNoFailure) {
-    setenv("K4A_STANDIN", "period_us=400000", 1);
-    const auto camera = open_camera("k4a:0");
+    behave("stall_after=1");
+    const auto camera = impatient("k4a:0", {}, idle_takes(1ms));
+    ASSERT_EQ(camera->next(1s).kind, Kind::frame);
     EXPECT_EQ(camera->next(Duration(0)).kind, Kind::nothing);
-    const TimePoint begin = steady_now();
+    const TimePoint begin = clock_.now();
     EXPECT_EQ(camera->next(5ms).kind, Kind::nothing);
-    EXPECT_GE(steady_now() - begin, 5ms);
-    EXPECT_EQ(camera->next(1s).kind, Kind::frame);
+    EXPECT_GE(clock_.now() - begin, 5ms);
 }
 
 TEST_F(K4aCamera, AnUnpluggedCameraFailsWithASentence) {
@@ -258,30 +272,33 @@ TEST_F(K4aCamera, AnUnpluggedCameraFailsWithASentence) {
 
 TEST_F(K4aCamera, ASilentCameraFailsWithASentence) {
     behave("stall_after=3");
-    const auto camera = open_camera("k4a:0");
-    int frames = 0;
-    Capture capture = camera->next(100ms);
-    const TimePoint begin = steady_now();
-    for (; capture.kind != Kind::failed && steady_now() - begin < 20s;
-         capture = camera->next(100ms))
-        frames += capture.kind == Kind::frame;
-    EXPECT_EQ(frames, 3);
+    const auto camera = impatient("k4a:0", {}, idle_takes(100ms));
+    for (int n = 0; n < 3; ++n)
+        ASSERT_EQ(camera->next(1s).kind, Kind::frame);
+    int calls = 0;
+    Capture capture = camera->next(5ms);
+    for (; capture.kind == Kind::nothing && calls < 100; ++calls)
+        capture = camera->next(5ms);
+    EXPECT_EQ(calls, 20);
+    EXPECT_EQ(capture.kind, Kind::failed);
     EXPECT_THAT(capture.problem, HasSubstr("has sent no depth picture for 2 seconds"));
 }
 
 TEST_F(K4aCamera, TimeInWhichNobodyAskedIsNotSilence) {
     behave("stall_after=3");
-    const auto camera = impatient("k4a:0", {5s, 500ms});
+    const auto camera = impatient("k4a:0", {5s, 500ms}, idle_takes(1ms));
     for (int n = 0; n < 3; ++n)
         ASSERT_EQ(camera->next(1s).kind, Kind::frame);
-    std::this_thread::sleep_for(600ms);
+    clock_.pass(600ms);
     EXPECT_EQ(camera->next(1ms).kind, Kind::nothing);
 }
 
 TEST_F(K4aCamera, SilencesBetweenFramesDoNotAddUp) {
     setenv("K4A_STANDIN", "period_us=12000", 1);
-    const auto camera = impatient("k4a:0,color=off,depth=nfov2x2", {5s, 500ms});
-    for (int frames = 0; frames < 80;) {
+    // Between two frames the camera waits for 1 ms in vain at most eleven times.
+    const auto camera = impatient("k4a:0,color=off,depth=nfov2x2", {5s, 500ms}, idle_takes(20ms));
+    const TimePoint begin = clock_.now();
+    for (int frames = 0; frames < 80 || clock_.now() - begin < 1s;) {
         const Capture capture = camera->next(1ms);
         ASSERT_NE(capture.kind, Kind::failed) << capture.problem;
         frames += capture.kind == Kind::frame;
@@ -290,8 +307,11 @@ TEST_F(K4aCamera, SilencesBetweenFramesDoNotAddUp) {
 
 TEST_F(K4aCamera, ASubordinateWaitsForItsMaster) {
     behave("stall_after=0");
-    EXPECT_EQ(impatient("k4a:0,sync=subordinate")->next(300ms).kind, Kind::nothing);
-    EXPECT_EQ(impatient("k4a:0,sync=master")->next(300ms).kind, Kind::failed);
+    const k4a::Patience patience{120ms, 120ms};
+    EXPECT_EQ(impatient("k4a:0,sync=subordinate", patience, idle_takes(300ms))->next(5ms).kind,
+              Kind::nothing);
+    EXPECT_EQ(impatient("k4a:0,sync=master", patience, idle_takes(300ms))->next(5ms).kind,
+              Kind::failed);
 }
 
 TEST_F(K4aCamera, TheSerialNumberFindsTheDevice) {

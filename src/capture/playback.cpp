@@ -3,10 +3,8 @@
 
 #include <algorithm>
 #include <atomic>
-#include <thread>
 
 #include "base/error.h"
-#include "base/steady_clock.h"
 #include "capture/transport.h"
 
 namespace theatron::capture {
@@ -15,8 +13,9 @@ namespace {
 class RecordedCamera final : public Camera {
 public:
     RecordedCamera(CameraInfo info, std::unique_ptr<Recording> recording,
-                   const PlaybackOptions& options)
+                   const PlaybackOptions& options, Clock clock)
         : info_(std::move(info)),
+          clock_(std::move(clock)),
           recording_(std::move(recording)),
           playback_(*recording_, seconds_to_duration(1 / info_.frames_per_second), options.loop,
                     options.start) {}
@@ -44,12 +43,12 @@ public:
         } catch (const std::exception& problem) {
             return finish({.kind = Capture::Kind::failed, .problem = problem.what()});
         }
-        const TimePoint now = steady_now();
+        const TimePoint now = clock_.now();
         if (waiting_->times.captured > now + timeout) {
-            std::this_thread::sleep_for(timeout);
+            clock_.sleep(timeout);
             return {};
         }
-        std::this_thread::sleep_for(waiting_->times.captured - now);
+        clock_.sleep(waiting_->times.captured - now);
         return deliver(std::move(waiting_));
     }
 
@@ -61,7 +60,7 @@ private:
     static constexpr int still_periods = 2;
 
     Capture deliver(std::shared_ptr<Frame> frame) {
-        frame->times.delivered = steady_now();
+        frame->times.delivered = clock_.now();
         newest_ = frame->times.captured;
         if (transport_)
             shown_ = frame;
@@ -70,7 +69,7 @@ private:
 
     // Goes to another place of the recording where the transport has.
     Transport::State obey() {
-        const TimePoint now = steady_now();
+        const TimePoint now = clock_.now();
         const Transport::State state = transport_->state(now);
         if (obeyed_ == state.changes)
             return state;
@@ -84,9 +83,9 @@ private:
 
     // A paused recording: its picture again and again, as a camera sees what stands still.
     Capture still(Duration timeout) {
-        const TimePoint now = steady_now();
+        const TimePoint now = clock_.now();
         if (has_still_ && now < next_still_) {
-            std::this_thread::sleep_for(std::min(timeout, Duration(next_still_ - now)));
+            clock_.sleep(std::min(timeout, Duration(next_still_ - now)));
             return {};
         }
         auto frame = pool_.take();
@@ -106,17 +105,17 @@ private:
     }
 
     Capture rest(Duration timeout) {
-        std::this_thread::sleep_for(timeout);
+        clock_.sleep(timeout);
         return {.kind = Capture::Kind::end, .may_go_on = true};
     }
 
     // Reads the next frame before it is due.
     bool prepare() {
-        auto upcoming = playback_.upcoming(steady_now());
+        auto upcoming = playback_.upcoming(clock_.now());
         // Where a pause ends, its still picture is newer.
         while (upcoming && transport_ && upcoming->due <= newest_) {
             recording_->skip();
-            upcoming = playback_.upcoming(steady_now());
+            upcoming = playback_.upcoming(clock_.now());
         }
         if (!upcoming)
             return false;
@@ -137,6 +136,7 @@ private:
     }
 
     CameraInfo info_;
+    const Clock clock_;
     std::unique_ptr<Recording> recording_;
     Playback playback_;
     FramePool pool_;
@@ -269,8 +269,9 @@ void MemoryRecording::go_to(Duration position) {
 }
 
 std::unique_ptr<Camera> make_recorded_camera(CameraInfo info, std::unique_ptr<Recording> recording,
-                                             const PlaybackOptions& options) {
-    return std::make_unique<RecordedCamera>(std::move(info), std::move(recording), options);
+                                             const PlaybackOptions& options, Clock clock) {
+    return std::make_unique<RecordedCamera>(std::move(info), std::move(recording), options,
+                                            std::move(clock));
 }
 
 }  // namespace theatron::capture

@@ -9,6 +9,7 @@
 #include "base/options.h"
 #include "base/time.h"
 #include "capture/camera.h"
+#include "capture/clock.h"
 #include "image/frame.h"
 
 namespace theatron::capture {
@@ -118,8 +119,9 @@ private:
     std::string problem_at_end_;
 };
 
-// A camera that plays a recording in real time.
+// A camera that plays a recording, at the pace of the clock.
 std::unique_ptr<Camera> make_recorded_camera(CameraInfo info, std::unique_ptr<Recording> recording,
-                                             const PlaybackOptions& options);
+                                             const PlaybackOptions& options,
+                                             Clock clock = steady_clock());
 
 }  // namespace theatron::capture

@@ -3,10 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <thread>
-
-#include "base/steady_clock.h"
+#include "capture/playback.h"
 #include "capture/test_recording.h"
+#include "testing/manual_clock.h"
 
 namespace theatron::capture {
 namespace {
@@ -69,7 +68,7 @@ protected:
     Played() {
         CameraInfo info;
         info.frames_per_second = 100;
-        camera = make_recorded_camera(info, numbered(), {});
+        camera = make_recorded_camera(info, numbered(), {}, clock.as<Clock>());
         camera->follow(transport);
     }
     // The next frame's index; -1 at the end.
@@ -90,6 +89,13 @@ protected:
         }
     }
 
+    // The time at which somebody does something, a little after the last picture.
+    TimePoint soon() {
+        clock.pass(1ms);
+        return clock.now();
+    }
+
+    testing::ManualClock clock;
     std::shared_ptr<Transport> transport =
         std::make_shared<Transport>(590ms, std::nullopt, Duration(0));
     std::unique_ptr<Camera> camera;
@@ -99,30 +105,30 @@ protected:
 
 TEST_F(Played, APausedRecordingIsASceneThatStandsStill) {
     const int first = next();
-    transport->pause(steady_now());
+    transport->pause(soon());
     const int still = next();
     EXPECT_GE(still, first);
     for (int i = 0; i < 5; ++i)
         EXPECT_EQ(next(), still);
-    transport->seek(300ms, steady_now());
+    transport->seek(300ms, soon());
     for (int i = 0; i < 3; ++i)
         EXPECT_EQ(next(), 30);
-    transport->seek(100ms, steady_now());
+    transport->seek(100ms, soon());
     EXPECT_EQ(next(), 10);
-    transport->resume(steady_now());
+    transport->resume(soon());
     const int after = next();
     EXPECT_GE(after, 10);
     EXPECT_GT(next(), after);
 }
 
 TEST_F(Played, ARecordingThatHasEndedCanBePlayedAgain) {
-    transport->seek(570ms, steady_now());
+    transport->seek(570ms, soon());
     int last = 0;
     for (int at = next(); at >= 0; at = next())
         last = at;
     EXPECT_EQ(last, 59);
     EXPECT_EQ(next(), -1);
-    transport->resume(steady_now());
+    transport->resume(soon());
     EXPECT_LT(next(), 20);
 }
 

@@ -2,10 +2,8 @@
 #include "capture/watched_camera.h"
 
 #include <algorithm>
-#include <thread>
 
 #include "base/error.h"
-#include "base/steady_clock.h"
 #include "geometry/screen.h"
 
 namespace theatron::capture {
@@ -57,10 +55,6 @@ PictureMark mark_of(DepthView depth) {
         }
     }
     return {any == 0 ? 0 : hash | 1};
-}
-
-WatchedCamera::Clock WatchedCamera::steady_clock() {
-    return {steady_now, [](Duration d) { std::this_thread::sleep_for(d); }};
 }
 
 WatchedCamera::WatchedCamera(std::unique_ptr<Camera> camera, Open open_again, Clock clock)

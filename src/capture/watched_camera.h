@@ -13,6 +13,7 @@
 
 #include "capture/camera.h"
 #include "capture/camera_care.h"
+#include "capture/clock.h"
 #include "wire/control.h"
 
 namespace theatron::capture {
@@ -21,12 +22,6 @@ class WatchedCamera {
 public:
     // Opens the same camera again. May throw Error. Empty: the camera cannot be opened again.
     using Open = std::function<std::unique_ptr<Camera>()>;
-
-    struct Clock {
-        std::function<TimePoint()> now;
-        std::function<void(Duration)> sleep;
-    };
-    static Clock steady_clock();
 
     WatchedCamera(std::unique_ptr<Camera> camera, Open open_again, Clock clock = steady_clock());
 

@@ -32,7 +32,7 @@ struct VirtualTime {
             watch();
         }
     }
-    WatchedCamera::Clock clock() {
+    Clock clock() {
         return {[this] { return now; }, [this](Duration d) { sleep_until(now + d); }};
     }
 };

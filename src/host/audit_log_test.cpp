@@ -5,13 +5,12 @@
 #include <sys/stat.h>
 
 #include <fstream>
-#include <functional>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "base/error.h"
 #include "testing/full_disk.h"
 #include "testing/temporary_folder.h"
+#include "testing/wait_until.h"
 
 namespace theatron::host {
 namespace {
@@ -117,29 +116,23 @@ TEST(Audit, WhatWasLeftOutIsCountedAlsoWhereNoLineFollows) {
     EXPECT_EQ(lines_of(path)[0]["events"]["waits"], 1);
 }
 
-bool wait_for(const std::function<bool()>& is_true) {
-    for (int i = 0; i < 1000 && !is_true(); ++i)
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    return is_true();
-}
-
 TEST(Audit, AFullDiskIsAProblemUntilItHasRoomAgainAndNothingIsLost) {
     const testing::TemporaryFolder folder;
     const auto path = folder.path() / "audit.jsonl";
     AuditLog log(path);
     log.add(event(), "");
-    ASSERT_TRUE(wait_for([&] { return std::filesystem::file_size(path) > 0; }));
+    testing::wait_until([&] { return std::filesystem::file_size(path) > 0; });
     constexpr std::size_t more = 20;  // lines than wait
     {
         const testing::FullDisk disk(std::filesystem::file_size(path) + 10);
         log.add(event(What::left), "");
-        ASSERT_TRUE(wait_for([&] { return !log.problem().empty(); }));
+        testing::wait_until([&] { return !log.problem().empty(); });
         for (std::size_t i = 0; i < AuditLog::max_waiting_lines + more; ++i)
             log.add(event(What::waits), "");
         EXPECT_FALSE(log.problem().empty());
     }
-    ASSERT_TRUE(wait_for([&] { return log.problem().empty(); }));
-    ASSERT_TRUE(wait_for([&] { return lines_of(path).size() == AuditLog::max_waiting_lines + 3; }));
+    testing::wait_until([&] { return log.problem().empty(); });
+    testing::wait_until([&] { return lines_of(path).size() == AuditLog::max_waiting_lines + 3; });
     const auto lines = lines_of(path);
     EXPECT_EQ(lines[0]["event"], "joined");
     EXPECT_EQ(lines[1]["event"], "left");
@@ -169,10 +162,10 @@ TEST(Audit, AFileThatWasMovedAwayIsMadeAnew) {
     const auto path = folder.path() / "audit.jsonl", moved = folder.path() / "moved";
     AuditLog log(path);
     log.add(event(), "");
-    ASSERT_TRUE(wait_for([&] { return std::filesystem::file_size(path) > 0; }));
+    testing::wait_until([&] { return std::filesystem::file_size(path) > 0; });
     std::filesystem::rename(path, moved);
     log.add(event(What::left), "");
-    ASSERT_TRUE(wait_for([&] { return std::filesystem::exists(path) && !lines_of(path).empty(); }));
+    testing::wait_until([&] { return std::filesystem::exists(path) && !lines_of(path).empty(); });
     EXPECT_EQ(lines_of(path)[0]["event"], "left");
     EXPECT_EQ(lines_of(moved).size(), 1u);
 }

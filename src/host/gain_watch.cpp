@@ -9,7 +9,6 @@
 
 #include "base/fault.h"
 #include "base/log.h"
-#include "base/steady_clock.h"
 #include "base/thread_name.h"
 #include "geometry/screen.h"
 #include "send/lane_encoders.h"
@@ -34,8 +33,9 @@ bool is_comparable(const Calibration& calibration) {
 
 }  // namespace
 
-GainWatch::GainWatch(const std::vector<capture::CameraInfo>& cameras, Publish publish)
-    : publish_(std::move(publish)), gains_(cameras.size()) {
+GainWatch::GainWatch(const std::vector<capture::CameraInfo>& cameras, Publish publish,
+                     std::function<TimePoint()> now)
+    : publish_(std::move(publish)), now_(std::move(now)), gains_(cameras.size()) {
     bool has_unknown = false;
     for (std::size_t i = 0; i < cameras.size(); ++i) {
         const Calibration& calibration = cameras[i].calibration;
@@ -49,7 +49,7 @@ GainWatch::GainWatch(const std::vector<capture::CameraInfo>& cameras, Publish pu
     }
     if (watched_.size() < 2 || !has_unknown)
         return;
-    begin_round(steady_now());
+    begin_round(now_());
     thread_ = std::thread([this] { run(); });
 }
 
@@ -98,8 +98,7 @@ void GainWatch::run() {
     std::unique_lock lock(mutex_);
     while (true) {
         const TimePoint end = round_begin_ + round_length;
-        changed_.wait_for(lock, end - steady_now(),
-                          [this] { return stopping_ || !waiting_.empty(); });
+        changed_.wait_for(lock, end - now_(), [this] { return stopping_ || !waiting_.empty(); });
         if (stopping_)
             return;
         if (!waiting_.empty()) {
@@ -112,7 +111,7 @@ void GainWatch::run() {
             round_cpu_ += send::thread_cpu_time() - begin;
             lock.lock();
         }
-        if (!waiting_.empty() || (!wanted_.empty() && steady_now() < end))
+        if (!waiting_.empty() || (!wanted_.empty() && now_() < end))
             continue;
         lock.unlock();
         end_round();
@@ -145,7 +144,7 @@ void GainWatch::end_round() {
     const Duration took = std::exchange(round_cpu_, {}) + send::thread_cpu_time() - begin;
     const Duration pause = std::max(is_first ? first_pause : later_pause, took * idle_share);
     const std::lock_guard lock(mutex_);
-    begin_round(steady_now() + pause);
+    begin_round(now_() + pause);
 }
 
 void GainWatch::estimate() {
@@ -162,7 +161,7 @@ void GainWatch::estimate() {
     SettledGains::Gains estimate(gains_.size());
     for (const std::size_t camera : seen_)
         estimate[camera] = balance_.newest_gain(CameraId(camera));
-    const SettledGains::Gains settled = settled_.add(estimate, steady_now());
+    const SettledGains::Gains settled = settled_.add(estimate, now_());
     if (settled.empty())
         return;
     {

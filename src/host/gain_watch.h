@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "base/ids.h"
+#include "base/steady_clock.h"
 #include "capture/camera.h"
 #include "geometry/color_balance.h"
 #include "host/settled_gains.h"
@@ -30,7 +31,8 @@ public:
     // Cameras without colour or a known place are left out, and so are screens and cameras that see
     // a person. Those whose calibration has gains keep them. Nothing runs unless another camera is
     // beside one without gains.
-    GainWatch(const std::vector<capture::CameraInfo>& cameras, Publish publish);
+    GainWatch(const std::vector<capture::CameraInfo>& cameras, Publish publish,
+              std::function<TimePoint()> now = steady_now);
     ~GainWatch();
 
     // From any thread, for each frame as it was captured; returns at once.
@@ -55,6 +57,7 @@ private:
     void begin_round(TimePoint begin);
 
     const Publish publish_;
+    const std::function<TimePoint()> now_;        // the clock of frames' captured times
     std::map<std::size_t, Calibration> watched_;  // by camera
     // Up to the mutex: the thread's only.
     ColorBalance balance_{1};

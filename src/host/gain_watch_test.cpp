@@ -4,9 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <condition_variable>
+#include <atomic>
 
-#include "base/steady_clock.h"
+#include "testing/manual_clock.h"
+#include "testing/wait_until.h"
 #include "video/color_codec.h"
 
 namespace theatron::host {
@@ -26,7 +27,6 @@ capture::CameraInfo camera_at(double x) {
 // A wall of one colour.
 std::shared_ptr<Frame> frame_of(std::uint8_t grey) {
     auto frame = std::make_shared<Frame>();
-    frame->times.captured = steady_now();
     frame->depth.resize(pixels);
     std::fill(frame->depth.pixels.begin(), frame->depth.pixels.end(), std::uint16_t(2000));
     frame->color.size = pixels;
@@ -45,34 +45,34 @@ std::shared_ptr<Frame> as_jpeg(std::shared_ptr<Frame> frame) {
     return frame;
 }
 
-// Takes a few seconds, since the watch does nothing most of the time.
 TEST(GainWatch, PublishesGainsOnceTheyHaveSettledAndLeavesThoseOfAFile) {
     capture::CameraInfo known = camera_at(0.6), apart = camera_at(0);
     known.calibration.color_gain = {1, 1, 1.25};
     apart.calibration.registered = false;
-    std::mutex mutex;
-    std::condition_variable changed;
-    std::optional<SettledGains::Gains> published;
-    GainWatch watch({camera_at(0), camera_at(0.3), known, apart},
-                    [&](const SettledGains::Gains& gains) {
-                        {
-                            const std::lock_guard lock(mutex);
-                            published = gains;
-                        }
-                        changed.notify_all();
-                    });
-    std::unique_lock lock(mutex);
-    while (!published) {
-        lock.unlock();
-        watch.offer(0, frame_of(100));
-        watch.offer(1, as_jpeg(frame_of(144)));
-        watch.offer(2, frame_of(120));
-        watch.offer(3, frame_of(50));
-        lock.lock();
-        changed.wait_for(lock, std::chrono::milliseconds(30),
-                         [&] { return published.has_value(); });
-    }
-    const SettledGains::Gains gains = *published;
+    testing::ManualClock clock;
+    std::atomic<bool> has_published = false;
+    SettledGains::Gains gains;
+    GainWatch watch(
+        {camera_at(0), camera_at(0.3), known, apart},
+        [&](const SettledGains::Gains& settled) {
+            if (!has_published)
+                gains = settled;
+            has_published = true;
+        },
+        [&] { return clock.now(); });
+    const std::vector<std::shared_ptr<Frame>> pictures{frame_of(100), as_jpeg(frame_of(144)),
+                                                       frame_of(120), frame_of(50)};
+    // The watch takes a picture of each camera, and does nothing for most of the time, which passes
+    // as soon as it has taken them.
+    testing::wait_until([&] {
+        clock.pass(100ms);
+        for (std::size_t camera = 0; camera < pictures.size(); ++camera) {
+            const auto frame = std::make_shared<Frame>(*pictures[camera]);
+            frame->times.captured = clock.now();
+            watch.offer(camera, frame);
+        }
+        return has_published.load();
+    });
     ASSERT_EQ(gains.size(), 4u);
     ASSERT_TRUE(gains[0] && gains[1]);
     EXPECT_NEAR(gains[0]->x, 1.2, 0.02);

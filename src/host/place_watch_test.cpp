@@ -8,11 +8,10 @@
 #include <functional>
 #include <memory>
 #include <mutex>
-#include <thread>
 
-#include "base/steady_clock.h"
 #include "geometry/ray_table.h"
 #include "geometry/screen.h"
+#include "testing/wait_until.h"
 
 namespace theatron::host {
 namespace {
@@ -66,7 +65,7 @@ TEST(PlaceWatch, TellsTheSizeOfAMotionAgainOnceItHasDoubled) {
         const std::lock_guard lock(mutex);
         return told;
     };
-    TimePoint captured = steady_now();
+    TimePoint captured = from_us(100'000'000);
     const auto offer_until = [&](double forward_m, const std::function<bool()>& is_enough) {
         for (int i = 0; i < 60 && !is_enough(); ++i) {
             FramePtr frame = frame_of(camera.calibration.depth, forward_m, captured);
@@ -75,8 +74,7 @@ TEST(PlaceWatch, TellsTheSizeOfAMotionAgainOnceItHasDoubled) {
             frame.reset();
             captured += std::chrono::milliseconds(500);
             // The watch lets go of a picture once it has looked at it.
-            while (!offered.expired())
-                std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            testing::wait_until([&] { return offered.expired(); });
         }
         return is_enough();
     };

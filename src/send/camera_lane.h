@@ -61,7 +61,7 @@ public:
         std::function<codec::DepthStreamEncoder(const codec::DepthSetting&)> make_depth;
         std::function<std::unique_ptr<video::ColorEncoder>(const video::ColorSetting&)> make_color;
         // The clock of the watched camera, of header times and of waiting for key frames.
-        capture::WatchedCamera::Clock clock = capture::WatchedCamera::steady_clock();
+        capture::Clock clock = capture::steady_clock();
     };
 
     // Takes over `camera` and starts at once. `workers` must outlive the lane.

@@ -18,7 +18,7 @@ class CaptureThread {
 public:
     // `sink` is called from the thread, and never after the destructor has returned.
     CaptureThread(std::unique_ptr<capture::Camera> camera, capture::WatchedCamera::Open open_again,
-                  std::function<void(FramePtr)> sink, capture::WatchedCamera::Clock clock);
+                  std::function<void(FramePtr)> sink, capture::Clock clock);
     ~CaptureThread();
 
     const capture::CameraInfo& info() const { return shared_->camera.info(); }

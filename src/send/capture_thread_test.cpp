@@ -53,8 +53,8 @@ private:
 TEST(CaptureThread, ADriverHangsOnlyWhileTheProcessRuns) {
     Driver driver;
     std::atomic<std::int64_t> now_us = 1'000'000;
-    WatchedCamera::Clock clock{[&] { return from_us(now_us); },
-                               [](Duration) { std::this_thread::yield(); }};
+    capture::Clock clock{[&] { return from_us(now_us); },
+                         [](Duration) { std::this_thread::yield(); }};
     CaptureThread thread(
         std::make_unique<HangingCamera>(driver),
         [&] { return std::make_unique<HangingCamera>(driver); }, [](const FramePtr&) {}, clock);

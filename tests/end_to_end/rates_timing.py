@@ -58,7 +58,7 @@ class Rates(unittest.TestCase):
                     viewer.lines.get()
                 viewer.send(signal.SIGCONT)
                 begin = time.monotonic()
-                viewer.wait_for(lambda f: f["cameras"][0]["newest_age_ms"] < 300)
+                viewer.wait_for(lambda f: f["cameras"][0]["age_now_ms"] < 300)
                 return time.monotonic() - begin
 
             self.assertLess(median_of_three(seconds_to_catch_up), 1)

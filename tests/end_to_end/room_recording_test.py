@@ -4,7 +4,6 @@ import json
 import pathlib
 import shutil
 import tempfile
-import time
 import unittest
 
 from room_test import FACE, WALL, brick, count, make_face, member, people
@@ -182,7 +181,9 @@ class RoomRecording(unittest.TestCase):
                        "--may-record") as anna:
             anna.wait_for(lambda f: people(f) == ["Anna"])
             anna.say("stand 0.25 1.6 -0.75 0.25 1.6 0")
-            time.sleep(0.5)  # her pose is in the room before the recording begins
+            with member(h.greeting["link"], "Zoë") as zoe:  # her pose is in the room before the recording begins
+                zoe.wait_for(lambda f: any(p.get("head") for p in f["room"]["people"] if p["name"] == "Anna"))
+            anna.wait_for(lambda f: people(f) == ["Anna"])
             recorder = self.record(h.greeting["link"], recording)
             wait_until(lambda: recording.exists() and recording.stat().st_size > 4096)
             shown = anna.newest_json()["cameras"][0]["frames"]

@@ -7,7 +7,6 @@ import pathlib
 import shutil
 import subprocess
 import tempfile
-import time
 import unittest
 
 import rtsp_standin
@@ -211,7 +210,11 @@ class Windows(unittest.TestCase):
             listed = wait_until(windows)
             self.assertEqual(listed[0]["size"], [320, 180])
             self.window(screen, "0xff0000", "over", 100)
-            time.sleep(1)
+            def is_red(x, y):
+                blue, green, red = screen.pixels(x, y, 1, 1)[0][:3]
+                return red > 200 and green < 60 and blue < 60
+
+            wait_until(lambda: is_red(200, 200), "the window that lies over it")
             lamp = f"folder:{make_recording(self.folder / 'lamp')},loop=1,preload=1,place=0:1.5:0"
             place = ",width=0.4,place=0:1.5:-0.5"
             with host(self.folder / "state", lamp) as h, \
