@@ -25,6 +25,8 @@ struct Flags {
     std::string file;
     std::string ply, png, k4a, room, voices;
     std::optional<int> camera;
+    double from = 0, to = 0;  // seconds; to: 0: not given
+    int every = 1;
     bool merged = false;
     bool undistort = false;
     bool registered = false;
@@ -39,6 +41,10 @@ exporting::ExportSource open_source(const Flags& flags, const Recording& recordi
                                     std::size_t calibration) {
     exporting::ExportSource source;
     source.progress = cli::show_progress();
+    source.selection.from = seconds_to_duration(flags.from);
+    if (flags.to > 0)
+        source.selection.to = seconds_to_duration(flags.to);
+    source.selection.every = std::size_t(flags.every);
     const std::size_t count = recording->cameras().size();
     source.one_camera = flags.camera || count == 1;
     for (std::size_t i = 0; i < count || (flags.camera && i == std::size_t(*flags.camera)); ++i) {
@@ -49,6 +55,13 @@ exporting::ExportSource open_source(const Flags& flags, const Recording& recordi
         source.cameras.push_back(
             std::make_unique<capture::RecordedFrames>(recording, i, flags.file, calibration));
         source.numbers.push_back(i);
+        if (flags.from > 0)
+            source.cameras.back()->go_to(source.selection.from);
+        // After a change of its calibration it may have no frame of that time.
+        if (flags.from + flags.to > 0 && !source.next(source.cameras.size() - 1)) {
+            source.cameras.pop_back();
+            source.numbers.pop_back();
+        }
     }
     return source;
 }
@@ -139,12 +152,18 @@ void run(const Flags& flags) {
         throw Error("Only pictures can be registered; --registered goes with --png.");
     if (flags.registered && flags.undistort)
         throw Error("Pictures are exported either --undistort or --registered.");
+    const bool wants_pictures = !flags.ply.empty() || !flags.png.empty() || !flags.k4a.empty();
+    if (!wants_pictures && (flags.from > 0 || flags.to > 0 || flags.every > 1))
+        throw Error(
+            "Only pictures and points are selected; --from, --to and --every go with --ply, --png "
+            "or --k4a.");
+    if (flags.to > 0 && flags.to <= flags.from)
+        throw Error("--to must be later than --from.");
     const Recording recording = record::RecordingFile::open(flags.file);
     if (flags.camera && std::size_t(*flags.camera) >= recording->cameras().size())
         throw Error("'" + flags.file + "' has no camera " + std::to_string(*flags.camera) +
                     ": it has " + std::to_string(recording->cameras().size()) +
                     ", counted from 0.");
-    const bool wants_pictures = !flags.ply.empty() || !flags.png.empty() || !flags.k4a.empty();
     if (wants_pictures && recording->cameras().empty())
         throw Error("'" + flags.file +
                     "' has no pictures: no camera was there. Its room and voices are exported with "
@@ -294,6 +313,7 @@ void add_export_command(CLI::App& app) {
         "  theatron export operation.mkv --ply points --merged\n"
         "  theatron export operation.mkv --png pictures --camera 1\n"
         "  theatron export operation.mkv --png for_others --undistort\n"
+        "  theatron export operation.mkv --ply points --from 60 --to 70 --every 30\n"
         "  theatron export operation.mkv --png rgbd --registered\n"
         "  theatron export operation.mkv --room room.jsonl\n"
         "  theatron export operation.mkv --voices said\n"
@@ -322,6 +342,13 @@ void add_export_command(CLI::App& app) {
                         "begin with the recording's first picture");
     command->add_option("--camera", flags->camera, "Only this camera, counted from 0")
         ->check(CLI::Range(0, 62));
+    constexpr double longest = 1e6;
+    command->add_option("--from", flags->from, "Only frames from this second of the recording on")
+        ->check(CLI::Range(0.0, longest));
+    command->add_option("--to", flags->to, "Only frames before this second of the recording")
+        ->check(CLI::Range(0.001, longest));
+    command->add_option("--every", flags->every, "Of these the first, and then one of so many")
+        ->check(CLI::Range(1, 1'000'000));
     command->add_flag("--overwrite", flags->overwrite,
                       "Replace an export that is there; other files in its folders stay");
     command->add_flag("--json", flags->json, "Print what was written as JSON lines");

@@ -67,16 +67,17 @@ int run(int argc, char** argv) {
     theatron::app::add_target_command(app);
     theatron::app::add_register_command(app);
 
-    if (argc > 1) {
-        const auto commands = app.get_subcommands({});
-        std::vector<std::string> names;
-        names.reserve(commands.size());
-        for (const CLI::App* command : commands)
-            names.push_back(command->get_name());
-        if (const auto problem = theatron::app::unknown_command(arguments[1], names);
-            !problem.empty())
-            throw theatron::Error(problem);
+    if (argc == 1) {
+        std::cout << app.help();
+        return with_output_written(0);
     }
+    const auto commands = app.get_subcommands({});
+    std::vector<std::string> names;
+    names.reserve(commands.size());
+    for (const CLI::App* command : commands)
+        names.push_back(command->get_name());
+    if (const auto problem = theatron::app::unknown_command(arguments[1], names); !problem.empty())
+        throw theatron::Error(problem);
     std::vector<const char*> taken;
     taken.reserve(words.first.size());
     for (const std::string& argument : words.first)
@@ -89,6 +90,11 @@ int run(int argc, char** argv) {
         if (const auto problem = theatron::app::file_taken_for_option(arguments);
             is_misread && !problem.empty())
             throw theatron::Error(problem);
+        // The library names the words in reverse order.
+        if (const auto unexpected = app.remaining(true);
+            dynamic_cast<const CLI::ExtrasError*>(&e) && !unexpected.empty())
+            throw theatron::Error("'" + unexpected.front() + "' is not expected here; 'theatron " +
+                                  arguments[1] + " --help' tells what is.");
         return with_output_written(app.exit(e));
     }
     return with_output_written(0);

@@ -45,9 +45,11 @@ public:
         return oldest;
     }
 
-    bool waiting() const {
+    bool waiting() const { return size() > 0; }
+    // Values that wait to be taken.
+    std::size_t size() const {
         const std::lock_guard lock(mutex_);
-        return !values_.empty();
+        return values_.size();
     }
 
     // Makes a waiting take() return at once, empty-handed if nothing is there.

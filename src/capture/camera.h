@@ -61,8 +61,13 @@ public:
     // Before the first next(): a recording is played as `transport` says. Other cameras ignore it.
     virtual void follow(std::shared_ptr<Transport> transport) { (void)transport; }
 
-    // Pictures, depth and colour counted each, that its recording had and that are damaged or refer
-    // to damaged ones, as far as it was played. In further rounds they count no more.
+    // Before the first next(): each picture is delivered from now on, however late, instead of
+    // being skipped. False: this camera cannot wait, as no device can.
+    virtual bool skip_none() { return false; }
+
+    // Pictures, depth and colour counted each, that its recording had and that are not delivered:
+    // they are damaged, refer to damaged ones, or are not in their place, as far as it was played.
+    // In further rounds they count no more.
     virtual std::uint64_t lost_pictures() const { return 0; }
 };
 

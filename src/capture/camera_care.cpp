@@ -34,7 +34,8 @@ CameraCare::CameraCare(const Options& options, TimePoint opened)
     : options_(options), last_good_(opened) {}
 
 Trouble CameraCare::judge(TimePoint captured, TimePoint delivered, PictureMark mark) const {
-    if (captured > delivered + most_ahead || captured < delivered - most_behind)
+    const bool is_late = !options_.patient && captured < delivered - most_behind;
+    if (captured > delivered + most_ahead || is_late)
         return Trouble::time_jump;
     if (!any_frame_)
         return Trouble::none;
@@ -89,7 +90,7 @@ void CameraCare::on_open_failed(std::string problem, TimePoint now) {
 
 void CameraCare::on_time(TimePoint now) {
     const Duration patience = std::max(stale_after, options_.period * 5 / 2);
-    if (open_ && !stale() && now - last_good_ > patience)
+    if (open_ && !options_.patient && !stale() && now - last_good_ > patience)
         become(last_fault_);
 }
 

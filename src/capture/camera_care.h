@@ -32,6 +32,8 @@ public:
     struct Options {
         Duration period = 33'333us;
         bool live = true;  // as CameraInfo::live: compare pictures, open again
+        // Its pictures are waited for: none is too late, and it is never silent.
+        bool patient = false;
     };
 
     // A camera is stale after this time without a good picture; later for slow cameras.

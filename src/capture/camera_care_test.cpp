@@ -64,6 +64,18 @@ TEST_F(Care, ASilentCameraIsStaleWithin200MsAndOpenedAgain) {
     EXPECT_EQ(care.figures().troubles[int(Trouble::silent)], 1u);
 }
 
+// One that plays a file whose pictures are all wanted.
+TEST_F(Care, ACameraWhosePicturesAreWaitedForIsNeverLateOrSilent) {
+    CameraCare patient({frame, false, true}, now);
+    for (int i = 0; i < 100; ++i) {
+        now += 3s;
+        patient.on_time(now);
+        EXPECT_FALSE(patient.stale());
+        EXPECT_TRUE(patient.on_frame(from_us(5'000'000) + i * frame, now, {}));
+    }
+    EXPECT_FALSE(patient.on_frame(from_us(5'000'000), now, {})) << "times that go back are wrong";
+}
+
 TEST_F(Care, ACameraThatWaitsForItsMasterIsLeftAlone) {
     now += 1h;
     care.on_time(now);

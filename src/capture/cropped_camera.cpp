@@ -105,7 +105,10 @@ public:
     void follow(std::shared_ptr<Transport> transport) override {
         camera_->follow(std::move(transport));
     }
-    std::uint64_t lost_pictures() const override { return camera_->lost_pictures(); }
+    bool skip_none() override { return camera_->skip_none(); }
+    std::uint64_t lost_pictures() const override {
+        return camera_->lost_pictures() + damaged_colors_;
+    }
 
     Capture next(Duration timeout) override {
         Capture capture = camera_->next(timeout);
@@ -120,6 +123,7 @@ public:
         out->times = from.times;
         copy_part(from.depth, depth_, out->depth);
         convert_color(from.color, out->color);
+        damaged_colors_ += out->color.empty() && !from.color.empty();
         capture.frame = out;
         return capture;
     }
@@ -160,6 +164,7 @@ private:
     Size depth_whole_, color_whole_;
     Crop depth_, color_;
     Size color_size_;
+    std::uint64_t damaged_colors_ = 0;
     FramePool frames_;
     video::JpegCropper jpeg_;
     video::CameraPixels pixels_;

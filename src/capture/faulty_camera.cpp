@@ -50,6 +50,7 @@ public:
     void follow(std::shared_ptr<Transport> transport) override {
         camera_->follow(std::move(transport));
     }
+    std::uint64_t lost_pictures() const override { return camera_->lost_pictures(); }
 
     Capture next(Duration timeout) override {
         const TimePoint now = now_();

@@ -4,15 +4,17 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <map>
+#include <utility>
 
 #include "base/error.h"
 #include "base/log.h"
 #include "capture/folder_calibration.h"
+#include "capture/folder_files.h"
 #include "capture/playback.h"
 #include "capture/tiled_recording.h"
 #include "files/file_bytes.h"
 #include "files/png_file.h"
+#include "video/jpeg_file_native.h"
 #include "video/jpeg_header.h"
 
 namespace theatron::capture {
@@ -23,112 +25,52 @@ namespace fs = std::filesystem;
 constexpr std::size_t usual_preload_bytes = std::size_t(1) << 30;
 constexpr std::size_t max_calibration_bytes = std::size_t(1) << 20;
 
-// The files of one frame. `color` may be empty.
-struct FramePaths {
-    fs::path depth;
-    fs::path color;
-};
-
-// Compares numbers by value, so that 10.png follows 9.png.
-bool precedes(const std::string& a, const std::string& b) {
-    const auto is_number = [](const std::string& s) {
-        return !s.empty() && s.find_first_not_of("0123456789") == std::string::npos;
-    };
-    if (!is_number(a) || !is_number(b))
-        return a < b;
-    const auto significant = [](const std::string& s) {
-        return s.substr(std::min(s.find_first_not_of('0'), s.size()));
-    };
-    const std::string x = significant(a), y = significant(b);
-    return std::pair(x.size(), x) < std::pair(y.size(), y);
-}
-
-std::map<std::string, fs::path, decltype(&precedes)> pictures(
-    const fs::path& folder, std::initializer_list<std::string_view> endings) {
-    std::map<std::string, fs::path, decltype(&precedes)> found(&precedes);
-    std::error_code problem;
-    for (const auto& entry : fs::directory_iterator(folder, problem)) {
-        std::string ending = entry.path().extension().string();
-        std::transform(ending.begin(), ending.end(), ending.begin(),
-                       [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
-        if (std::find(endings.begin(), endings.end(), ending) != endings.end())
-            found.emplace(entry.path().stem().string(), entry.path());
-    }
-    if (problem)
-        throw Error("Cannot read the folder '" + folder.string() + "': " + problem.message() + ".");
-    return found;
-}
-
-std::vector<FramePaths> find_frames(const fs::path& folder) {
-    if (!fs::is_directory(folder))
-        throw Error("There is no folder '" + folder.string() + "'.");
-    if (!fs::is_directory(folder / "depth"))
-        throw Error("'" + folder.string() + "' holds no folder 'depth' with 16-bit PNG pictures.");
-    const auto depth = pictures(folder / "depth", {".png"});
-    if (depth.empty())
-        throw Error("'" + (folder / "depth").string() + "' holds no PNG pictures.");
-
-    std::vector<FramePaths> frames;
-    if (!fs::is_directory(folder / "color")) {
-        for (const auto& [number, path] : depth)
-            frames.push_back({path, {}});
-        return frames;
-    }
-    const auto color = pictures(folder / "color", {".jpg", ".jpeg", ".png"});
-    std::size_t without_color = 0;
-    for (const auto& [number, path] : depth) {
-        const auto same = color.find(number);
-        frames.push_back({path, same == color.end() ? fs::path() : same->second});
-        without_color += same == color.end();
-    }
-    if (without_color > 0)
-        log::warning(
-            "capture", "frames have no colour picture of the same number",
-            {{"folder", folder.string()}, {"without", without_color}, {"frames", frames.size()}});
-    return frames;
-}
-
-// Reads a colour picture: JPEG is kept, PNG is decoded to pixels.
-void read_color(const fs::path& path, ColorData& out) {
-    out.jpeg.clear();
-    out.pixels.pixels.clear();
-    out.size = {};
-    if (path.empty())
-        return;
-    const Bytes bytes = files::read_file(path);
+// Reads a colour picture: JPEG of a kind that cameras give is kept, all else is decoded to pixels.
+// Returns an empty text, or what is wrong with it, as the end of a sentence.
+std::string decode_color(const Bytes& bytes, ColorData& out) {
     constexpr std::byte png_begins{0x89};
     if (!bytes.empty() && bytes[0] == png_begins) {
-        if (const std::string problem = files::decode_png(bytes, out.pixels); !problem.empty())
-            throw Error("'" + path.string() + "' " + problem + ".");
+        std::string problem = files::decode_png(bytes, out.pixels);
         out.size = out.pixels.size;
-        return;
+        return problem;
     }
     const Result<Size> size = video::read_jpeg_size(bytes);
-    if (!size && size.error() == Status::unsupported)
-        throw Error("'" + path.string() +
-                    "' is a JPEG picture of an unusual kind; save it as baseline JPEG or PNG.");
+    if (!size && size.error() == Status::unsupported) {
+        if (video::decode_jpeg_file(bytes, out.pixels) != Status::ok)
+            return "is a damaged JPEG picture, or one of an unusual kind; save it as baseline JPEG "
+                   "or PNG";
+        out.size = out.pixels.size;
+        return "";
+    }
     if (!size)
-        throw Error("'" + path.string() + "' is not a whole JPEG or PNG picture.");
+        return "is not a whole JPEG or PNG picture";
     out.size = *size;
     out.jpeg.assign(bytes.begin(), bytes.end());
+    return "";
+}
+
+void clear(ColorData& color) {
+    color.jpeg.clear();
+    color.pixels.pixels.clear();
+    color.pixels.size = color.size = {};
 }
 
 class FolderRecording final : public Recording {
 public:
+    // Throws Error if none of the depth pictures can be read, or none of the colour pictures.
     FolderRecording(std::vector<FramePaths> frames, double fps, std::uint16_t invalid)
         : frames_(std::move(frames)), fps_(fps), invalid_(invalid) {
         Frame first;
-        first.depth = files::read_depth_png(frames_[0].depth);
+        require_one(&FramePaths::depth,
+                    [&](const fs::path& path) { return read_depth(path, first.depth); });
         depth_size_ = first.depth.size;
-        for (const FramePaths& paths : frames_)
-            if (!paths.color.empty()) {
-                read_color(paths.color, first.color);
-                color_size_ = first.color.size;
-                bytes_per_frame_ +=
-                    first.color.jpeg.size() + first.color.pixels.pixels.size() * sizeof(Rgb);
-                break;
-            }
-        bytes_per_frame_ += depth_size_.area() * sizeof(std::uint16_t);
+        if (std::any_of(frames_.begin(), frames_.end(),
+                        [](const FramePaths& paths) { return !paths.color.empty(); }))
+            require_one(&FramePaths::color,
+                        [&](const fs::path& path) { return read_color(path, first.color); });
+        color_size_ = first.color.size;
+        bytes_per_frame_ = depth_size_.area() * sizeof(std::uint16_t) + first.color.jpeg.size() +
+                           first.color.pixels.pixels.size() * sizeof(Rgb);
     }
 
     Size depth_size() const { return depth_size_; }
@@ -142,27 +84,96 @@ public:
         return seconds_to_duration(double(next_) / fps_);
     }
     void skip() override { ++next_; }
-    void rewind() override { next_ = 0; }
 
-    void read(Frame& out) override {
+    bool read(Frame& out) override {
         const FramePaths& paths = frames_[next_++];
-        const Bytes png = files::read_file(paths.depth);
-        if (const std::string problem = files::decode_png(png, out.depth); !problem.empty())
-            throw Error("'" + paths.depth.string() + "' " + problem + ".");
-        require_size(paths.depth, out.depth.size, depth_size_);
-        if (invalid_ != 0)
-            std::replace(out.depth.pixels.begin(), out.depth.pixels.end(), invalid_,
-                         std::uint16_t(0));
-        read_color(paths.color, out.color);
-        if (!paths.color.empty())
-            require_size(paths.color, out.color.size, color_size_);
+        if (const std::string problem = read_depth(paths.depth, out.depth); !problem.empty()) {
+            note_damage(paths.depth, problem);
+            return false;
+        }
+        any_read_ = true;
+        clear(out.color);
+        if (paths.color.empty())
+            return true;
+        if (const std::string problem = read_color(paths.color, out.color); !problem.empty()) {
+            clear(out.color);
+            note_damage(paths.color, problem);
+        }
+        return true;
     }
 
+    void rewind() override {
+        if (!any_read_ && next_ == frames_.size() && damaged_ > 0)
+            throw Error("None of the depth pictures can be read any more, for example '" +
+                        frames_.front().depth.string() + "'.");
+        next_ = 0;
+        any_read_ = false;
+        lost_before_ = lost_pictures();
+        damaged_ = 0;
+    }
+
+    std::uint64_t lost_pictures() const override { return std::max(lost_before_, damaged_); }
+
 private:
-    static void require_size(const fs::path& path, Size found, Size expected) {
-        if (found != expected)
-            throw Error("'" + path.string() + "' is " + to_text(found) +
-                        ", but the first picture of its folder is " + to_text(expected) + ".");
+    // Reads the first picture that can be read.
+    template <class Read>
+    void require_one(fs::path FramePaths::*which, Read read) {
+        std::string first_problem;
+        for (const FramePaths& paths : frames_) {
+            const fs::path& path = paths.*which;
+            if (path.empty())
+                continue;
+            const std::string problem = read(path);
+            if (problem.empty())
+                return;
+            if (first_problem.empty())
+                first_problem = "'" + path.string() + "' " + problem + ".";
+        }
+        throw Error(first_problem);
+    }
+
+    // Both return an empty text, or what is wrong with the picture, as the end of a sentence.
+    std::string read_depth(const fs::path& path, DepthImage& out) const {
+        const std::optional<Bytes> png = read_bytes(path);
+        if (!png)
+            return unreadable;
+        if (std::string problem = files::decode_png(*png, out); !problem.empty())
+            return problem;
+        if (invalid_ != 0)
+            std::replace(out.pixels.begin(), out.pixels.end(), invalid_, std::uint16_t(0));
+        return size_problem(out.size, depth_size_);
+    }
+    std::string read_color(const fs::path& path, ColorData& out) const {
+        const std::optional<Bytes> bytes = read_bytes(path);
+        if (!bytes)
+            return unreadable;
+        clear(out);
+        if (std::string problem = decode_color(*bytes, out); !problem.empty())
+            return problem;
+        return size_problem(out.size, color_size_);
+    }
+
+    static constexpr const char* unreadable = "cannot be read";
+    static std::optional<Bytes> read_bytes(const fs::path& path) {
+        try {
+            return files::read_file(path);
+        } catch (const Error&) {
+            return std::nullopt;
+        }
+    }
+    static std::string size_problem(Size found, Size expected) {
+        if (found == expected || expected == Size{})
+            return "";
+        return "is " + to_text(found) + ", but the first picture of its folder is " +
+               to_text(expected);
+    }
+
+    // Warns once, even in a loop.
+    void note_damage(const fs::path& path, const std::string& problem) {
+        ++damaged_;
+        if (!std::exchange(damage_noted_, true))
+            log::warning("capture", "a picture is damaged and left out",
+                         {{"file", path.string()}, {"problem", problem}});
     }
 
     std::vector<FramePaths> frames_;
@@ -171,6 +182,8 @@ private:
     Size depth_size_, color_size_;
     std::size_t bytes_per_frame_ = 0;
     std::size_t next_ = 0;
+    std::uint64_t damaged_ = 0, lost_before_ = 0;  // in this round, in those before it
+    bool any_read_ = false, damage_noted_ = false;
 };
 
 Calibration read_calibration(const fs::path& folder, Size depth, Size color) {
@@ -187,7 +200,8 @@ Calibration read_calibration(const fs::path& folder, Size depth, Size color) {
     if (fs::exists(folder / "camera-intrinsics.txt"))
         return parse_file(folder / "camera-intrinsics.txt", parse_intrinsics_matrix);
     log::warning("capture",
-                 "the camera's lens is unknown and a usual one is assumed; add calibration.json",
+                 "the camera's lens is unknown and a usual one is assumed, with depth in "
+                 "millimetres; add calibration.json",
                  {{"folder", folder.string()}});
     return default_calibration(depth, color);
 }
@@ -217,7 +231,7 @@ std::unique_ptr<Camera> open_folder_camera(Options& options, const Progress& pro
     if (!folder.has_filename())
         folder = folder.parent_path();
     auto frames =
-        std::make_unique<FolderRecording>(find_frames(folder), fps, std::uint16_t(invalid));
+        std::make_unique<FolderRecording>(folder_frames(folder), fps, std::uint16_t(invalid));
     if (std::size_t(playback.start) >= frames->frames())
         throw Error("'" + folder.string() + "' has " + std::to_string(frames->frames()) +
                     " frames, so start=" + std::to_string(playback.start) + " is too far.");

@@ -168,24 +168,65 @@ TEST_F(FolderCamera, CalibrationComesFromTheFileBesideThePictures) {
     EXPECT_EQ(problem(), "'" + (path() / "calibration.json").string() + "' is not JSON.");
 }
 
-TEST_F(FolderCamera, NamesTheFrameOfAnOddSize) {
-    add_frames(3);
-    add_depth(1, {7, 6});
-    const std::string sentence = "'" + (path() / "depth/01.png").string() +
-                                 "' is 7x6, but the first picture of its folder is 8x6.";
-    EXPECT_EQ(problem(), sentence);
+// As the cameras of recordings do: a depth picture with its frame, a colour picture alone.
+TEST_F(FolderCamera, DamagedPicturesAreLeftOutAndCounted) {
+    add_frames(6);
+    Bytes png = files::read_file(path() / "depth/00.png");
+    png.resize(png.size() / 2);
+    files::write_file(path() / "depth/00.png", png);
+    files::write_file(path() / "depth/02.png", as_bytes("not a picture"));
+    add_depth(3, {7, 6});
+    Bytes jpeg = jpeg_picture(color_size);
+    jpeg.resize(100);
+    files::write_file(path() / "color/04.jpg", jpeg);
+    add_jpeg(5, {16, 11});
+    for (const char* options : {",fps=240", ",fps=240,preload=0"}) {
+        const auto camera = open(options);
+        ASSERT_TRUE(camera->skip_none());
+        std::vector<int> depth;
+        std::vector<bool> has_color;
+        Capture capture;
+        while ((capture = camera->next(1s)).kind != Capture::Kind::end) {
+            ASSERT_NE(capture.kind, Capture::Kind::failed) << capture.problem;
+            if (capture.kind != Capture::Kind::frame)
+                continue;
+            depth.push_back(capture.frame->depth.pixels[0]);
+            has_color.push_back(!capture.frame->color.empty());
+        }
+        EXPECT_EQ(depth, (std::vector{1001, 1004, 1005})) << options;
+        EXPECT_EQ(has_color, (std::vector{true, false, false})) << options;
+        EXPECT_EQ(camera->lost_pictures(), 5u) << options;
+    }
+}
 
-    // With preload=0 the damage is found when the frame is due.
-    const auto camera = open(",preload=0,fps=200");
-    Capture capture = camera->next(1s);
-    while (capture.kind != Capture::Kind::failed && capture.kind != Capture::Kind::end)
-        capture = camera->next(1s);
-    EXPECT_EQ(capture.problem, sentence);
-    EXPECT_EQ(camera->next(1s).kind, Capture::Kind::failed);
+TEST_F(FolderCamera, AFolderThatIsGoneEndsALoopWithASentence) {
+    add_frames(2);
+    const auto camera = open(",fps=240,loop=1,preload=0");
+    ASSERT_EQ(camera->next(1s).kind, Capture::Kind::frame);
+    fs::remove_all(path());
+    Capture capture;
+    while ((capture = camera->next(1s)).kind != Capture::Kind::failed)
+        ASSERT_NE(capture.kind, Capture::Kind::end);
+    EXPECT_THAT(capture.problem, HasSubstr("None of the depth pictures can be read any more"));
+}
 
-    add_depth(1);
-    add_jpeg(2, {16, 11});
-    EXPECT_THAT(problem(), AllOf(HasSubstr("02.jpg"), HasSubstr("16x11"), HasSubstr("16x12")));
+TEST_F(FolderCamera, ColourMayLieInAFolderRgbAndBelongByTime) {
+    fs::remove_all(path() / "color");
+    fs::create_directories(path() / "rgb");
+    for (int n = 0; n < 3; ++n) {
+        files::write_png(path() / "depth" / ("130503110" + std::to_string(n) + ".160407.png"),
+                         flat_depth(depth_size, std::uint16_t(1000 + n)).view());
+        files::write_file(path() / "rgb" / ("130503110" + std::to_string(n) + ".175304.jpg"),
+                          jpeg_picture(color_size));
+    }
+    const auto camera = open(",fps=240");
+    ASSERT_TRUE(camera->skip_none());
+    for (int n = 0; n < 3; ++n) {
+        const Capture capture = camera->next(1s);
+        ASSERT_EQ(capture.kind, Capture::Kind::frame);
+        EXPECT_EQ(capture.frame->depth.pixels[0], 1000 + n);
+        EXPECT_EQ(capture.frame->color.size, color_size);
+    }
 }
 
 TEST_F(FolderCamera, SaysWhatIsWrongWithTheFiles) {
@@ -196,18 +237,18 @@ TEST_F(FolderCamera, SaysWhatIsWrongWithTheFiles) {
     EXPECT_THAT(problem(",fps=0"), HasSubstr("fps=0"));
     EXPECT_THAT(problem(",speed=1"), HasSubstr("'speed' is unknown"));
 
-    files::write_file(path() / "color/01.jpg", as_bytes("not a picture"));
-    EXPECT_THAT(problem(), AllOf(HasSubstr("01.jpg"), HasSubstr("not a whole JPEG")));
-    Bytes cut = jpeg_picture(color_size);
-    cut.resize(100);
-    files::write_file(path() / "color/01.jpg", cut);
-    EXPECT_THAT(problem(), AllOf(HasSubstr("01.jpg"), HasSubstr("not a whole JPEG")));
+    for (const char* name : {"color/00.jpg", "color/01.jpg"})
+        files::write_file(path() / name, as_bytes("not a picture"));
+    EXPECT_THAT(problem(), AllOf(HasSubstr("00.jpg"), HasSubstr("not a whole JPEG")));
+    add_jpeg(0);
     add_jpeg(1);
 
-    files::write_png(path() / "depth/01.png", ColorImage(depth_size).view());
-    EXPECT_THAT(problem(), AllOf(HasSubstr("01.png"), HasSubstr("16 bits grey")));
-    files::write_file(path() / "depth/01.png", as_bytes("not a picture"));
-    EXPECT_THAT(problem(), AllOf(HasSubstr("01.png"), HasSubstr("is not a PNG picture")));
+    for (const char* name : {"depth/00.png", "depth/01.png"})
+        files::write_png(path() / name, ColorImage(depth_size).view());
+    EXPECT_THAT(problem(), AllOf(HasSubstr("00.png"), HasSubstr("16 bits grey")));
+    for (const char* name : {"depth/00.png", "depth/01.png"})
+        files::write_file(path() / name, as_bytes("not a picture"));
+    EXPECT_THAT(problem(), AllOf(HasSubstr("00.png"), HasSubstr("is not a PNG picture")));
 
     fs::remove_all(path() / "depth");
     EXPECT_THAT(problem(), HasSubstr("holds no folder 'depth'"));

@@ -52,7 +52,7 @@ Result<MkvAnswer> decode_mkv_answer(ByteView message, std::size_t shared_bytes) 
         return Status::trailing_bytes;
     // Limits times, so that sums do not overflow.
     constexpr Duration longest = std::chrono::hours(1'000'000);
-    if (kind < 1 || kind > std::uint8_t(MkvAnswer::Kind::impossible_size) ||
+    if (kind < 1 || kind > std::uint8_t(MkvAnswer::Kind::infrared_only) ||
         answer.bytes > shared_bytes || answer.time < -longest || answer.time > longest)
         return Status::malformed;
     return answer;

@@ -42,6 +42,7 @@ struct MkvAnswer {
         no_matroska = 5,
         no_depth = 6,
         impossible_size = 7,
+        infrared_only = 8,
     };
     Kind kind{};
     Duration time{};          // of the picture

@@ -23,7 +23,8 @@ constexpr double usual_frames_per_second = 30;
 
 class MkvRecording final : public Recording {
 public:
-    explicit MkvRecording(const fs::path& path) : path_(path), file_(path), pairing_(tolerance()) {
+    explicit MkvRecording(const fs::path& path)
+        : path_(path), file_(path), pairing_(tolerance(), most_colors()) {
         if (!upcoming())
             throw Error("'" + path.string() +
                         (file_.is_cut_off() ? "' is cut off before its first depth picture."
@@ -48,7 +49,7 @@ public:
 
     void skip() override { pair_.reset(); }
 
-    void read(Frame& out) override {
+    bool read(Frame& out) override {
         const Size size = file_.depth_size();
         out.depth.resize(size);
         const Bytes& depth = pair_->depth.payload;
@@ -63,17 +64,37 @@ public:
             out.color.size = file_.color_size();
         }
         pair_.reset();
+        return true;
     }
 
     // Reads from the beginning: seeking needs an index, which a truncated recording lacks.
     void rewind() override {
         file_.rewind();
-        pairing_ = TimePairing<Bytes>(tolerance());
+        lost_before_ = lost_pictures();
+        damaged_ = 0;
+        pairing_ = TimePairing<Bytes>(tolerance(), most_colors());
         pair_.reset();
+    }
+
+    std::uint64_t lost_pictures() const override {
+        const auto& left_out = pairing_.left_out();
+        return std::max(lost_before_, damaged_ + left_out.backward + left_out.apart);
+    }
+
+    std::string problem_at_end() const override {
+        return file_.is_cut_off() ? "The recording '" + path_.string() + "' is cut off." : "";
     }
 
 private:
     Duration tolerance() const { return seconds_to_duration(0.5 / frames_per_second()); }
+
+    // In files that were put together again colour may stand seconds before its depth.
+    std::size_t most_colors() const {
+        constexpr std::size_t most_bytes = std::size_t(128) << 20, pixels_per_byte = 4;
+        const std::size_t usual_bytes = file_.color_size().area() / pixels_per_byte + 1;
+        return std::clamp(most_bytes / usual_bytes, TimePairing<Bytes>::usual_max_waiting,
+                          10 * TimePairing<Bytes>::usual_max_waiting);
+    }
 
     // Sets pair_ to the next frame; false at the end.
     bool upcoming() {
@@ -85,11 +106,22 @@ private:
             if (!packet) {
                 pairing_.finish();
                 pair_ = pairing_.take();
+                note_left_out();
                 return pair_.has_value();
             }
             add(std::move(*packet));
         }
+        note_left_out();
         return true;
+    }
+
+    void note_left_out() {
+        const auto& left_out = pairing_.left_out();
+        if (left_out.backward > 0)
+            note(backward_noted_,
+                 "pictures have earlier times than those before them and are left out");
+        if (left_out.apart > 0)
+            note(apart_noted_, "colour is too far from its depth in the file and is left out");
     }
 
     void add(MkvFile::Packet packet) {
@@ -107,9 +139,14 @@ private:
             note_damage("a colour picture is damaged and left out");
     }
 
-    // Logs once per recording, even if it loops.
     void note_damage(std::string_view what) {
-        if (!std::exchange(damage_noted_, true))
+        ++damaged_;
+        note(damage_noted_, what);
+    }
+
+    // Logs once per recording, even if it loops.
+    void note(bool& noted, std::string_view what) const {
+        if (!std::exchange(noted, true))
             log::warning("capture", what, {{"file", path_.string()}});
     }
 
@@ -118,7 +155,8 @@ private:
     TimePairing<Bytes> pairing_;
     std::optional<TimePairing<Bytes>::Pair> pair_;
     Duration first_{};
-    bool damage_noted_ = false;
+    std::uint64_t damaged_ = 0, lost_before_ = 0;  // in this round, in those before it
+    bool damage_noted_ = false, backward_noted_ = false, apart_noted_ = false;
 };
 
 Calibration read_calibration(const fs::path& path, const MkvFile& file) {

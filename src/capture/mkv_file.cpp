@@ -109,6 +109,10 @@ MkvDescription MkvFile::open() {
             throw Error(quoted(path_) +
                         " has no depth track, so it is not an Azure Kinect recording, or is "
                         "damaged at its beginning; what Theatron recorded is recording:FILE.");
+        case Kind::infrared_only:
+            throw Error(quoted(path_) +
+                        " has infrared only and no depth, as an Azure Kinect records in its mode "
+                        "PASSIVE_IR; Theatron needs a recording with depth.");
         case Kind::impossible_size:
             throw Error(quoted(path_) + " has depth of an impossible size.");
         case Kind::description:

@@ -64,6 +64,7 @@ struct MkvReader::Library {
     std::unique_ptr<AVPacket, PacketDeleter> packet{av_packet_alloc()};
     int depth = -1;  // track index
     int color = -1;
+    bool has_infrared = false;
     MkvDescription description;
 };
 
@@ -81,7 +82,7 @@ MkvReader::Kind MkvReader::Library::open() {
         return Kind::no_matroska;
     find_tracks();
     if (depth < 0)
-        return Kind::no_depth;
+        return has_infrared ? Kind::infrared_only : Kind::no_depth;
     description.depth = size_of(stream(depth));
     if (description.depth == Size{})
         return Kind::impossible_size;
@@ -107,6 +108,8 @@ void MkvReader::Library::find_tracks() {
                 codec.codec_tag == tag_of("b16g") && is_called(track, "DEPTH") && depth < 0;
             if (is_depth)
                 depth = i;
+            else if (is_called(track, "IR"))
+                has_infrared = true;
             else if (is_called(track, "COLOR") && codec.codec_id == AV_CODEC_ID_MJPEG && color < 0)
                 color = i;
             else if (is_called(track, "COLOR"))
@@ -138,9 +141,11 @@ std::optional<MkvReader::Picture> MkvReader::read() {
             return std::nullopt;
         const bool is_depth = packet.stream_index == library_->depth;
         const bool is_color = packet.stream_index == library_->color;
-        const bool whole = !(packet.flags & AV_PKT_FLAG_CORRUPT) && packet.size > 0;
-        if (!whole || packet.pts == AV_NOPTS_VALUE || (!is_depth && !is_color))
+        if (!is_depth && !is_color)
             continue;
+        // What is damaged has no bytes.
+        if (packet.flags & AV_PKT_FLAG_CORRUPT || packet.size <= 0 || packet.pts == AV_NOPTS_VALUE)
+            return Picture{is_depth ? Kind::depth : Kind::color, {}, {}};
         const AVRational unit = library_->stream(packet.stream_index).time_base;
         const auto* data = reinterpret_cast<const std::byte*>(packet.data);
         return Picture{is_depth ? Kind::depth : Kind::color,

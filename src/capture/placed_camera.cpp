@@ -27,6 +27,8 @@ public:
     void follow(std::shared_ptr<Transport> transport) override {
         camera_->follow(std::move(transport));
     }
+    std::uint64_t lost_pictures() const override { return camera_->lost_pictures(); }
+    bool skip_none() override { return camera_->skip_none(); }
     Capture next(Duration timeout) override { return camera_->next(timeout); }
 
 private:

@@ -27,6 +27,11 @@ public:
         transport_ = std::move(transport);
     }
 
+    bool skip_none() override {
+        playback_.skip_none();
+        return true;
+    }
+
     Capture next(Duration timeout) override {
         if (over_)
             return *over_;
@@ -92,10 +97,10 @@ private:
         if (has_still_ && shown_) {
             frame->depth = shown_->depth;
             frame->color = shown_->color;
-        } else if (recording_->offset()) {
-            recording_->read(*frame);
-        } else {
+        } else if (!recording_->offset()) {
             return rest(timeout);
+        } else if (!recording_->read(*frame)) {
+            return {};
         }
         frame->number = playback_.take_number();
         frame->times = {.captured = now};
@@ -111,6 +116,14 @@ private:
 
     // Reads the next frame before it is due.
     bool prepare() {
+        while (!waiting_)
+            if (!read_next())
+                return false;
+        return true;
+    }
+
+    // False at the end. A frame that is damaged does not become waiting_.
+    bool read_next() {
         auto upcoming = playback_.upcoming(clock_.now());
         // Where a pause ends, its still picture is newer.
         while (upcoming && transport_ && upcoming->due <= newest_) {
@@ -122,7 +135,8 @@ private:
         auto frame = playback_.share();
         if (!frame) {
             frame = pool_.take();
-            playback_.read(*frame);
+            if (!playback_.read(*frame))
+                return true;
         }
         frame->number = upcoming->number;
         frame->times = {.captured = upcoming->due};
@@ -179,8 +193,11 @@ std::optional<Playback::Upcoming> Playback::upcoming(TimePoint now) {
             zero_ = now - *offset;
         }
         last_offset_ = *offset;
-        const TimePoint due = zero_ + *offset;
-        if (now - due <= period_)
+        // Times of damaged files may stand still; two frames of one time would be the same one.
+        TimePoint due = zero_ + *offset;
+        if (last_due_)
+            due = std::max(due, *last_due_ + Duration(1));
+        if (!skips_ || now - due <= period_)
             return Upcoming{number_, due};
         recording_.skip();
         ++number_;
@@ -191,17 +208,25 @@ void Playback::set_zero(TimePoint zero) {
     begun_ = true;
     zero_ = zero;
     to_pass_over_ = 0;
+    last_due_.reset();
 }
 
-void Playback::read(Frame& out) {
-    recording_.read(out);
-    ++number_;
+bool Playback::read(Frame& out) {
+    note_played();
+    return recording_.read(out);
 }
 
 std::shared_ptr<Frame> Playback::share() {
     auto frame = recording_.share();
-    number_ += frame ? 1 : 0;
+    if (frame)
+        note_played();
     return frame;
+}
+
+void Playback::note_played() {
+    ++number_;
+    const TimePoint due = zero_ + last_offset_;
+    last_due_ = last_due_ ? std::max(due, *last_due_ + Duration(1)) : due;
 }
 
 bool Playback::rewind() {
@@ -228,8 +253,8 @@ MemoryRecording::MemoryRecording(Recording& source, std::size_t expected_frames,
     frames_.reserve(std::min<std::size_t>(expected_frames, 1 << 14));
     while (const std::optional<Duration> offset = source.offset()) {
         Kept kept{*offset, std::make_shared<Frame>()};
-        source.read(*kept.frame);
-        frames_.push_back(std::move(kept));
+        if (source.read(*kept.frame))
+            frames_.push_back(std::move(kept));
         if (progress && expected_frames > 0)
             progress("reading frames",
                      std::min(1.0, double(frames_.size()) / double(expected_frames)));
@@ -244,11 +269,12 @@ std::optional<Duration> MemoryRecording::offset() {
     return frames_[next_].offset;
 }
 
-void MemoryRecording::read(Frame& out) {
+bool MemoryRecording::read(Frame& out) {
     const Frame& kept = *frames_[next_++].frame;
     // Assignment reuses the memory of `out`.
     out.depth = kept.depth;
     out.color = kept.color;
+    return true;
 }
 
 std::shared_ptr<Frame> MemoryRecording::share() {

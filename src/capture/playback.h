@@ -25,8 +25,9 @@ public:
     virtual std::optional<Duration> offset() = 0;
     // Skips the next frame, without decoding it if possible.
     virtual void skip() = 0;
-    // Reads the next frame's images into `out`, whose memory is reused.
-    virtual void read(Frame& out) = 0;
+    // Reads the next frame's images into `out`, whose memory is reused. False: they are damaged and
+    // left out, as lost_pictures() counts; the content of `out` is unspecified then.
+    virtual bool read(Frame& out) = 0;
     // The next frame without a copy, if the recording stores it and no earlier caller still holds
     // it; the caller may set its times. Null: call read().
     virtual std::shared_ptr<Frame> share() { return nullptr; }
@@ -36,7 +37,7 @@ public:
     // The duration of one round of a loop, so that the cameras of one recording stay in step.
     // Nullopt: one period after the last frame.
     virtual std::optional<Duration> round() const { return std::nullopt; }
-    // As in Camera.
+    // As in Camera. In further rounds they count no more.
     virtual std::uint64_t lost_pictures() const { return 0; }
     // One sentence for the user if the recording has no end, or one that was not wanted.
     virtual std::string problem_at_end() const { return ""; }
@@ -69,8 +70,12 @@ public:
     // is.
     void set_zero(TimePoint zero);
 
-    // Reads the next frame's images. Precondition: upcoming() returned a frame.
-    void read(Frame& out);
+    // From now on no frame is skipped.
+    void skip_none() { skips_ = false; }
+
+    // Reads the next frame's images. Precondition: upcoming() returned a frame. False: as in
+    // Recording.
+    bool read(Frame& out);
     // The next frame without a copy, or null (Recording::share).
     std::shared_ptr<Frame> share();
     // For a frame that is delivered beside those of upcoming().
@@ -78,15 +83,18 @@ public:
 
 private:
     bool rewind();
+    void note_played();
 
     Recording& recording_;
     Duration period_;
     bool loop_;
     int to_pass_over_;
+    bool skips_ = true;  // late frames
     FrameNumber number_ = 0;
     bool begun_ = false;
-    TimePoint zero_;          // due time of offset 0 in this round
-    Duration last_offset_{};  // of the previous frame
+    TimePoint zero_;                     // due time of offset 0 in this round
+    Duration last_offset_{};             // of the previous frame
+    std::optional<TimePoint> last_due_;  // of the last frame that was read
 };
 
 // A recording stored in memory.
@@ -99,7 +107,7 @@ public:
 
     std::optional<Duration> offset() override;
     void skip() override { ++next_; }
-    void read(Frame& out) override;
+    bool read(Frame& out) override;
     std::shared_ptr<Frame> share() override;
     void rewind() override { next_ = 0; }
     void go_to(Duration position) override;

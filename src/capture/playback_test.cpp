@@ -58,6 +58,23 @@ TEST(Playback, SkipsFramesMoreThanOnePeriodLateAndCountsThem) {
     EXPECT_EQ(show(playback, 41ms), (Shown{4, 40ms, 4}));
 }
 
+TEST(Playback, SkipsNoneIfEachIsWanted) {
+    NumberedRecording recording({0ms, 10ms, 20ms, 30ms});
+    Playback playback(recording, 10ms, false, 0);
+    playback.skip_none();
+    for (int n = 0; n < 4; ++n)
+        EXPECT_EQ(show(playback, n * 1000ms), (Shown{FrameNumber(n), n * 10ms, n}));
+    EXPECT_EQ(show(playback, 4000ms), nothing);
+}
+
+TEST(Playback, FramesOfOneTimeAreDueOneAfterTheOther) {
+    NumberedRecording recording({0ms, 10ms, 10ms, 10ms, 20ms});
+    Playback playback(recording, 10ms, false, 0);
+    for (const Shown& expected : {Shown{0, 0ms, 0}, Shown{1, 10ms, 1}, Shown{2, 10001us, 2},
+                                  Shown{3, 10002us, 3}, Shown{4, 20ms, 4}})
+        EXPECT_EQ(show(playback, 0ms), expected);
+}
+
 TEST(Playback, LoopsWithOnePeriodBetweenLastAndFirst) {
     NumberedRecording recording({0ms, 10ms});
     Playback playback(recording, 10ms, true, 0);

@@ -327,9 +327,9 @@ void RecordedFrames::skip() {
     ++next_;
 }
 
-void RecordedFrames::read(Frame& out) {
+bool RecordedFrames::read(Frame& out) {
     if (!is_decoded_ && !decode())
-        throw Error("The recording '" + file_ + "' has no whole picture here.");
+        return false;
     is_decoded_ = false;
     std::swap(out.depth, decoded_);
 
@@ -342,6 +342,7 @@ void RecordedFrames::read(Frame& out) {
         out.color.pixels.pixels.clear();
         out.color.size = {};
     }
+    return true;
 }
 
 bool RecordedFrames::read_color(std::size_t index, ColorData& out) {

@@ -63,7 +63,7 @@ public:
 
     std::optional<Duration> offset() override;
     void skip() override;
-    void read(Frame& out) override;
+    bool read(Frame& out) override;
     void rewind() override;
     void go_to(Duration position) override;
     std::optional<Duration> round() const override;

@@ -14,6 +14,8 @@ extern "C" {
 #include <deque>
 #include <memory>
 #include <new>
+#include <span>
+#include <utility>
 
 #include "base/steady_clock.h"
 #include "capture/av_input.h"
@@ -28,8 +30,11 @@ namespace {
 
 using Kind = VideoAnswer::Kind;
 
-// Bytes that may come between two packets, for example of other channels.
+// Bytes that may come between two packets of this track: of other channels, or of none.
 constexpr std::size_t most_passed_over = std::size_t(1) << 20;
+constexpr std::size_t most_stray_bytes = std::size_t(64) << 10;
+// "$", the channel and the number of bytes.
+constexpr std::size_t packet_head = 4;
 constexpr int packet_bytes = 65536;
 // A picture older than this is left out while more has arrived, but not more than so many in a row.
 constexpr Duration most_behind = 100ms;
@@ -94,12 +99,15 @@ private:
 
 void nothing() {}
 
+constexpr const char* play = "PLAY";
+
 class Rtsp {
 public:
     Rtsp(const SourceOpening& opening, sandbox::Inside& inside)
         : wanted_(opening.wanted),
           url_(parse_rtsp_url(opening.text).value_or(RtspUrl{})),
           connection_(inside.input()),
+          area_(inside.area()),
           video_(inside.area()) {}
     ~Rtsp() {
         avformat_close_input(&file_);
@@ -114,9 +122,20 @@ public:
     std::optional<VideoAnswer> next();
 
 private:
+    // What comes next in the connection, at the beginning of its buffer.
+    enum class Next : std::uint8_t { packet, response, request, end };
+    template <class Idle>
+    Next find_next(const Idle& idle);
+    template <class Idle>
+    std::string_view read_head(const Idle& idle);
+    template <class Idle>
+    bool answer_request(const Idle& idle);
+    template <class Idle>
+    std::optional<RtspResponse> receive(std::string* body, const Idle& idle);
+    bool take_response(const RtspResponse& response);
+    VideoAnswer moved(const std::string& location);
     std::optional<RtspResponse> ask(const std::string& method, const std::string& address,
                                     const std::string& headers, std::string* body = nullptr);
-    std::optional<RtspResponse> receive(std::string* body);
     bool send(const std::string& method, const std::string& address, const std::string& headers);
     VideoAnswer open_track(const RtspTrack& track);
     int read_packet(std::uint8_t* out, int size);
@@ -132,8 +151,18 @@ private:
     Size wanted_;
     RtspUrl url_;
     Connection connection_;
+    std::span<std::byte> area_;
     int sent_ = 0;  // requests
     std::string challenge_, session_;
+    // The request whose response comes between packets.
+    struct Outstanding {
+        std::string method, headers;
+        int sequence = 0;
+        bool is_repeated = false;  // with an answer to its challenge
+    };
+    std::optional<Outstanding> outstanding_;
+    bool send_between(Outstanding request);
+    std::optional<Kind> refusal_;  // of PLAY
     int channel_ = 0;
     Duration keep_alive_every_{};
     TimePoint kept_alive_;
@@ -160,43 +189,140 @@ bool Rtsp::send(const std::string& method, const std::string& address, const std
     return connection_.send(text + "\r\n");
 }
 
-std::optional<RtspResponse> Rtsp::receive(std::string* body) {
-    std::size_t size = 0;
-    std::size_t wanted = 1;
-    while (true) {
-        if (!connection_.need(wanted, nothing))
-            return std::nullopt;
-        const std::string_view text = connection_.buffered();
-        if (const auto end = text.find("\r\n\r\n"); end != std::string_view::npos) {
-            size = end + 4;
-            break;
-        }
-        if (text.size() >= max_rtsp_head)
-            return std::nullopt;
-        wanted = text.size() + 1;
+// Stray bytes are passed over up to a response, a request of the server, or a packet of this track.
+template <class Idle>
+Rtsp::Next Rtsp::find_next(const Idle& idle) {
+    for (std::size_t stray = 0; stray <= most_stray_bytes; ++stray) {
+        // The first byte of RTP says version 2.
+        if (!connection_.need(packet_head + (stray > 0 ? 1 : 0), idle))
+            return Next::end;
+        const std::string_view next = connection_.buffered();
+        const auto is_own = [&] {
+            const int channel = std::uint8_t(next[1]);
+            return (channel == channel_ || channel == channel_ + 1) &&
+                   (std::uint8_t(next[packet_head]) & 0xc0) == 0x80;
+        };
+        if (next[0] == '$' && (stray == 0 || is_own()))
+            return Next::packet;
+        if (next.starts_with("RTSP"))
+            return Next::response;
+        for (const std::string_view method : {"OPTI", "SET_", "GET_"})
+            if (next.starts_with(method))
+                return Next::request;
+        connection_.drop(1);
     }
-    const auto response = parse_rtsp_response(connection_.buffered().substr(0, size));
-    if (!response)
-        return std::nullopt;
-    connection_.drop(size);
-    if (!connection_.need(response->body_bytes, nothing))
-        return std::nullopt;
-    if (body)
-        *body = connection_.buffered().substr(0, response->body_bytes);
-    connection_.drop(response->body_bytes);
-    return *response;
+    return Next::end;
 }
 
-// Answers a challenge once.
+// The text up to the empty line, which stays in the buffer. Empty: there is none.
+template <class Idle>
+std::string_view Rtsp::read_head(const Idle& idle) {
+    for (std::size_t wanted = 1; wanted <= max_rtsp_head;
+         wanted = connection_.buffered().size() + 1) {
+        if (!connection_.need(wanted, idle))
+            return {};
+        const std::string_view text = connection_.buffered();
+        if (const auto end = text.find("\r\n\r\n"); end != std::string_view::npos)
+            return text.substr(0, end + 4);
+    }
+    return {};
+}
+
+// What is no request after all is stray.
+template <class Idle>
+bool Rtsp::answer_request(const Idle& idle) {
+    const std::string_view head = read_head(idle);
+    const std::string answer = answer_to_rtsp_request(head);
+    connection_.drop(answer.empty() ? 1 : head.size());
+    return answer.empty() || connection_.send(answer);
+}
+
+// The next response. Packets before it are left out.
+template <class Idle>
+std::optional<RtspResponse> Rtsp::receive(std::string* body, const Idle& idle) {
+    for (std::size_t passed_over = 0; passed_over < most_passed_over;) {
+        switch (find_next(idle)) {
+            case Next::end:
+                return std::nullopt;
+            case Next::packet: {
+                const std::string_view head = connection_.buffered();
+                const std::size_t count =
+                    packet_head + std::size_t(std::uint8_t(head[2]) << 8 | std::uint8_t(head[3]));
+                if (!connection_.need(count, idle))
+                    return std::nullopt;
+                connection_.drop(count);
+                passed_over += count;
+                continue;
+            }
+            case Next::request:
+                if (!answer_request(idle))
+                    return std::nullopt;
+                passed_over += max_rtsp_head;
+                continue;
+            case Next::response:
+                break;
+        }
+        const std::string_view head = read_head(idle);
+        const auto response = parse_rtsp_response(head);
+        if (!response)
+            return std::nullopt;
+        connection_.drop(head.size());
+        if (!connection_.need(response->body_bytes, idle))
+            return std::nullopt;
+        if (body)
+            *body = connection_.buffered().substr(0, response->body_bytes);
+        connection_.drop(response->body_bytes);
+        return *response;
+    }
+    return std::nullopt;
+}
+
+// Answers a challenge once: each request may need the newest one.
 std::optional<RtspResponse> Rtsp::ask(const std::string& method, const std::string& address,
                                       const std::string& headers, std::string* body) {
     if (!send(method, address, headers))
         return std::nullopt;
-    auto response = receive(body);
+    auto response = receive(body, nothing);
     if (!response || response->status != 401 || response->challenge.empty() || url_.user.empty())
         return response;
     challenge_ = response->challenge;
-    return send(method, address, headers) ? receive(body) : std::nullopt;
+    return send(method, address, headers) ? receive(body, nothing) : std::nullopt;
+}
+
+// The response is read with the packets, which may come before it.
+bool Rtsp::send_between(Outstanding request) {
+    const bool is_sent = send(request.method, url_.address, request.headers);
+    request.sequence = sent_;
+    outstanding_ = std::move(request);
+    return is_sent;
+}
+
+// Of a request between packets. False ends the stream.
+bool Rtsp::take_response(const RtspResponse& response) {
+    if (!outstanding_ || (response.sequence != 0 && response.sequence != outstanding_->sequence))
+        return true;
+    Outstanding request = *std::exchange(outstanding_, std::nullopt);
+    if (response.status == 401 && !response.challenge.empty() && !url_.user.empty() &&
+        !request.is_repeated) {
+        challenge_ = response.challenge;
+        request.is_repeated = true;
+        return send_between(std::move(request));
+    }
+    // Servers that know no keep-alive say so, and go on.
+    if (request.method != play || response.status == 200)
+        return true;
+    refusal_ = response.status == 401 || response.status == 403 ? Kind::denied : Kind::refused;
+    return false;
+}
+
+// The address goes through the shared memory to the process that may connect to it.
+VideoAnswer Rtsp::moved(const std::string& location) {
+    if (location.empty() || location.size() >= area_.size())
+        return {.kind = Kind::refused};
+    const ByteView bytes = as_bytes(location);
+    std::copy(bytes.begin(), bytes.end(), area_.begin());
+    area_[location.size()] = std::byte{0};
+    return {.kind = Kind::moved};
 }
 
 VideoAnswer Rtsp::open() {
@@ -207,6 +333,8 @@ VideoAnswer Rtsp::open() {
         return {.kind = Kind::unreadable};
     if (response->status == 401 || response->status == 403)
         return {.kind = Kind::denied};
+    if (response->status == 301 || response->status == 302)
+        return moved(response->location);
     if (response->status != 200)
         return {.kind = Kind::refused};
     const auto track =
@@ -217,15 +345,17 @@ VideoAnswer Rtsp::open() {
     if (!response)
         return {.kind = Kind::unreadable};
     if (response->status != 200)
-        return {.kind = Kind::refused};
+        return {.kind = response->status == 401 ? Kind::denied : Kind::refused};
     session_ = response->session;
     channel_ = response->channel.value_or(0);
     keep_alive_every_ = std::chrono::seconds(std::max(1, response->session_timeout_s / 2));
-    // The response to PLAY is read with the packets, which may come before it.
-    if (!send("PLAY", url_.address, "Range: npt=0.000-\r\n"))
+    if (!send_between({play, "Range: npt=0.000-\r\n"}))
         return {.kind = Kind::unreadable};
     kept_alive_ = steady_now();
-    return open_track(*track);
+    VideoAnswer opened = open_track(*track);
+    if (opened.kind != Kind::opened && refusal_)
+        opened.kind = *refusal_;
+    return opened;
 }
 
 VideoAnswer Rtsp::open_track(const RtspTrack& track) {
@@ -280,7 +410,7 @@ void Rtsp::keep_alive() {
     if (now - kept_alive_ < keep_alive_every_)
         return;
     kept_alive_ = now;
-    (void)send("OPTIONS", url_.address, "");
+    (void)send_between({"OPTIONS", ""});
 }
 
 // The time stamp of an RTP packet is the same for all packets of a picture.
@@ -302,36 +432,39 @@ void Rtsp::note_arrival(std::string_view packet) {
 
 // One packet, or an error at the end of the connection.
 int Rtsp::read_packet(std::uint8_t* out, int size) {
-    constexpr std::size_t header = 4;
+    const auto idle = [this] { keep_alive(); };
     for (std::size_t passed_over = 0; passed_over < most_passed_over;) {
         keep_alive();
-        if (!connection_.need(header, [this] { keep_alive(); }))
-            return AVERROR_EOF;
-        const std::string_view head = connection_.buffered();
-        if (head.starts_with("RTSP")) {
-            const auto response = receive(nullptr);
-            if (!response || (response->status != 200 && response->status != 501))
+        const Next next = find_next(idle);
+        if (next == Next::response) {
+            const auto response = receive(nullptr, idle);
+            if (!response || !take_response(*response))
                 return AVERROR_EOF;
+        } else if (next == Next::request && !answer_request(idle)) {
+            return AVERROR_EOF;
+        }
+        if (next == Next::response || next == Next::request) {
             passed_over += max_rtsp_head;
             continue;
         }
-        if (head[0] != '$')
+        if (next == Next::end)
             return AVERROR_EOF;
+        const std::string_view head = connection_.buffered();
         const int channel = std::uint8_t(head[1]);
         const std::size_t count = std::size_t(std::uint8_t(head[2]) << 8 | std::uint8_t(head[3]));
-        if (!connection_.need(header + count, [this] { keep_alive(); }))
+        if (!connection_.need(packet_head + count, idle))
             return AVERROR_EOF;
-        const std::string_view packet = connection_.buffered().substr(header, count);
+        const std::string_view packet = connection_.buffered().substr(packet_head, count);
         const bool is_video = channel == channel_, is_report = channel == channel_ + 1;
         if (is_video)
             note_arrival(packet);
         const int copied = std::min(size, int(count));
         if (is_video || is_report)
             std::memcpy(out, packet.data(), std::size_t(copied));
-        connection_.drop(header + count);
+        connection_.drop(packet_head + count);
         if ((is_video || is_report) && copied > 0)
             return copied;
-        passed_over += header + count;
+        passed_over += packet_head + count;
     }
     return AVERROR_EOF;
 }

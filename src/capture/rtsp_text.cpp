@@ -18,6 +18,7 @@ namespace theatron::capture {
 namespace {
 
 constexpr std::string_view scheme = "rtsp://";
+constexpr int max_sequence = 1'000'000'000;
 
 std::string_view trimmed(std::string_view text) {
     const auto is_blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
@@ -126,6 +127,10 @@ void read_header(std::string_view name, std::string_view value, RtspResponse& re
         const auto bytes = number(value, 0, int(max_rtsp_description));
         is_bad = is_bad || !bytes;
         response.body_bytes = std::size_t(bytes.value_or(0));
+    } else if (same_word(name, "CSeq")) {
+        response.sequence = number(value, 0, max_sequence).value_or(0);
+    } else if (same_word(name, "Location")) {
+        response.location = value;
     } else if (same_word(name, "Session")) {
         response.session = trimmed(cut(value, ';'));
         if (const auto seconds = number(parameter(value, "timeout"), 1, 3600))
@@ -203,9 +208,29 @@ Result<RtspResponse> parse_rtsp_response(std::string_view head) {
     }
     if (is_bad)
         return Status::too_large;
-    if (!is_printable(response.session) || !is_printable(response.base))
+    if (!is_printable(response.session) || !is_printable(response.base) ||
+        !is_printable(response.location) || response.location.size() > max_rtsp_url)
         return Status::malformed;
     return response;
+}
+
+std::string answer_to_rtsp_request(std::string_view head) {
+    std::string_view first = trimmed(cut(head, '\n'));
+    const std::string_view method = cut(first, ' ');
+    cut(first, ' ');
+    if (!first.starts_with("RTSP/1.") ||
+        (method != "OPTIONS" && method != "SET_PARAMETER" && method != "GET_PARAMETER"))
+        return "";
+    while (!head.empty()) {
+        std::string_view line = trimmed(cut(head, '\n'));
+        if (const std::string_view name = trimmed(cut(line, ':')); !same_word(name, "CSeq"))
+            continue;
+        const auto sequence = number(trimmed(line), 0, max_sequence);
+        return sequence ? "RTSP/1.0 200 OK\r\nCSeq: " + std::to_string(*sequence) +
+                              "\r\nPublic: OPTIONS, SET_PARAMETER, GET_PARAMETER\r\n\r\n"
+                        : "";
+    }
+    return "";
 }
 
 std::optional<RtspTrack> find_rtsp_track(std::string_view description, std::string_view base) {

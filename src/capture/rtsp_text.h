@@ -28,15 +28,21 @@ std::optional<RtspUrl> parse_rtsp_url(std::string_view text);
 
 struct RtspResponse {
     int status = 0;
+    int sequence = 0;  // CSeq; 0: none
     std::size_t body_bytes = 0;
     std::string session;         // without its timeout
     int session_timeout_s = 60;  // 1 to 3600
     std::string base;            // Content-Base, may be empty
     std::string challenge;       // the strongest known of WWW-Authenticate: digest, then basic
     std::optional<int> channel;  // of Transport: interleaved, the first
+    std::string location;        // of a server that has moved
 };
 // `head` ends behind the empty line. Refuses what is no response, and bodies that are too long.
 Result<RtspResponse> parse_rtsp_response(std::string_view head);
+
+// The answer to a request of the server, which wants to know whether this client is still there.
+// `head` as above. Empty: it is no request, or one that a client of one video track does not know.
+std::string answer_to_rtsp_request(std::string_view head);
 
 // The first video track of a description that is H.264, H.265, MPEG-4 or JPEG, as a description of
 // its own: of the server's lines only the payload's name and parameters. nullopt: there is none.

@@ -42,6 +42,29 @@ TEST(RtspText, ReadsAResponse) {
     EXPECT_EQ(response->base, "rtsp://h/x/");
 }
 
+TEST(RtspText, ReadsWhereAServerHasMoved) {
+    const auto response =
+        parse_rtsp_response("RTSP/1.0 302 Found\r\nCSeq: 7\r\nLocation: rtsp://h:55/x\r\n\r\n");
+    ASSERT_TRUE(response);
+    EXPECT_EQ(response->sequence, 7);
+    EXPECT_EQ(response->location, "rtsp://h:55/x");
+    EXPECT_FALSE(parse_rtsp_response("RTSP/1.0 302 Found\r\nLocation: rtsp://h/\1\r\n\r\n"));
+    EXPECT_FALSE(parse_rtsp_response("RTSP/1.0 302 Found\r\nLocation: rtsp://h/" +
+                                     std::string(max_rtsp_url, 'a') + "\r\n\r\n"));
+}
+
+TEST(RtspText, AnswersRequestsOfTheServer) {
+    const auto answer = answer_to_rtsp_request("OPTIONS rtsp://h/ RTSP/1.0\r\nCSeq: 12\r\n\r\n");
+    EXPECT_THAT(answer, HasSubstr("RTSP/1.0 200 OK\r\nCSeq: 12\r\n"));
+    for (const char* method : {"SET_PARAMETER", "GET_PARAMETER"})
+        EXPECT_NE(answer_to_rtsp_request(std::string(method) + " * RTSP/1.0\r\ncseq: 1\r\n\r\n"),
+                  "");
+    for (const char* none :
+         {"", "OPTIONS", "OPTIONS * HTTP/1.1\r\nCSeq: 1\r\n\r\n", "OPTIONS * RTSP/1.0\r\n\r\n",
+          "OPTIONS * RTSP/1.0\r\nCSeq: x\r\n\r\n", "TEARDOWN * RTSP/1.0\r\nCSeq: 1\r\n\r\n"})
+        EXPECT_EQ(answer_to_rtsp_request(none), "") << none;
+}
+
 TEST(RtspText, RefusesWhatIsNoResponseOrTooLong) {
     EXPECT_FALSE(parse_rtsp_response("HTTP/1.1 200 OK\r\n\r\n"));
     EXPECT_FALSE(parse_rtsp_response("RTSP/1.0 abc\r\n\r\n"));

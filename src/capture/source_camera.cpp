@@ -41,6 +41,11 @@ struct Opening {
     bool paced = false;
 };
 
+// Thrown by SourceCamera: its server is at another address, which is untrusted.
+struct Moved {
+    std::string address;
+};
+
 class SourceCamera final : public Camera {
 public:
     SourceCamera(const SourceInput& input, const Opening& opening, std::string name, double width_m)
@@ -102,6 +107,7 @@ private:
             case Kind::opened:
                 return;
             case Kind::unreadable:
+            case Kind::damaged:
                 throw Error(subject_at_start() + " gives nothing that Theatron reads as video.");
             case Kind::no_video:
                 throw Error(subject_at_start() + " has no video.");
@@ -117,6 +123,15 @@ private:
                             " needs the right user and password, as in rtsp://USER:PASSWORD@HOST.");
             case Kind::hidden:
                 throw Error(subject_at_start() + " is closed or minimised.");
+            case Kind::moved: {
+                std::string address;
+                for (const std::byte byte : child_.area().first(max_rtsp_url)) {
+                    if (byte == std::byte{0})
+                        break;
+                    address += char(byte);
+                }
+                throw Moved{std::move(address)};
+            }
             default:
                 child_.refuse("a picture before the description");
         }
@@ -212,6 +227,16 @@ ScreenOptions take_screen_options(Options& options) {
     return taken;
 }
 
+// `address` with user and password of `url`, as they are written there.
+std::string with_user_of(const std::string& url, const std::string& address) {
+    constexpr std::size_t scheme = std::string_view("rtsp://").size();
+    const std::string authority = url.substr(scheme, url.find('/', scheme) - scheme);
+    const auto at = authority.rfind('@');
+    return at == std::string::npos
+               ? address
+               : address.substr(0, scheme) + authority.substr(0, at + 1) + address.substr(scheme);
+}
+
 }  // namespace
 
 std::unique_ptr<Camera> open_rtsp_camera(Options& options, const Progress&) {
@@ -223,11 +248,28 @@ std::unique_ptr<Camera> open_rtsp_camera(Options& options, const Progress&) {
             "A network stream is written as rtsp://HOST/PATH or "
             "rtsp://USER:PASSWORD@HOST:PORT/PATH.");
     const std::string subject = "the stream '" + url->address + "'";
-    Opening opening{
-        ffmpeg::needed_by("rtsp"), subject, "rtsp:" + options.value(), taken.wanted, 30, false};
-    return std::make_unique<SourceCamera>(connect_to(url->host, url->port, subject), opening,
-                                          taken.name.empty() ? url->host : taken.name,
-                                          taken.width_m);
+    Opening opening{ffmpeg::needed_by("rtsp"), subject, "rtsp:" + options.value(), taken.wanted, 30, false};
+    const auto open = [&](int port) {
+        return std::make_unique<SourceCamera>(connect_to(url->host, port, subject), opening,
+                                              taken.name.empty() ? url->host : taken.name,
+                                              taken.width_m);
+    };
+    try {
+        return open(url->port);
+    } catch (const Moved& moved) {
+        // Once, and never to another host, which would get the password.
+        const auto other = parse_rtsp_url(moved.address);
+        if (!other || other->host != url->host)
+            throw Error("The server of " + subject +
+                        " has moved it to another host; give the stream's new address.");
+        opening.text = with_user_of(opening.text, other->address);
+        try {
+            return open(other->port);
+        } catch (const Moved&) {
+            throw Error("The server of " + subject +
+                        " moves it again and again; give the address where it is.");
+        }
+    }
 }
 
 std::unique_ptr<Camera> open_v4l2_camera(Options& options, const Progress&) {

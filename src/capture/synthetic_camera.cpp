@@ -23,7 +23,10 @@ public:
         return seconds_to_duration(double(next_) / fps_);
     }
     void skip() override { ++next_; }
-    void read(Frame& out) override { loop_.read(next_++, out); }
+    bool read(Frame& out) override {
+        loop_.read(next_++, out);
+        return true;
+    }
     void rewind() override { next_ = 0; }
 
 private:

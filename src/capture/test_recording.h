@@ -18,9 +18,10 @@ public:
     }
     void skip() override { ++next_; }
     void rewind() override { next_ = 0; }
-    void read(Frame& out) override {
+    bool read(Frame& out) override {
         out.depth.resize({1, 1});
         out.depth.pixels[0] = std::uint16_t(next_++);
+        return true;
     }
 
 private:

@@ -23,8 +23,9 @@ TiledRecording::TiledRecording(std::unique_ptr<Recording> source, Size size)
       size_(size),
       decoder_(video::make_color_decoder(video::ColorCodecId::jpeg)) {}
 
-void TiledRecording::read(Frame& out) {
-    source_->read(frame_);
+bool TiledRecording::read(Frame& out) {
+    if (!source_->read(frame_))
+        return false;
     out.depth.resize(size_);
     tile(frame_.depth, out.depth);
 
@@ -39,11 +40,12 @@ void TiledRecording::read(Frame& out) {
     }
     if (frame_.color.pixels.empty()) {
         out.color.pixels = {};
-        return;
+        return true;
     }
     out.color.size = size_;
     out.color.pixels.resize(size_);
     tile(frame_.color.pixels, out.color.pixels);
+    return true;
 }
 
 ColorImage tiled(const ColorImage& picture, Size size) {

@@ -18,8 +18,9 @@ public:
 
     std::optional<Duration> offset() override { return source_->offset(); }
     void skip() override { source_->skip(); }
-    void read(Frame& out) override;
+    bool read(Frame& out) override;
     void rewind() override { source_->rewind(); }
+    std::uint64_t lost_pictures() const override { return source_->lost_pictures(); }
 
 private:
     std::unique_ptr<Recording> source_;

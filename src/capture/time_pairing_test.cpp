@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace theatron::capture {
@@ -80,10 +81,57 @@ TEST(TimePairing, DoesNotWaitForEverForATrackThatStopped) {
     for (int n = 0; n < 1000; ++n)
         add_color(pairing, 10000 + n);
     EXPECT_EQ(taken(pairing).size(), 30u);
+    EXPECT_EQ(pairing.left_out().apart, 0u) << "a track that stopped lacks nothing";
 }
 
-TEST(TimePairing, IgnoresPicturesThatGoBackInTime) {
-    EXPECT_EQ(paired({50, 20, 83}, {50, 10, 83}), (Pairs{{50, 50}, {83, 83}}));
+TEST(TimePairing, CountsColorThatComesTooLongBeforeOrAfterItsDepth) {
+    Pairing ahead(16ms);
+    for (int n = 0; n < 40; ++n)
+        add_color(ahead, 33 * n);
+    for (int n = 0; n < 40; ++n)
+        add_depth(ahead, 33 * n);
+    ahead.finish();
+    const Pairs pairs = taken(ahead);
+    EXPECT_EQ(std::count_if(pairs.begin(), pairs.end(), [](auto p) { return p.second == none; }),
+              10);
+    EXPECT_EQ(ahead.left_out().apart, 10u);
+
+    Pairing behind(16ms);
+    std::size_t alone = 0;
+    for (int n = 0; n < 40; ++n) {
+        add_depth(behind, 33 * n);
+        alone += taken(behind).size();
+    }
+    for (int n = 0; n < 40; ++n)
+        add_color(behind, 33 * n);
+    EXPECT_EQ(alone, 10u);
+    EXPECT_EQ(behind.left_out().apart, alone);
+
+    Pairing patient(16ms, 40);
+    for (int n = 0; n < 40; ++n)
+        add_color(patient, 33 * n);
+    for (int n = 0; n < 40; ++n)
+        add_depth(patient, 33 * n);
+    patient.finish();
+    for (const auto& [depth, color] : taken(patient))
+        EXPECT_EQ(depth, color);
+    EXPECT_EQ(patient.left_out().apart, 0u);
+}
+
+TEST(TimePairing, LeavesOutAndCountsPicturesThatGoBackInTime) {
+    Pairing pairing(16ms);
+    Pairs pairs;
+    for (const int ms : {50, 20, 83, 60, 90}) {
+        add_depth(pairing, ms);
+        add_color(pairing, ms);
+        for (const auto& pair : taken(pairing))
+            pairs.push_back(pair);
+    }
+    pairing.finish();
+    for (const auto& pair : taken(pairing))
+        pairs.push_back(pair);
+    EXPECT_EQ(pairs, (Pairs{{50, 50}, {83, 83}, {90, 90}}));
+    EXPECT_EQ(pairing.left_out().backward, 4u);
 }
 
 TEST(TimePairing, ALiveCamerasPictureDoesNotWaitForTheNextColor) {

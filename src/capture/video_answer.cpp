@@ -15,6 +15,7 @@ Bytes encode(const VideoAnswer& answer) {
     out.put(std::int32_t(answer.size.width));
     out.put(std::int32_t(answer.size.height));
     out.put_f64(answer.frames_per_second);
+    out.put(answer.lost);
     return bytes;
 }
 
@@ -28,13 +29,14 @@ Result<VideoAnswer> decode_video_answer(ByteView message, std::size_t shared_byt
     answer.size.width = in.get<std::int32_t>();
     answer.size.height = in.get<std::int32_t>();
     answer.frames_per_second = in.get_f64();
+    answer.lost = in.get<std::uint32_t>();
     if (!in.ok())
         return Status::truncated;
     if (!in.rest().empty())
         return Status::trailing_bytes;
     // Limits times, so that sums do not overflow.
     constexpr Duration longest = std::chrono::hours(1'000'000);
-    if (kind < 1 || kind > std::uint8_t(Kind::hidden) || answer.time < -longest ||
+    if (kind < 1 || kind > std::uint8_t(Kind::moved) || answer.time < -longest ||
         answer.time > longest || !std::isfinite(answer.frames_per_second))
         return Status::malformed;
     if (answer.kind != Kind::opened)

@@ -28,14 +28,17 @@ struct VideoAnswer {
         no_video = 5,
         no_decoder = 6,
         impossible_size = 7,
-        refused = 8,  // by the server or the device
-        denied = 9,   // user and password are missing or wrong
-        hidden = 10,  // the window is closed or minimised
+        refused = 8,   // by the server or the device
+        denied = 9,    // user and password are missing or wrong
+        hidden = 10,   // the window is closed or minimised
+        damaged = 11,  // the track has neither codec nor size
+        moved = 12,    // the new address is in the shared memory, before a zero byte
     };
     Kind kind{};
     Duration time{};  // of the picture; of a live one, of the steady clock
     Size size{};      // of all pictures; only in `opened`
     double frames_per_second = 0;
+    std::uint32_t lost = 0;  // of a file: pictures before this answer that could not be decoded
 };
 
 Bytes encode(const VideoAnswer& answer);

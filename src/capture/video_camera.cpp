@@ -40,7 +40,7 @@ public:
 
     void skip() override { take(); }
 
-    void read(Frame& out) override {
+    bool read(Frame& out) override {
         out.depth.resize(screen_grid);
         std::fill(out.depth.pixels.begin(), out.depth.pixels.end(),
                   std::uint16_t(screen_distance_mm));
@@ -51,11 +51,16 @@ public:
         static_assert(sizeof(Rgb) == 3);
         std::memcpy(out.color.pixels.pixels.data(), child_.area().data(), 3 * size().area());
         take();
+        return true;
     }
+
+    std::uint64_t lost_pictures() const override { return std::max(lost_before_, lost_); }
 
     void rewind() override {
         if (waiting_)
             (void)answer();
+        lost_before_ = lost_pictures();
+        lost_ = 0;
         const VideoAnswer again = open();
         if (again.size != opened_.size)
             throw Error(quoted(path_) + " has changed while it was played.");
@@ -89,6 +94,10 @@ private:
                 throw Error(quoted(path_) + " has no video track.");
             case Kind::no_decoder:
                 throw Error("FFmpeg has no decoder for the video in " + quoted(path_) + ".");
+            case Kind::damaged:
+                throw Error("The video in " + quoted(path_) +
+                            " is cut off or damaged: its index names no codec or no size. Copy it "
+                            "again.");
             case Kind::impossible_size:
                 throw Error("The video in " + quoted(path_) +
                             " has no size, or is larger than 4096 x 2700 pixels.");
@@ -105,6 +114,7 @@ private:
 
     void receive() {
         const VideoAnswer next = answer();
+        lost_ = std::max<std::uint64_t>(lost_, next.lost);
         if (next.kind == Kind::end) {
             ended_ = true;
             if (!first_)
@@ -131,7 +141,8 @@ private:
     VideoAnswer opened_;
     std::optional<Duration> first_, upcoming_;
     Duration last_{};
-    bool waiting_ = false;  // an answer is outstanding
+    std::uint64_t lost_ = 0, lost_before_ = 0;  // in this round, in those before it
+    bool waiting_ = false;                      // an answer is outstanding
     bool ended_ = false;
 };
 

@@ -29,8 +29,8 @@ public:
     Video(const Video&) = delete;
 
     VideoAnswer open();
-    // Writes the picture into the area. Nullopt at the end.
-    std::optional<VideoAnswer> next();
+    // Writes the picture into the area.
+    VideoAnswer next();
 
 private:
     AvInput input_;
@@ -50,11 +50,14 @@ VideoAnswer Video::open() {
     return failed ? VideoAnswer{.kind = Kind::unreadable} : video_.open(*file_);
 }
 
-std::optional<VideoAnswer> Video::next() {
-    if (!video_.decode())
-        return std::nullopt;
-    video_.write();
-    return VideoAnswer{.kind = Kind::picture, .time = video_.time(), .size = {}};
+VideoAnswer Video::next() {
+    const bool is_picture = video_.decode();
+    if (is_picture)
+        video_.write();
+    return {.kind = is_picture ? Kind::picture : Kind::end,
+            .time = is_picture ? video_.time() : Duration(0),
+            .size = {},
+            .lost = video_.lost()};
 }
 
 }  // namespace
@@ -67,8 +70,7 @@ void serve_video(sandbox::Inside& inside) {
             video = std::make_unique<Video>(inside.input(), inside.area());
             inside.send(encode(video->open()));
         } else {
-            const auto answer = video ? video->next() : std::nullopt;
-            inside.send(encode(answer.value_or(VideoAnswer{.kind = Kind::end, .size = {}})));
+            inside.send(encode(video ? video->next() : VideoAnswer{.kind = Kind::end, .size = {}}));
         }
     }
 }

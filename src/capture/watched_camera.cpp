@@ -14,8 +14,8 @@ using wire::CameraCondition;
 // Interval at which a closed camera is checked for opening.
 constexpr Duration closed_pause = 20ms;
 
-CameraCare::Options care_options(const CameraInfo& info) {
-    return {seconds_to_duration(1 / info.frames_per_second), info.live};
+CameraCare::Options care_options(const CameraInfo& info, bool patient) {
+    return {seconds_to_duration(1 / info.frames_per_second), info.live, patient};
 }
 
 wire::Text text_of(Trouble trouble, const std::string& problem) {
@@ -57,12 +57,14 @@ PictureMark mark_of(DepthView depth) {
     return {any == 0 ? 0 : hash | 1};
 }
 
-WatchedCamera::WatchedCamera(std::unique_ptr<Camera> camera, Open open_again, Clock clock)
+WatchedCamera::WatchedCamera(std::unique_ptr<Camera> camera, Open open_again, Clock clock,
+                             bool patient)
     : info_(camera->info()),
       open_again_(std::move(open_again)),
       clock_(std::move(clock)),
+      patient_(patient),
       camera_(std::move(camera)),
-      care_(care_options(info_), clock_.now()) {}
+      care_(care_options(info_, patient), clock_.now()) {}
 
 WatchedCamera::Turn WatchedCamera::turn() const {
     const std::lock_guard lock(mutex_);
@@ -218,7 +220,7 @@ WatchedCamera::Status WatchedCamera::status() const {
         status.problem = lost_text(lost_pictures_);
     status.figures = care_.figures();
     status.without_picture = now - care_.last_good();
-    status.hangs = entered_driver_ != TimePoint{} &&
+    status.hangs = !patient_ && entered_driver_ != TimePoint{} &&
                    now - entered_driver_ > (opening_ ? longest_opening : longest_call);
     return status;
 }

@@ -23,7 +23,10 @@ public:
     // Opens the same camera again. May throw Error. Empty: the camera cannot be opened again.
     using Open = std::function<std::unique_ptr<Camera>()>;
 
-    WatchedCamera(std::unique_ptr<Camera> camera, Open open_again, Clock clock = steady_clock());
+    // `patient`: the camera skips none of its pictures, so each is taken, however late, and its
+    // file may take any time.
+    WatchedCamera(std::unique_ptr<Camera> camera, Open open_again, Clock clock = steady_clock(),
+                  bool patient = false);
 
     const CameraInfo& info() const { return info_; }
 
@@ -70,6 +73,7 @@ private:
     const CameraInfo info_;
     const Open open_again_;
     const Clock clock_;
+    const bool patient_;
 
     mutable std::mutex mutex_;  // guards all members below
     std::shared_ptr<Camera> camera_;

@@ -10,6 +10,7 @@
 #include "base/utc.h"
 #include "capture/folder_calibration.h"
 #include "export/export_formats.h"
+#include "export/export_places.h"
 #include "files/file_bytes.h"
 #include "files/png_file.h"
 #include "filter/color_registration.h"
@@ -178,6 +179,24 @@ std::string captured_text(UtcTime time) {
     return time == UtcTime{} ? "" : "captured " + utc_text(time);
 }
 
+// times.csv of a folder.
+class FrameTimes {
+public:
+    void add(Duration time, UtcTime captured) {
+        char seconds[32];
+        std::snprintf(seconds, sizeof(seconds), "%.6f", to_seconds(time));
+        text_ += std::to_string(frames_++) + "," + seconds + "," +
+                 (captured == UtcTime{} ? "" : utc_text(captured)) + "\n";
+    }
+    void save(const fs::path& folder) const {
+        files::write_file(folder / times_name, as_bytes(text_));
+    }
+
+private:
+    std::size_t frames_ = 0;
+    std::string text_ = "frame,seconds,captured\n";
+};
+
 // Its points are not in the room: they move with the person.
 bool sees_a_person(const capture::RecordedFrames& camera) {
     return camera.info().calibration.person != 0;
@@ -193,13 +212,20 @@ std::size_t export_merged_ply(ExportSource& source, const fs::path& folder) {
     ProgressOfAll progress(source);
     Frame frame;
     std::vector<ColoredPoint> points;
-    for (std::size_t written = 0;; ++written) {
+    FrameTimes times;
+    for (std::size_t written = 0, seen = 0;; ++seen) {
         std::map<std::size_t, TimePoint> moments;  // of each camera's upcoming frame
+        Duration time = Duration::max();
         for (std::size_t i = 0; i < source.cameras.size(); ++i)
-            if (source.cameras[i]->offset())
+            if (const auto next = source.next(i)) {
                 moments[i] = source.cameras[i]->upcoming().moment;
-        if (moments.empty())
+                time = std::min(time, *next);
+            }
+        if (moments.empty()) {
+            times.save(folder);
             return written;
+        }
+        const bool is_selected = seen % source.selection.every == 0;
         TimePoint moment = moments.begin()->second;
         for (const auto& [camera, other] : moments)
             moment = std::min(moment, other);
@@ -208,6 +234,11 @@ std::size_t export_merged_ply(ExportSource& source, const fs::path& folder) {
         for (const auto& [camera, other] : moments) {
             if (other != moment)
                 continue;
+            progress.frame_done();
+            if (!is_selected) {
+                source.cameras[camera]->skip();
+                continue;
+            }
             const std::size_t first = points.size();
             const UtcTime utc = source.cameras[camera]->upcoming_utc();
             captured = captured == UtcTime{} ? utc : std::min(captured, utc);
@@ -215,14 +246,31 @@ std::size_t export_merged_ply(ExportSource& source, const fs::path& folder) {
             makers[camera].append(frame, points);
             transform_points(makers[camera].calibration().room_from_camera,
                              std::span(points).subspan(first));
-            progress.frame_done();
         }
+        if (!is_selected)
+            continue;
         const std::string comments[] = {points_in_room, captured_text(captured)};
-        files::write_file(folder / numbered(written, ".ply"), encode_ply(points, comments));
+        files::write_file(folder / numbered(written++, ".ply"), encode_ply(points, comments));
+        times.add(time, captured);
     }
 }
 
 }  // namespace
+
+std::optional<Duration> ExportSource::next(std::size_t camera) {
+    capture::RecordedFrames& frames = *cameras[camera];
+    auto time = frames.offset();
+    for (; time && *time < selection.from; time = frames.offset())
+        frames.skip();
+    return time && *time < selection.to ? time : std::nullopt;
+}
+
+std::optional<Duration> ExportSource::next_selected(std::size_t camera, std::size_t& seen) {
+    auto time = next(camera);
+    for (; time && seen++ % selection.every != 0; time = next(camera))
+        cameras[camera]->skip();
+    return time;
+}
 
 std::size_t export_ply(ExportSource& source, const fs::path& folder, bool merged) {
     if (merged)
@@ -235,14 +283,19 @@ std::size_t export_ply(ExportSource& source, const fs::path& folder, bool merged
         capture::RecordedFrames& camera = *source.cameras[i];
         const fs::path own = make_folder(folder_of(source, folder, i));
         PointMaker maker(camera.info().calibration, source.undecoded_color);
-        for (std::size_t n = 0; camera.offset(); ++n, ++files) {
-            const std::string comments[] = {points_in_camera, captured_text(camera.upcoming_utc())};
+        FrameTimes times;
+        std::size_t seen = 0;
+        for (std::size_t n = 0; const auto time = source.next_selected(i, seen); ++n, ++files) {
+            const UtcTime captured = camera.upcoming_utc();
+            times.add(*time, captured);
+            const std::string comments[] = {points_in_camera, captured_text(captured)};
             camera.read(frame);
             points.clear();
             maker.append(frame, points);
             files::write_file(own / numbered(n, ".ply"), encode_ply(points, comments));
             progress.frame_done();
         }
+        times.save(own);
     }
     return files;
 }
@@ -271,7 +324,10 @@ std::size_t export_png(ExportSource& source, const fs::path& folder, Pictures pi
         }
         files::write_file(own / "calibration.json",
                           as_bytes(capture::write_folder_calibration(written)));
-        for (std::size_t n = 0; camera.offset(); ++n, ++frames) {
+        FrameTimes times;
+        std::size_t seen = 0;
+        for (std::size_t n = 0; const auto time = source.next_selected(i, seen); ++n, ++frames) {
+            times.add(*time, camera.upcoming_utc());
             camera.read(frame);
             files::write_png(depth / numbered(n, ".png"),
                              straight ? straight->depth(frame) : frame.depth.view());
@@ -289,6 +345,7 @@ std::size_t export_png(ExportSource& source, const fs::path& folder, Pictures pi
                 files::write_png(color / numbered(n, ".png"), frame.color.pixels.view());
             progress.frame_done();
         }
+        times.save(own);
     }
     return frames;
 }

@@ -106,8 +106,8 @@ std::size_t export_k4a(ExportSource& source, const std::filesystem::path& file) 
     video::JpegCompressor compressor(quality_of_raw_color, /*halve_chroma=*/false);
     Frame frame;
     Bytes depth;
-    std::size_t frames = 0;
-    for (; const auto offset = camera.offset(); ++frames) {
+    std::size_t frames = 0, seen = 0;
+    for (; const auto offset = source.next_selected(0, seen); ++frames) {
         camera.read(frame);
         depth.resize(frame.depth.pixels.size() * sizeof(std::uint16_t));
         for (std::size_t i = 0; i < frame.depth.pixels.size(); ++i) {

@@ -50,8 +50,8 @@ void find(const fs::path& folder, bool may_have_cameras, Found& found) {
     for_each_in(folder, [&](const fs::path& path) {
         const std::string name = path.filename().string();
         std::error_code ignored;
-        if (is_picture(name, {".ply"}) || name == "calibration.json" ||
-            name == "calibration.json.part") {
+        const std::string whole = path.extension() == ".part" ? path.stem().string() : name;
+        if (is_picture(name, {".ply"}) || whole == "calibration.json" || whole == times_name) {
             found.files.push_back(path);
         } else if (fs::is_directory(path, ignored) && (name == "depth" || name == "color")) {
             for_each_in(path, [&](const fs::path& picture) {

@@ -12,6 +12,9 @@ namespace theatron::exporting {
 // and so on; "kinect.2.mkv".
 std::filesystem::path place_of(const std::filesystem::path& place, std::size_t calibration);
 
+// Beside exported frames: their times.
+inline constexpr const char* times_name = "times.csv";
+
 // Prepares a folder: Error with one sentence if an export is there already, unless `overwrite`,
 // which removes it and nothing else.
 void clear_folder(const std::filesystem::path& folder, bool overwrite);

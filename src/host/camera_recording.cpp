@@ -56,6 +56,7 @@ public:
             events.state = [this](wire::CameraState state) { on_state(state); };
             send::CameraLane::Options options;
             options.waiting_frames = waiting_frames;
+            options.every_frame = true;
             options.moments = moments;
             options.open_again = [specification = specifications[i]] {
                 return capture::open_camera(specification);
@@ -63,6 +64,8 @@ public:
             lanes_.push_back(std::make_unique<send::CameraLane>(
                 CameraId(i), std::move(cameras[i]), events, workers_, std::move(options)));
         }
+        plays_only_ = std::all_of(lanes_.begin(), lanes_.end(),
+                                  [](const auto& lane) { return lane->waits(); });
         not_encoded_before_.resize(lanes_.size());
     }
 
@@ -89,6 +92,7 @@ public:
             not_encoded_before_[i] = lanes_[i]->figures().dropped_newest;
             lanes_[i]->set_settings({{depth_setting, codecs_.depth}},
                                     {{color_setting, codecs_.color}});
+            lanes_[i]->hold(false);
         }
         const std::lock_guard lock(mutex_);
         for (const CameraId camera : ended_)
@@ -96,7 +100,12 @@ public:
     }
 
     record::Intake& intake() override { return intake_; }
-    record::Intake::Now now() const override { return {steady_now(), {steady_now(), utc_now()}}; }
+    // Where all cameras wait for the work on their pictures, time passes with the pictures: however
+    // late they are, they keep the distances that they have in their files.
+    record::Intake::Now now() const override {
+        const std::lock_guard lock(mutex_);
+        return {steady_now(), {plays_only_ && played_ ? *played_ : steady_now(), utc_now()}};
+    }
 
     std::optional<End> ended() override {
         const std::lock_guard lock(mutex_);
@@ -112,7 +121,8 @@ public:
     }
 
     std::uint64_t lost_in_source(CameraId camera) const override {
-        return lanes_[std::size_t(camera)]->figures().camera.lost_pictures;
+        const send::LaneFigures figures = lanes_[std::size_t(camera)]->figures();
+        return figures.camera.lost_pictures + figures.damaged_colors;
     }
 
     bool was_gone(CameraId camera) const override {
@@ -132,6 +142,10 @@ private:
     // On working threads.
     void on_media(send::EncodedMedia media) {
         const wire::MediaHeader header = media.header;
+        {
+            const std::lock_guard lock(mutex_);
+            played_ = std::max(played_.value_or(header.captured), header.captured);
+        }
         if (intake_.take(header, std::move(media.message), "", now()))
             lanes_[std::size_t(camera_of(header.stream))]->request_key(header.stream,
                                                                        header.setting);
@@ -172,12 +186,14 @@ private:
     std::vector<std::string> names_;
     TimePoint opened_;
     std::atomic<bool> begun_ = false;
+    bool plays_only_ = false;
     std::vector<std::uint64_t> not_encoded_before_;
 
     mutable std::mutex mutex_;  // guards all up to the workers
     std::map<CameraId, wire::CameraCondition> conditions_;
     std::set<CameraId> ended_, failed_, damage_said_;
     bool ended_with_problem_ = false;
+    std::optional<TimePoint> played_;  // capture of the newest picture
     TimePoint over_since_;
 
     send::Workers workers_;

@@ -33,6 +33,8 @@ constexpr Duration handshake_pause = std::chrono::milliseconds(10);
 // Lower priority than pictures, for machines with few cores.
 constexpr int niceness = 5;
 
+constexpr std::size_t discarded_at_once = std::size_t(8) << 10;
+
 constexpr std::string_view websocket_path = "/connection";
 
 constexpr char plain_http_answer[] =
@@ -169,10 +171,8 @@ public:
                 if (gone_)
                     return;
                 if (error)
-                    return leave(error == http::error::header_limit ||
-                                         error == websocket::error::message_too_big
-                                     ? "said too much"
-                                     : "broke off");
+                    return leave(error == websocket::error::message_too_big ? "said too much"
+                                                                            : "broke off");
                 guarded(work);
             });
     }
@@ -237,33 +237,59 @@ private:
                           step([this] {
                               beast::error_code ignored;
                               raw_.shutdown(tcp::socket::shutdown_send, ignored);
-                              discard_plain(0);
+                              discard(raw_, 0, "spoke HTTP without TLS");
                           }));
     }
 
-    void discard_plain(std::size_t discarded) {
-        raw_.async_read_some(incoming_.prepare(max_request_bytes),
-                             door_.here([this, self = shared_from_this(), discarded](
-                                            beast::error_code error, std::size_t count) {
-                                 if (gone_)
-                                     return;
-                                 if (error || discarded + count > max_plain_bytes)
-                                     return leave("spoke HTTP without TLS");
-                                 guarded([&] { discard_plain(discarded + count); });
-                             }));
+    // Reads what still comes, then leaves: unread bytes would destroy the answer on its way.
+    template <class Stream>
+    void discard(Stream& stream, std::size_t discarded, const char* why) {
+        incoming_.clear();
+        stream.async_read_some(incoming_.prepare(discarded_at_once),
+                               door_.here([this, self = shared_from_this(), &stream, discarded,
+                                           why](beast::error_code error, std::size_t count) {
+                                   if (gone_)
+                                       return;
+                                   if (error || discarded + count > max_unread_bytes)
+                                       return leave(why);
+                                   guarded([&] { discard(stream, discarded + count, why); });
+                               }));
     }
 
     void read_request() {
         parser_.header_limit(max_request_bytes);
         // No request that is answered has a body; one of others is not read.
         parser_.skip(true);
-        http::async_read_header(*stream_, incoming_, parser_, step([this] {
-            has_request_ = true;
-            if (door_.access.proxies.contains(address_))
-                find_client();
-            else
-                decide();
-        }));
+        http::async_read_header(
+            *stream_, incoming_, parser_,
+            door_.here([this, self = shared_from_this()](beast::error_code error, std::size_t) {
+                if (gone_)
+                    return;
+                if (error == http::error::header_limit)
+                    return guarded([this] { answer_large_head(); });
+                if (error)
+                    return leave("broke off");
+                guarded([this] {
+                    has_request_ = true;
+                    if (door_.access.proxies.contains(address_))
+                        find_client();
+                    else
+                        decide();
+                });
+            }));
+    }
+
+    void answer_large_head() {
+        extend(first_message_deadline, "said too much");
+        answer({.status = 431,
+                .body = "This request has more than " + std::to_string(max_request_bytes / 1024) +
+                        " KiB of headers, which are mostly cookies of other services of the same "
+                        "name. Delete the cookies of this site, or open it in a private window.\n"},
+               step([this] {
+                   beast::error_code ignored;
+                   socket().shutdown(tcp::socket::shutdown_send, ignored);
+                   discard(*stream_, 0, "said too much");
+               }));
     }
 
     // Limits hold for the client of a proxy, not for the proxy.
@@ -314,7 +340,18 @@ private:
     }
 
     // For requests without a WebSocket, for example of a browser.
-    void answer(HttpAnswer answer) {
+    void answer(HttpAnswer given) {
+        answer(
+            std::move(given), step([this] {
+                stream_->async_shutdown(door_.here([self = shared_from_this()](beast::error_code) {
+                    if (!self->gone_)
+                        self->leave("");
+                }));
+            }));
+    }
+
+    template <class End>
+    void answer(HttpAnswer answer, End end) {
         answer_ = std::move(answer);
         const std::string& body = answer_.file ? *answer_.file : answer_.body;
         if (body.size() > large_answer)
@@ -333,12 +370,6 @@ private:
         response_.keep_alive(false);
         response_.body() = {body.data(), body.size()};
         response_.prepare_payload();
-        auto end = step([this] {
-            stream_->async_shutdown(door_.here([self = shared_from_this()](beast::error_code) {
-                if (!self->gone_)
-                    self->leave("");
-            }));
-        });
         serializer_.emplace(response_);
         if (parser_.get().method() == http::verb::head)
             http::async_write_header(*stream_, *serializer_, std::move(end));

@@ -29,10 +29,12 @@ public:
     // To the end of an answer of more than large_answer bytes, which takes time on a slow link.
     static constexpr Duration large_answer_deadline = std::chrono::seconds(30);
     static constexpr std::size_t large_answer = 64 * 1024;
-    // Largest head of an HTTP request.
-    static constexpr std::size_t max_request_bytes = 8 * 1024;
-    // Bytes of an HTTP request without TLS that are read, so that its answer arrives.
-    static constexpr std::size_t max_plain_bytes = 64 * 1024;
+    // Largest head of an HTTP request: a browser adds the cookies of other services of the same
+    // name, often 16 KiB in a hospital.
+    static constexpr std::size_t max_request_bytes = 32 * 1024;
+    // Bytes behind a request that is answered with a refusal that are read, so that its answer
+    // arrives: one without TLS, or with a larger head.
+    static constexpr std::size_t max_unread_bytes = 64 * 1024;
     // For which browsers keep that a name has only HTTPS.
     static constexpr Duration https_only = std::chrono::hours(365 * 24);
     // Receive buffers of sockets before and after the token was shown. Linux doubles them.

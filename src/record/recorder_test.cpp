@@ -211,6 +211,13 @@ TEST(Recording, WhereNoFileCanBeIsOneSentence) {
     }
 }
 
+TEST(Recorder, RefusesANameOfAnotherFormat) {
+    EXPECT_EQ(name_problem("visit/x.MP4"),
+              "A recording is a Matroska file, which 'x.MP4' does not say; name it 'x.mkv'.");
+    for (const char* good : {"x.mkv", "x", "x.2026", "mp4"})
+        EXPECT_EQ(name_problem(good), "") << good;
+}
+
 TEST(Recorder, RefusesANameThatLaterSegmentsCouldNotHave) {
     const testing::TemporaryFolder folder;
     const auto named = [&](std::size_t bytes) {

@@ -64,6 +64,14 @@ std::filesystem::path segment_path(const std::filesystem::path& first, std::uint
 }
 
 std::string name_problem(const std::filesystem::path& first) {
+    std::string ending = first.extension().string();
+    std::ranges::transform(ending, ending.begin(),
+                           [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
+    for (const char* other :
+         {".mp4", ".m4v", ".mov", ".avi", ".webm", ".wmv", ".mpg", ".mpeg", ".ts", ".flv", ".ogv"})
+        if (ending == other)
+            return "A recording is a Matroska file, which '" + first.filename().string() +
+                   "' does not say; name it '" + first.stem().string() + ".mkv'.";
     const std::size_t longest = segment_path(first, max_segments).filename().string().size();
     if (longest <= NAME_MAX)
         return "";

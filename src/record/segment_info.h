@@ -43,7 +43,7 @@ Result<SegmentInfo> decode_segment_info(ByteView bytes);
 // The file of segment `number` of a recording that begins in `first`: "a.mkv", "a.002.mkv".
 std::filesystem::path segment_path(const std::filesystem::path& first, std::uint32_t number);
 
-// One sentence if the names of later segments would be longer than the system allows; else empty.
+// One sentence if the name says another format or is too long for later segments; else empty.
 std::string name_problem(const std::filesystem::path& first);
 
 // 128 random bits.

@@ -47,6 +47,7 @@ CameraLane::CameraLane(CameraId id, std::unique_ptr<capture::Camera> camera, Eve
               options.moments = std::make_shared<SharedMoments>(camera->info().frames_per_second);
           return std::move(options);
       }()),
+      waits_(options_.every_frame && camera->skip_none()),
       info_([&] {
           // It may be the name of a folder, which can hold any bytes.
           capture::CameraInfo info = camera->info();
@@ -56,9 +57,10 @@ CameraLane::CameraLane(CameraId id, std::unique_ptr<capture::Camera> camera, Eve
       newest_(options_.waiting_frames),
       encoders_(id, encoder_events(), encoder_environment()) {
     told_.camera = id_;
+    held_ = waits_;
     capture_ = std::make_unique<CaptureThread>(
         std::move(camera), options_.open_again,
-        [this](FramePtr frame) { on_frame(std::move(frame)); }, options_.clock);
+        [this](FramePtr frame) { on_frame(std::move(frame)); }, options_.clock, waits_);
     ticket_ = workers_.look_after([this] { look(); });
 }
 
@@ -88,11 +90,12 @@ LaneEncoders::Environment CameraLane::encoder_environment() const {
 
 CameraLane::~CameraLane() {
     workers_.forget(ticket_);
-    capture_.reset();
     {
         const std::lock_guard lock(mutex_);
         stopping_ = true;
     }
+    room_.notify_all();
+    capture_.reset();
     wait_idle();
 }
 
@@ -160,6 +163,10 @@ void CameraLane::on_frame(FramePtr frame) {
     events_.frame(frame);
     if (tag.pass_over && options_.one_per_moment)
         return meter_.on_drop(DropReason::moment);
+    if (waits_) {
+        std::unique_lock lock(mutex_);
+        room_.wait(lock, [this] { return stopping_ || newest_.size() < options_.waiting_frames; });
+    }
     if (newest_.put({std::move(frame), tag.moment}))
         meter_.on_drop(DropReason::newer);
     {
@@ -187,7 +194,8 @@ void CameraLane::look() {
     }
     {
         const std::lock_guard lock(mutex_);
-        if (orders_.keys.empty() || now() - frame_came_ < key_patience)
+        // Where every frame is wanted once, keys wait for the next one.
+        if (waits_ || orders_.keys.empty() || now() - frame_came_ < key_patience)
             return;
         wanted_ = true;
     }
@@ -219,6 +227,7 @@ void CameraLane::work() {
         }
         next = newest_.take(Duration(0));
     }
+    room_.notify_one();
     bool ready = false;
     if (!contain("encode", [&] { ready = prepare(std::move(next), begin); }))
         failed_ = true;
@@ -260,7 +269,7 @@ bool CameraLane::prepare(std::optional<Captured> next, TimePoint begin) {
         meter_.on_stage(Stage::queue, begin - last_->frame->times.delivered);
         filter_frame();
     } else {
-        if (!last_ || keys_.empty() || encoders_.empty())
+        if (waits_ || !last_ || keys_.empty() || encoders_.empty())
             return false;
         // The frame came without a receiver, or before the filters changed.
         if (filtered_at_ == TimePoint{})

@@ -49,6 +49,9 @@ public:
     struct Options {
         // Frames that may wait for work: 1 for the lowest age, more for the fewest drops.
         std::size_t waiting_frames = 1;
+        // A camera that can wait (Camera::skip_none()) does so while `waiting_frames` wait for
+        // work, so that none of its frames is lost. Its lane is held at first.
+        bool every_frame = false;
         // Opens a live camera again when it has failed. Empty: nothing does.
         capture::WatchedCamera::Open open_again;
         // Common to cameras whose frames belong together. Null: the lane's own.
@@ -70,6 +73,8 @@ public:
     ~CameraLane();
 
     CameraId id() const { return id_; }
+    // None of its camera's frames is lost: Options::every_frame.
+    bool waits() const { return waits_; }
     const capture::CameraInfo& info() const { return info_; }
 
     // All below from any thread.
@@ -147,12 +152,13 @@ private:
     const Events events_;
     Workers& workers_;
     const Options options_;
+    const bool waits_;
     const capture::CameraInfo info_;
     LaneMeter meter_;
 
     NewestSlot<Captured> newest_;
     std::mutex mutex_;  // guards all up to `busy_`
-    std::condition_variable idle_;
+    std::condition_variable idle_, room_;
     Orders orders_;
     TimePoint frame_came_;
     bool wanted_ = false;  // there is something to do although no frame has come

@@ -17,8 +17,9 @@ namespace theatron::send {
 class CaptureThread {
 public:
     // `sink` is called from the thread, and never after the destructor has returned.
+    // `patient`: as in WatchedCamera.
     CaptureThread(std::unique_ptr<capture::Camera> camera, capture::WatchedCamera::Open open_again,
-                  std::function<void(FramePtr)> sink, capture::Clock clock);
+                  std::function<void(FramePtr)> sink, capture::Clock clock, bool patient = false);
     ~CaptureThread();
 
     const capture::CameraInfo& info() const { return shared_->camera.info(); }

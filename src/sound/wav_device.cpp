@@ -70,12 +70,17 @@ std::vector<float> read_wav(const std::string& path) {
     if (!std::filesystem::is_regular_file(path, failed))
         throw Error(std::filesystem::exists(path, failed) ? name + " is no regular file."
                                                           : name + " does not exist.");
-    if (std::filesystem::file_size(path, failed) > max_wav_bytes)
+    if (std::filesystem::file_size(path, failed) >= max_wav_bytes)
         throw Error(name + " is larger than the 2 GiB that are read.");
+    Bytes file(std::filesystem::file_size(path, failed));
+    std::ifstream(path, std::ios::binary)
+        .read(reinterpret_cast<char*>(file.data()), std::streamsize(file.size()));
+    mend_streamed_wav(file);
     SDL_AudioSpec spec{};
     Uint8* bytes = nullptr;
     Uint32 size = 0;
-    if (!SDL_LoadWAV(path.c_str(), &spec, &bytes, &size))
+    SDL_RWops* const in = SDL_RWFromConstMem(file.data(), int(file.size()));
+    if (!in || !SDL_LoadWAV_RW(in, 1, &spec, &bytes, &size))
         throw Error(name + " cannot be read (" + SDL_GetError() + "); it must be a WAV file.");
     const std::unique_ptr<Uint8, void (*)(Uint8*)> owner(bytes, SDL_FreeWAV);
     if (spec.freq < least_wav_rate || spec.freq > most_wav_rate)

@@ -47,6 +47,38 @@ class RecordingCare(unittest.TestCase):
             content[content.rfind(b"\x75\xa1", 0, at) - size // 2] ^= 1
         path.write_bytes(content)
 
+    def test_a_played_file_is_recorded_whole_at_any_rate_and_again(self):
+        frames = 90
+        source = make_recording(self.folder / "fast", 160, 120, frames)
+        camera, seen = f"folder:{source},fps=240,preload=0", []
+        for name in ("a.mkv", "b.mkv"):
+            path = self.folder / name
+            code, out, errors = run("record", "--camera", camera, path, "--json")
+            recorded = json.loads(out)["cameras"][0]
+            self.assertEqual((recorded["depth"]["pictures"], recorded["color"]["pictures"]), (frames, frames))
+            self.assertEqual((code, recorded["lost_in_source"], recorded["not_encoded"]), (0, 0, 0), errors)
+            code, out, errors = run("export", path, "--png", self.folder / f"{name}.png", "--json")
+            self.assertEqual(code, 0, errors)
+            times = (self.folder / f"{name}.png" / "times.csv").read_text().splitlines()[1:]
+            seen.append([float(line.split(",")[1]) for line in times])
+            camera = f"recording:{path}"
+        self.assertEqual(len(seen[0]), frames)
+        for first, again in zip(*seen):
+            self.assertAlmostEqual(first, again, delta=0.0005)
+            self.assertAlmostEqual(first, seen[0].index(first) / 240, delta=0.0005)
+
+    def test_pictures_that_a_folder_cannot_give_are_missing(self):
+        whole = (self.source / "depth" / "00002.png").read_bytes()
+        (self.source / "depth" / "00002.png").write_bytes(whole[:len(whole) // 2])
+        (self.source / "color" / "00004.png").write_bytes(b"no picture")
+        code, out, errors = run("record", "--camera", self.camera, self.folder / "a.mkv", "--json")
+        recorded = json.loads(out)
+        self.assertEqual((code, recorded["complete"]), (3, False), errors)
+        self.assertEqual(recorded["cameras"][0]["lost_in_source"], 2)
+        self.assertEqual(recorded["cameras"][0]["depth"]["pictures"], FRAMES - 1)
+        self.assertIn("a picture is damaged and left out", errors)
+        self.assertIn("2 pictures are lost", errors)
+
     def test_a_camera_that_plays_a_damaged_recording_says_how_many_pictures_are_lost(self):
         path, recorded = self.record("a.mkv", "--depth-codec", "rvl")
         self.damage_payloads(path, 0, 2)

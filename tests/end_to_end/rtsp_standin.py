@@ -91,17 +91,33 @@ def answer(peer, fields, status="200 OK", headers="", body=""):
     peer.sendall(f"RTSP/1.0 {status}\r\nCSeq: {fields.get('CSeq', 0)}\r\n{headers}{length}\r\n{body}".encode())
 
 
-def is_allowed(method, fields, password):
+def is_allowed(method, fields, password, nonce="n0nce"):
     """Digest (RFC 2617) of the user `cart`."""
     given = dict(re.findall(r'(\w+)="([^"]*)"', fields.get("Authorization", "")))
 
     def md5(text):
         return hashlib.md5(text.encode()).hexdigest()
-    wanted = md5(f"{md5(f'cart:or:{password}')}:n0nce:{md5(method + ':' + given.get('uri', ''))}")
+    wanted = md5(f"{md5(f'cart:or:{password}')}:{nonce}:{md5(method + ':' + given.get('uri', ''))}")
     return given.get("response") == wanted and given.get("username") == "cart"
 
 
-def shake_hands(peer, pictures, password=None):
+class NewNonces:
+    """Reads requests as a camera does that takes each nonce once: every request is asked for the newest one."""
+
+    def __init__(self, password):
+        self.password, self.number = password, 0
+
+    def read_request(self, peer):
+        while True:
+            method, url, fields = read_request(peer)
+            if is_allowed(method, fields, self.password, f"n{self.number}"):
+                self.number += 1
+                return method, url, fields
+            self.number += 1
+            answer(peer, fields, "401 Unauthorized", f'WWW-Authenticate: Digest realm="or", nonce="n{self.number}"\r\n')
+
+
+def shake_hands(peer, pictures, password=None, read=read_request):
     units = [unit for picture in pictures[:1] for unit in picture if unit[0] & 31 in (7, 8)]
     sets = ",".join(base64.b64encode(unit).decode() for unit in units)
     description = ("v=0\r\no=- 1 1 IN IP4 127.0.0.1\r\ns=stand-in\r\nc=IN IP4 0.0.0.0\r\nt=0 0\r\na=control:*\r\n"
@@ -109,7 +125,7 @@ def shake_hands(peer, pictures, password=None):
                    "m=video 0 RTP/AVP 96\r\na=rtpmap:96 H264/90000\r\n"
                    f"a=fmtp:96 packetization-mode=1;sprop-parameter-sets={sets}\r\na=control:{TRACK}\r\n")
     while True:
-        method, url, fields = read_request(peer)
+        method, url, fields = read(peer)
         if password and not is_allowed(method, fields, password):
             answer(peer, fields, "401 Unauthorized",
                    'WWW-Authenticate: Basic realm="or"\r\nWWW-Authenticate: Digest realm="or", nonce="n0nce"\r\n')
@@ -149,27 +165,66 @@ def send_packet(peer, packet, channel=0):
     peer.sendall(struct.pack(">cBH", b"$", channel, len(packet)) + packet)
 
 
-def answer_all(peer):
+def answer_all(peer, read):
     try:
         while True:
-            answer(peer, read_request(peer)[2])
+            answer(peer, read(peer)[2])
     except OSError:
         pass
 
 
-def play(peer, pictures, fps=30, count=None, password=None):
-    """A good server, which also answers keep-alives; after `count` pictures it says nothing more."""
-    shake_hands(peer, pictures, password)
+def play(peer, pictures, fps=30, count=None, password=None, read=read_request, between=b""):
+    """A good server, which also answers keep-alives; after `count` pictures it says nothing more. `between` comes before
+    each packet."""
+    shake_hands(peer, pictures, password, read)
     begin, number = time.monotonic(), 0
-    threading.Thread(target=answer_all, args=(peer,), daemon=True).start()
+    threading.Thread(target=answer_all, args=(peer, read), daemon=True).start()
     n = 0
     while count is None or n < count:
         for packet in packets(pictures[n % len(pictures)], number, 90000 * n // fps):
+            peer.sendall(between)
             send_packet(peer, packet)
             number += 1
         n += 1
         time.sleep(max(0, begin + n / fps - time.monotonic()))
     time.sleep(60)
+
+
+def play_with_new_nonces(peer, pictures, password, **options):
+    """Every request needs the newest nonce, also PLAY and keep-alives; a keep-alive that has none ends the session."""
+    play(peer, pictures, read=NewNonces(password).read_request, **options)
+
+
+def play_and_ask(peer, pictures, asked):
+    """Asks whether the client is still there, and notes its answers in `asked`."""
+    shake_hands(peer, pictures)
+    begin, number, waiting = time.monotonic(), 0, b""
+    peer.setblocking(True)
+    for n in range(3000):
+        if n % 10 == 5:
+            method = ("OPTIONS", "GET_PARAMETER", "SET_PARAMETER")[n // 10 % 3]
+            peer.sendall(f"{method} rtsp://127.0.0.1/live RTSP/1.0\r\nCSeq: {1000 + n}\r\n\r\n".encode())
+        for packet in packets(pictures[n % len(pictures)], number, 3000 * n):
+            send_packet(peer, packet)
+            number += 1
+        peer.settimeout(max(0.001, begin + n / 30 - time.monotonic()))
+        try:
+            waiting += peer.recv(4096)
+        except TimeoutError:
+            pass
+        peer.settimeout(None)
+        while b"\r\n\r\n" in waiting:
+            head, _, waiting = waiting.partition(b"\r\n\r\n")
+            if head.startswith(b"RTSP/1.0 200"):
+                asked.append(int(re.search(rb"CSeq: (\d+)", head)[1]))
+            else:
+                answer(peer, dict(re.findall(r"(?m)^([\w-]+): *(.*?)\r?$", head.decode())))
+
+
+def move(peer, to):
+    """The stream is at another address."""
+    while True:
+        answer(peer, read_request(peer)[2], "302 Moved Temporarily", f"Location: {to}\r\n")
 
 
 def say_nothing(peer):

@@ -51,6 +51,65 @@ class Sources(unittest.TestCase):
                 self.assertGreater(server.connections, before)
                 self.assertNotIn("kn", "".join(cart.errors))
 
+    def assert_plays(self, h, server, url, frames=90):
+        """So many pictures, for longer than two keep-alives, from one connection."""
+        before = server.connections
+        with Process("publish", h.greeting["publish_link"], "--share", url + ",name=tower", "--every", "0.2") as cart:
+            cart.wait_for(shown("tower", frames), WAIT)
+            self.assertEqual(server.connections, before + 1, "".join(cart.errors))
+
+    def test_servers_with_habits_of_their_own_play(self):
+        """As FFmpeg and VLC bear them: cameras that want the newest nonce in every request, that put stray bytes between
+        packets, that ask whether the client is still there, that have moved."""
+        stray, asked = b"\0\x24\r\n", []
+        with host(self.folder / "habits") as h, contextlib.ExitStack() as stack:
+            def serve(serve, **options):
+                return stack.enter_context(RtspStandIn(serve, **options))
+            nonces = serve(rtsp_standin.play_with_new_nonces, pictures=self.pictures, password="kn")
+            with self.subTest("newest nonce"):
+                self.assert_plays(h, nonces, nonces.url.replace("rtsp://", "rtsp://cart:kn@"))
+            for between in (b"\0\0", stray):
+                with self.subTest(between=between):
+                    server = serve(rtsp_standin.play, pictures=self.pictures, between=between)
+                    self.assert_plays(h, server, server.url)
+            asks = serve(rtsp_standin.play_and_ask, pictures=self.pictures, asked=asked)
+            with self.subTest("requests of the server"):
+                self.assert_plays(h, asks, asks.url)
+                self.assertGreater(len(asked), 5)
+                self.assertTrue(all(number >= 1000 for number in asked), asked)
+            target = serve(rtsp_standin.play, pictures=self.pictures, password="kn")
+            moved = serve(rtsp_standin.move, to=target.url)
+            with self.subTest("moved"):
+                self.assert_plays(h, target, moved.url.replace("rtsp://", "rtsp://cart:kn@"), 30)
+            for to, words in (("rtsp://192.0.2.1/live", "moved it to another host"), ("http://127.0.0.1/", "moved it")):
+                with self.subTest(to):
+                    away = serve(rtsp_standin.move, to=to)
+                    code, _, errors = run("publish", h.greeting["publish_link"], "--share", away.url)
+                    self.assertEqual(code, 1)
+                    self.assertIn(words, errors)
+            around = serve(rtsp_standin.move, to="")
+            around.options["to"] = around.url
+            code, _, errors = run("publish", h.greeting["publish_link"], "--share", around.url)
+            self.assertEqual(code, 1)
+            self.assertIn("again and again", errors)
+
+    def test_a_wrong_password_is_said_also_where_only_play_asks_for_it(self):
+        def only_play(peer, pictures):
+            rtsp_standin.shake_hands(peer, pictures, read=self.read_until_play)
+        with host(self.folder / "only_play") as h, RtspStandIn(only_play, pictures=self.pictures) as server:
+            code, _, errors = run("publish", h.greeting["publish_link"], "--share",
+                                  server.url.replace("rtsp://", "rtsp://cart:wrong@"))
+            self.assertEqual(code, 1)
+            self.assertIn("user and password", errors)
+
+    @staticmethod
+    def read_until_play(peer):
+        while True:
+            method, url, fields = rtsp_standin.read_request(peer)
+            if method != "PLAY":
+                return method, url, fields
+            rtsp_standin.answer(peer, fields, "401 Unauthorized", 'WWW-Authenticate: Digest realm="or", nonce="n"\r\n')
+
     def test_a_stream_that_stalls_is_called_stale_and_opened_again(self):
         with host(self.folder / "state2") as h, \
                 RtspStandIn(rtsp_standin.play, pictures=self.pictures, count=60) as server, \

@@ -193,6 +193,21 @@ class Strangers(StrangersCase):
                 with self.subTest(options):
                     join(link, **options)
 
+    def test_cookies_of_other_services_are_borne_and_too_many_are_answered(self):
+        def cookies(kib):
+            return [f"Cookie: service{n}={'c' * 1024}" for n in range(kib)]
+        with self.session() as (h, _):
+            link = Link.parse(h.greeting["link"])
+            self.assertEqual(https_get(link, "/", headers=cookies(24))[0], https_get(link, "/")[0])
+            seconds_to_join(link, headers=cookies(24))
+            for kib in (40, 80):
+                with self.subTest(kib=kib):
+                    status, body = https_get(link, "/", headers=cookies(kib))
+                    self.assertEqual(status, 431)
+                    self.assertIn(b"cookies", body)
+                    with self.assertRaisesRegex(ConnectionRefusedError, "431"):
+                        RawPeer(link, headers=cookies(kib))
+
     def test_names_of_any_bytes_reach_neither_the_status_nor_the_terminal_as_they_are(self):
         with host(self.folder / "state", self.camera) as h:
             link = Link.parse(h.greeting["link"])
