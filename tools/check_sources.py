@@ -15,6 +15,13 @@ LICENSED = {".h", ".cpp", ".cu", ".py", ".sh", ".cmake", ".fbs", ".glsl", ".vert
 FORMATTED = {".h", ".cpp", ".cu"}
 COMMENT_MARKS = {".h": "//", ".cpp": "//", ".cu": "//", ".js": "//", ".mjs": "//", ".vert": "//", ".frag": "//",
                  ".glsl": "//", ".py": "#", ".sh": "#", ".cmake": "#"}
+# Programs that receive or decide for long write through base/log.h and base/output.h, whose threads wait for a reader.
+DIRECT_OUTPUT = re.compile(r"std::(cout|cerr|clog|printf|puts|putchar)\b|\bstd::f(printf|puts|putc|write)\([^;]*std(err|out)")
+# Commands whose output is their result, and programs that are no part of the product.
+MAY_WRITE_DIRECTLY = re.compile(
+    r"_(test|bench|fuzz)\.cpp$|^src/(testing|synthetic/pictures)/|^src/base/log_output_web\.cpp$|^apps/theatron/("
+    r"background|bench|cameras|case|export|inspect|link|lobby|recover|register|session|status|target)_command\.cpp$|"
+    r"^apps/theatron/(register_result|main)\.cpp$|^apps/web/")
 # A sentence that begins so does not name its subject.
 UNNAMED_SUBJECT = re.compile(r"(?:^|[.:;!?] )(What|Whatever|Who|Whoever|Whose|Of|Which|Whether) [^?]*$")
 
@@ -45,6 +52,11 @@ def main():
                 if any(UNNAMED_SUBJECT.search(sentence) for sentence in re.split(r"(?<=[.!?]) ", comment)):
                     problems.append(f"{file.relative_to(ROOT)}:{number}: a sentence of this comment begins without its "
                                     "subject")
+            name = str(file.relative_to(ROOT))
+            if name.startswith(("src/", "apps/")) and file.suffix in FORMATTED and not MAY_WRITE_DIRECTLY.search(name):
+                problems += [f"{name}:{number}: writes to standard output or error itself; base/output.h and base/log.h "
+                             "do, without waiting" for number, line in enumerate(text.splitlines(), 1)
+                             if DIRECT_OUTPUT.search(line)]
             if LICENCE not in text[:300]:
                 problems.append(f"{file.relative_to(ROOT)}: the licence line is missing")
     formatted = [str(f) for f in files if f.suffix in FORMATTED]

@@ -3,11 +3,11 @@
 
 #include <unistd.h>
 
-#include <cstdio>
 #include <memory>
 #include <string>
 
 #include "base/error.h"
+#include "base/output.h"
 #include "base/steady_clock.h"
 #include "cli/stop_signal.h"
 
@@ -33,10 +33,12 @@ capture::Progress show_progress() {
         if (percent == state->shown)
             return;
         state->shown = percent;
-        std::fprintf(stderr, terminal ? "\r\033[K%s %d %%" : "%s %d %%\n", state->what.c_str(),
-                     percent);
-        if (terminal && percent >= 100)
-            std::fputc('\n', stderr);
+        const std::string line = state->what + " " + std::to_string(percent) + " %";
+        if (!terminal)
+            return output::print(line + "\n", output::Stream::error);
+        output::status_line(line, output::Stream::error);
+        if (percent >= 100)
+            output::end_status_line();
     };
 }
 

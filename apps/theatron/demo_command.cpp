@@ -5,11 +5,11 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <iostream>
 #include <thread>
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/output.h"
 #include "base/steady_clock.h"
 #include "cli/camera_option.h"
 #include "cli/progress.h"
@@ -88,7 +88,7 @@ void show_pictures(const Flags& flags, const std::filesystem::path& folder, cons
                           {"as_mesh.png", "mesh", {CameraId{0}, -45, 5}},
                           {"as_splats.png", "splat", {CameraId{0}, -45, 5}}};
 
-    std::cout << "Pictures of what the viewer sees are written to " << folder.string() << "/ :\n";
+    output::print("Pictures of what the viewer sees are written to " + folder.string() + "/ :\n");
     const TimePoint begin = steady_now();
     TimePoint next_line{}, next_picture = begin + 1s;
     bool announced = false;
@@ -106,17 +106,17 @@ void show_pictures(const Flags& flags, const std::filesystem::path& folder, cons
             screen.write();
             if (!std::exchange(announced, true)) {
                 for (const View& view : views)
-                    std::cout << "  " << (folder / view.file).string() << "\n";
-                std::cout << "  " << (folder / "or_screen.png").string()
-                          << ", the screen in the operating room\n";
+                    output::print("  " + (folder / view.file).string() + "\n");
+                output::print("  " + (folder / "or_screen.png").string() +
+                              ", the screen in the operating room\n");
             }
             next_picture = steady_now() + 5s;
         }
         if (announced && now >= next_line) {
             if (isatty(STDOUT_FILENO))
-                std::cout << "\r\033[K" << status_line(viewer) << std::flush;
+                output::status_line(status_line(viewer));
             else
-                std::cout << status_line(viewer) << std::endl;
+                output::print(status_line(viewer) + "\n");
             next_line = now + (isatty(STDOUT_FILENO) ? Duration(500ms) : Duration(2s));
         }
     }
@@ -157,14 +157,14 @@ void run(const Flags& flags) {
     const auto window = open_window(flags);
     const Meeting meeting(link);
 
-    std::cout << "\nThe demo room is open. Join it from another terminal, or open the "
-                 "link in a browser:\n\n"
-              << "  " << flags.program << " join '" << host.link() << "'\n\n"
-              << "Two scripted people are in it, who point, hold a brick and hand it over.\n"
-              << std::flush;
+    output::print(
+        "\nThe demo room is open. Join it from another terminal, or open the link in a "
+        "browser:\n\n  " +
+        flags.program + " join '" + host.link() +
+        "'\n\nTwo scripted people are in it, who point, hold a brick and hand it over.\n");
     if (window) {
-        std::cout << "You meet them in the window: F1 shows its keys, Esc, twice, ends the demo.\n"
-                  << std::flush;
+        output::print(
+            "You meet them in the window: F1 shows its keys, Esc, twice, ends the demo.\n");
         ViewerWindow shown{.join = viewer_options(link)};
         shown.viewer.view = window_view;
         shown.greeting =
@@ -174,9 +174,9 @@ void run(const Flags& flags) {
     } else {
         show_pictures(flags, folder, link);
     }
-    std::cout << "\nThe demo has ended. Next, try your own camera:\n"
-              << "  " << flags.program << " host --camera mkv:RECORDING.mkv,loop=1\n"
-              << "  " << flags.program << " host --help\n";
+    output::end_status_line();
+    output::print("\nThe demo has ended. Next, try your own camera:\n  " + flags.program +
+                  " host --camera mkv:RECORDING.mkv,loop=1\n  " + flags.program + " host --help\n");
 }
 
 }  // namespace

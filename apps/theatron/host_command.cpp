@@ -3,16 +3,16 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <cstdio>
 #include <fstream>
-#include <iostream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
 
 #include "base/camera_names.h"
 #include "base/error.h"
+#include "base/log.h"
 #include "base/log_scope.h"
+#include "base/output.h"
 #include "base/steady_clock.h"
 #include "camera_lines.h"
 #include "capture/camera.h"
@@ -119,40 +119,40 @@ void obey(HostSessions& sessions, const std::string& line) {
 }
 
 void obey(HostSessions& sessions, InputLines& input) {
-    while (const auto line = input.next()) {
+    for (const std::string& line : input.take()) {
         try {
-            obey(sessions, *line);
+            obey(sessions, line);
         } catch (const Error& error) {
-            std::fprintf(stderr, "%s\n", error.what());
+            log::say(error.what());
         }
     }
 }
 
 // A link lets its bearer in, so it goes only to a terminal or where it was asked for: a service's
 // output is kept in a journal that others read.
-void print_links(const host::Host& host) {
-    std::cout << "Join with this link:\n\n  " << host.link() << "\n\n"
-              << "in a browser, or with: theatron join '" << host.link() << "'\n\n"
-              << "With these\n";
+std::string links_text(const host::Host& host) {
+    std::string text = "Join with this link:\n\n  " + host.link() +
+                       "\n\nin a browser, or with: theatron join '" + host.link() +
+                       "'\n\nWith these\n";
     for (const auto& [role, may] : others)
-        std::cout << "  " << may << ":\n\n  " << host.link(role) << "\n\n";
+        text += std::string("  ") + may + ":\n\n  " + host.link(role) + "\n\n";
+    return text;
 }
 
-void print_all_links(const HostSessions& sessions) {
+std::string all_links_text(const HostSessions& sessions) {
     const auto open = sessions.open();
-    for (const auto& [name, host] : open) {
-        if (open.size() > 1)
-            std::cout << "Session '" << name << "'\n\n";
-        print_links(*host);
-    }
+    std::string text;
+    for (const auto& [name, host] : open)
+        text += (open.size() > 1 ? "Session '" + name + "'\n\n" : "") + links_text(*host);
+    return text;
 }
 
-void print_address(const host::Host& host, const std::string& state) {
+std::string address_text(const host::Host& host, const std::string& state) {
     const std::string link = host.link(), in_state = state.empty() ? "" : " --state " + state;
-    std::cout << "Listening at " << link.substr(0, link.find('#')) << "\n"
-              << "This is no terminal, and others may read it, so the links that let people in are "
-                 "not printed here.\n'theatron link --show expert"
-              << in_state << "' prints one, and --print-links prints them here.\n";
+    return "Listening at " + link.substr(0, link.find('#')) +
+           "\nThis is no terminal, and others may read it, so the links that let people in are not "
+           "printed here.\n'theatron link --show expert" +
+           in_state + "' prints one, and --print-links prints them here.\n";
 }
 
 // The picture of a single camera is right without a registration.
@@ -162,11 +162,9 @@ void say_unregistered(const std::vector<std::string>& unregistered, std::size_t 
     std::string names;
     for (const std::string& name : unregistered)
         names += (names.empty() ? "" : ", ") + name;
-    std::fprintf(stderr,
-                 "Nobody knows where these cameras are in the room: %s. They are shown 12 m apart. "
-                 "'theatron register' finds their places for --places; place=X:Y:Z gives one by "
-                 "hand.\n",
-                 names.c_str());
+    log::say("Nobody knows where these cameras are in the room: " + names +
+             ". They are shown 12 m apart. 'theatron register' finds their places for --places; "
+             "place=X:Y:Z gives one by hand.");
 }
 
 host::HostOptions options_of(const Flags& flags) {
@@ -229,18 +227,16 @@ void run(Flags& flags) {
     HostSessions sessions(options, flags.first, further);
 
     if (flags.json) {
-        std::cout << files::json_text(greeting(sessions)) << std::endl;
+        output::result(files::json_text(greeting(sessions)) + "\n");
     } else {
-        if (flags.prints_links || isatty(STDOUT_FILENO))
-            print_all_links(sessions);
-        else
-            print_address(sessions.first(), flags.state);
-        std::cout << "Links for one person, with an end, and as QR codes: theatron link --help\n"
-                  << (options.cameras.empty() && further.empty()
-                          ? "No camera is streamed (--camera): people meet in an empty room.\n"
-                          : "")
-                  << "Ctrl-C ends the session.\n"
-                  << std::flush;
+        const bool shows_links = flags.prints_links || isatty(STDOUT_FILENO);
+        output::print(
+            (shows_links ? all_links_text(sessions) : address_text(sessions.first(), flags.state)) +
+            "Links for one person, with an end, and as QR codes: theatron link --help\n" +
+            (options.cameras.empty() && further.empty()
+                 ? "No camera is streamed (--camera): people meet in an empty room.\n"
+                 : "") +
+            "Ctrl-C ends the session.\n");
     }
     for (const auto& [name, host] : sessions.open())
         say_unregistered(host->unregistered_cameras(), host->camera_names().size());
@@ -255,12 +251,11 @@ void run(Flags& flags) {
         obey(sessions, input);
         sessions.follow();
         if (live_line && steady_now() >= next_line) {
-            std::cout << "\r\033[K" << status_line(sessions) << std::flush;
+            output::status_line(status_line(sessions));
             next_line = steady_now() + 500ms;
         }
     }
-    if (live_line)
-        std::cout << "\n";
+    output::end_status_line();
     const std::string room_problem = sessions.room_problem();
     if (!flags.summary.empty()) {
         std::ofstream out(flags.summary);

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <iostream>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
@@ -15,6 +14,7 @@
 #include "base/camera_names.h"
 #include "base/error.h"
 #include "base/log.h"
+#include "base/output.h"
 #include "base/steady_clock.h"
 #include "camera_lines.h"
 #include "case_lines.h"
@@ -88,7 +88,7 @@ void choose_codec(client::Participant& participant, bool depth, const std::strin
         participant.choose_codecs(cameras[find_camera(camera, names)].description.id,
                                   depth ? codec : none, depth ? none : codec);
     } catch (const Error& e) {
-        std::fprintf(stderr, "%s\n", e.what());
+        log::say(e.what());
     }
 }
 
@@ -108,7 +108,7 @@ bool obey_webcam_line(publish::OwnFace* face, const std::string& line) {
     if (face)
         face->show(line == "webcam on");
     else
-        std::fprintf(stderr, "There is no webcam; join with --webcam DEVICE.\n");
+        log::say("There is no webcam; join with --webcam DEVICE.");
     return true;
 }
 
@@ -133,20 +133,22 @@ bool obey(client::Participant& participant, RoomLines& room, VoiceLine& voice,
                                 std::sscanf(value.c_str(), "%lf", &number) == 1 && number >= 0)
         choose_delivery(participant, what == "latency", number);
     else if (!what.empty())
-        std::fprintf(stderr,
-                     "Say 'depth CODEC [CAMERA]', 'color CODEC [CAMERA]', 'latency MS', 'ceiling "
-                     "MBIT', 'quit', in the room %s, on cases %s, on marks %s, on a recording "
-                     "that the host plays %s, on the last minute %s, or as an operator %s, %s.\n",
-                     RoomLines::help(), case_lines_help(), mark_lines_help(), playback_lines_help(),
-                     look_back_help(), people_help(), camera_lines_help());
+        output::print(
+            "Say 'depth CODEC [CAMERA]', 'color CODEC [CAMERA]', 'latency MS', 'ceiling MBIT', "
+            "'quit', in the room " +
+                std::string(RoomLines::help()) + ", on cases " + case_lines_help() + ", on marks " +
+                mark_lines_help() + ", on a recording that the host plays " +
+                playback_lines_help() + ", on the last minute " + look_back_help() +
+                ", or as an operator " + people_help() + ", " + camera_lines_help() + ".\n",
+            output::Stream::error);
     return true;
 }
 
 // Executes the lines that were typed so far. False if one of them ends the program.
 bool obey(client::Participant& participant, RoomLines& room, VoiceLine& voice,
           publish::OwnFace* face, InputLines& input) {
-    while (const auto line = input.next())
-        if (!obey_webcam_line(face, *line) && !obey(participant, room, voice, *line))
+    for (const std::string& line : input.take())
+        if (!obey_webcam_line(face, line) && !obey(participant, room, voice, line))
             return false;
     return !input.closed_by_person();
 }
@@ -174,18 +176,18 @@ nlohmann::json json_of(const client::Participant& participant, const VoiceLine& 
 void list_devices(bool as_json) {
     const sound::DeviceList found = sound::devices();
     if (as_json) {
-        std::cout << files::json_text({{"microphones", found.microphones},
-                                       {"loudspeakers", found.loudspeakers},
-                                       {"problem", found.problem}})
-                  << std::endl;
-        return;
+        return output::result(files::json_text({{"microphones", found.microphones},
+                                                {"loudspeakers", found.loudspeakers},
+                                                {"problem", found.problem}}) +
+                              "\n");
     }
     if (!found.problem.empty())
-        return void(std::cout << found.problem << std::endl);
-    const auto list = [](const char* kind, const std::vector<std::string>& names) {
-        std::cout << kind << ":" << (names.empty() ? " none" : "") << "\n";
+        return output::result(found.problem + "\n");
+    const auto list = [](const std::string& kind, const std::vector<std::string>& names) {
+        std::string lines = kind + ":" + (names.empty() ? " none" : "") + "\n";
         for (const std::string& name : names)
-            std::cout << "  " << name << "\n";
+            lines += "  " + name + "\n";
+        output::result(lines);
     };
     list("microphones", found.microphones);
     list("loudspeakers", found.loudspeakers);
@@ -266,7 +268,7 @@ void run(const JoinFlags& flags) {
                 log::say(problem);
         }
         if (publisher)
-            say(remarks.take(*publisher, steady_now()), live_line);
+            say(remarks.take(*publisher, steady_now()));
         voice.hold(false, steady_now());
         room.on_tick(participant);
         if (const auto& head = room.head())
@@ -289,23 +291,22 @@ void run(const JoinFlags& flags) {
         if (has_end && first_frame == TimePoint{} && now - started >= length + join_patience)
             throw Error(status.problem.empty() ? "The host sent no picture." : status.problem);
         if (flags.every > 0 && now >= next_line) {
-            std::cout << files::json_text(json_of(participant, voice, face, picture.get()))
-                      << std::endl;
+            output::print(files::json_text(json_of(participant, voice, face, picture.get())) +
+                          "\n");
             next_line = now + seconds_to_duration(flags.every);
         } else if (live_line && now >= next_line) {
-            std::cout << "\r\033[K" << status_line(participant) << std::flush;
+            output::status_line(status_line(participant));
             next_line = now + 500ms;
         }
     }
-    if (live_line)
-        std::cout << "\n";
+    output::end_status_line();
     const nlohmann::json figures = json_of(participant, voice, face, picture.get());
     if (picture)
         picture->write();
     if (flags.json)
-        std::cout << files::json_text(figures) << std::endl;
+        output::result(files::json_text(figures) + "\n");
     else if (!live_line)
-        std::cout << status_line(participant) << std::endl;
+        output::print(status_line(participant) + "\n");
 }
 
 std::string join_names(const std::vector<std::string>& names) {

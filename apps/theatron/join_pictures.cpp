@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "base/log.h"
 #include "files/file_bytes.h"
 #include "files/png_file.h"
 #include "viewer/renderer_text.h"
@@ -61,7 +62,7 @@ void OffscreenPicture::take(client::Participant& participant, RoomLines& room) {
         stood_at_ = room.head();
     if (const auto command = participant.take_renderer_command())
         if (const std::string problem = viewer::follow_host(renderer_, *command); !problem.empty())
-            std::fprintf(stderr, "%s\n", problem.c_str());
+            log::say(problem);
     participant.tell_renderer(drawn_with());
 }
 
@@ -73,7 +74,7 @@ void OffscreenPicture::write() {
     if (!scene_.can_draw())
         throw Error("No picture came from the host, so none was written.");
     for (const std::string& text : scene_.unseen_people())
-        std::fprintf(stderr, "%s\n", text.c_str());
+        log::say(text);
     viewer::OffscreenView::Wish wish{wanted_.view, wanted_.size, drawn_with(), {}, {}};
     if (wanted_.stereo)
         wish.eye_distance_m = eye_distance_m;

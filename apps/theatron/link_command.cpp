@@ -2,11 +2,15 @@
 // theatron link
 #include <unistd.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
+#include <thread>
 
 #include "base/error.h"
+#include "base/steady_clock.h"
 #include "cli/number_check.h"
 #include "commands.h"
 #include "files/json_text.h"
@@ -17,6 +21,9 @@
 
 namespace theatron::app {
 namespace {
+
+// A host looks at its links twenty times a second.
+constexpr Duration answer_patience = std::chrono::seconds(10);
 
 struct Flags {
     std::string role = "expert", label, show, revoke, state, session;
@@ -77,27 +84,52 @@ void print_list(const std::vector<host::KnownLink>& links, bool json) {
     }
 }
 
+// True if the host admits by the links as they are now, or none runs that could admit anybody. A
+// session that is not open reads them when it opens.
+bool is_followed(const std::filesystem::path& state, const std::filesystem::path& folder,
+                 const std::string& session) {
+    if (!host::is_host_running(state) || host::are_links_followed(folder))
+        return true;
+    if (folder == state)
+        return false;
+    const auto told = host::told_sessions(state);
+    return std::ranges::none_of(told, [&](const host::ToldSession& there) {
+        return there.name == session && there.state == host::ToldSession::State::open;
+    });
+}
+
+void revoke(const Flags& flags, const std::filesystem::path& state,
+            const std::filesystem::path& folder) {
+    if (!host::revoke_link(folder, flags.revoke))
+        throw Error("There is no link '" + flags.revoke + "'; '" + command_of(flags, "--list") +
+                    "' lists them.");
+    const TimePoint end = steady_now() + answer_patience;
+    while (!is_followed(state, folder, flags.session)) {
+        if (steady_now() > end)
+            throw Error("Link " + flags.revoke +
+                        " is revoked, but the host that runs has not said that it follows, and may "
+                        "still admit by it. See its log; if it hangs, end it.");
+        std::this_thread::sleep_for(50ms);
+    }
+    if (flags.json)
+        std::cout << files::json_text({{"revoked", flags.revoke}}) << "\n";
+    else
+        std::fprintf(stderr, "Link %s admits nobody any more.%s\n", flags.revoke.c_str(),
+                     wire::parse_role(flags.revoke)
+                         ? (" There is a new one: '" + command_of(flags, "--show " + flags.revoke) +
+                            "' prints it.")
+                               .c_str()
+                         : "");
+}
+
 void run(const Flags& flags) {
     const std::filesystem::path state =
         flags.state.empty() ? host::default_state_folder() : std::filesystem::path(flags.state);
     const net::Link address = host::read_address(state);
     const std::filesystem::path folder =
         flags.session.empty() ? state : host::find_session_folder(state, flags.session);
-    if (!flags.revoke.empty()) {
-        if (!host::revoke_link(folder, flags.revoke))
-            throw Error("There is no link '" + flags.revoke + "'; '" + command_of(flags, "--list") +
-                        "' lists them.");
-        if (flags.json)
-            std::cout << files::json_text({{"revoked", flags.revoke}}) << "\n";
-        else
-            std::fprintf(stderr, "Link %s admits nobody any more.%s\n", flags.revoke.c_str(),
-                         wire::parse_role(flags.revoke)
-                             ? (" There is a new one: '" +
-                                command_of(flags, "--show " + flags.revoke) + "' prints it.")
-                                   .c_str()
-                             : "");
-        return;
-    }
+    if (!flags.revoke.empty())
+        return revoke(flags, state, folder);
     const host::KnownLinks book = host::load_links(folder);
     for (const std::string& problem : book.problems)
         std::fprintf(stderr, "A link admits nobody. %s\n", problem.c_str());
@@ -124,7 +156,9 @@ void add_link_command(CLI::App& app) {
     CLI::App* command =
         app.add_subcommand("link", "Make a link of this machine's host for somebody, or revoke it");
     command->footer(
-        "A running host follows at once; who came by a revoked link is removed.\n"
+        "A running host follows at once; who came by a revoked link is removed. --revoke waits "
+        "for\n"
+        "that, and fails if the host does not say so.\n"
         "\nExamples:\n"
         "  theatron link --role expert --hours 2 --for 'Dr. Ada' --qr\n"
         "  theatron link --list\n"

@@ -9,8 +9,10 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/output.h"
 #include "capture/mkv_reader.h"
 #include "cases/foreign_files.h"
+#include "cli/output_end.h"
 #include "commands.h"
 #include "licences.h"
 #include "link_argument.h"
@@ -19,14 +21,15 @@
 
 namespace {
 
-// Output may still be in a buffer, and writing it can fail.
+// Output may still be in a buffer or a queue, and writing it can fail.
 int with_output_written(int code) {
     std::cout.flush();
-    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout)
+    const bool is_flushed = std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout;
+    if (theatron::cli::finish_output() && is_flushed)
         return code;
-    std::fprintf(stderr,
-                 "theatron: The output could not be written: its disk is full "
-                 "or its reader gone.\n");
+    theatron::output::print(
+        "theatron: The output could not be written: its disk is full or its reader gone.\n",
+        theatron::output::Stream::error);
     return code != 0 ? code : 1;
 }
 
@@ -95,30 +98,39 @@ int run(int argc, char** argv) {
             dynamic_cast<const CLI::ExtrasError*>(&e) && !unexpected.empty())
             throw theatron::Error("'" + unexpected.front() + "' is not expected here; 'theatron " +
                                   arguments[1] + " --help' tells what is.");
-        return with_output_written(app.exit(e));
+        return app.exit(e);
     }
-    return with_output_written(0);
+    return 0;
+}
+
+// Says why the program fails, where it does.
+int run_and_tell(int argc, char** argv) {
+    try {
+        return run(argc, argv);
+    } catch (const theatron::Error& e) {
+        theatron::output::print(std::string("theatron: ") + e.what() + "\n",
+                                theatron::output::Stream::error);
+    } catch (const std::filesystem::filesystem_error& e) {
+        theatron::output::print(
+            "theatron: Cannot use '" + e.path1().string() + "': " + e.code().message() + ".\n",
+            theatron::output::Stream::error);
+    } catch (const std::exception& e) {
+        theatron::output::print(
+            std::string("theatron: something unexpected went wrong: ") + e.what() + "\n",
+            theatron::output::Stream::error);
+    }
+    return 1;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    try {
-        std::vector<theatron::sandbox::Reader> readers(
-            std::begin(theatron::capture::foreign_readers),
-            std::end(theatron::capture::foreign_readers));
-        readers.insert(readers.end(), std::begin(theatron::cases::foreign_readers),
-                       std::end(theatron::cases::foreign_readers));
-        theatron::sandbox::run_as_child(argc, argv, readers);
-        theatron::log::flush_before_abort();
-        return run(argc, argv);
-    } catch (const theatron::Error& e) {
-        std::fprintf(stderr, "theatron: %s\n", e.what());
-    } catch (const std::filesystem::filesystem_error& e) {
-        std::fprintf(stderr, "theatron: Cannot use '%s': %s.\n", e.path1().c_str(),
-                     e.code().message().c_str());
-    } catch (const std::exception& e) {
-        std::fprintf(stderr, "theatron: something unexpected went wrong: %s\n", e.what());
-    }
-    return 1;
+    std::vector<theatron::sandbox::Reader> readers(std::begin(theatron::capture::foreign_readers),
+                                                   std::end(theatron::capture::foreign_readers));
+    readers.insert(readers.end(), std::begin(theatron::cases::foreign_readers),
+                   std::end(theatron::cases::foreign_readers));
+    theatron::sandbox::run_as_child(argc, argv, readers);
+    theatron::cli::outlive_readers();
+    theatron::log::flush_before_abort();
+    return with_output_written(run_and_tell(argc, argv));
 }

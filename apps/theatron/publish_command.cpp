@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // theatron publish
-#include <iostream>
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/output.h"
 #include "base/steady_clock.h"
 #include "base/utc.h"
 #include "cli/camera_option.h"
@@ -114,17 +114,16 @@ void run(const Flags& flags) {
         // Others have ended all that it shared.
         if (publisher->has_ended())
             break;
-        say(remarks.take(*publisher, steady_now()), live_line);
+        say(remarks.take(*publisher, steady_now()));
         if (steady_now() < next_line)
             continue;
         if (flags.every > 0)
-            std::cout << files::json_text(figures_json(*publisher, status)) << std::endl;
+            output::print(files::json_text(figures_json(*publisher, status)) + "\n");
         else if (live_line)
-            std::cout << "\r\033[K" << status_line(*publisher, status) << std::flush;
+            output::status_line(status_line(*publisher, status));
         next_line = steady_now() + (flags.every > 0 ? seconds_to_duration(flags.every) : 500ms);
     }
-    if (live_line)
-        std::cout << "\n";
+    output::end_status_line();
 }
 
 }  // namespace

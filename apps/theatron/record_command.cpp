@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <iostream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -16,6 +15,8 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/log.h"
+#include "base/output.h"
 #include "base/steady_clock.h"
 #include "base/utc.h"
 #include "cli/camera_option.h"
@@ -268,9 +269,7 @@ void run(const Flags& flags) {
     const std::unique_ptr<record::RecordSource> source = open_source(flags);
     record::Intake& intake = source->intake();
     const bool live_line = !flags.json && isatty(STDOUT_FILENO);
-    const auto say = [&](const std::string& text) {
-        std::fprintf(stderr, "%s%s\n", live_line ? "\r\033[K" : "", text.c_str());
-    };
+    const auto say = [](const std::string& text) { log::say(text); };
     FileWatch watch;
     std::set<std::string> gone_files;
     auto say_cut = [&, said = std::uint64_t(0)](const record::Recorder::Figures& f) mutable {
@@ -317,9 +316,8 @@ void run(const Flags& flags) {
         if (live_line) {
             Missing missing;
             describe(*source, begin, missing);
-            std::cout << "\r\033[K"
-                      << status_line(recorder->figures(), missing.lost + missing.dropped, file)
-                      << std::flush;
+            output::status_line(
+                status_line(recorder->figures(), missing.lost + missing.dropped, file));
         }
     }
     const bool has_rest =
@@ -339,8 +337,6 @@ void run(const Flags& flags) {
                         ? "Stopped before anything came, so nothing was recorded."
                         : intake.problem());
     recorder->finish();
-    if (live_line)
-        std::cout << "\r\033[K";
     if (end && !end->remark.empty())
         say(end->remark);
 
@@ -354,30 +350,30 @@ void run(const Flags& flags) {
     const bool complete = has_rest && !missing.any() && gone_files.empty() && f.cut_bytes == 0 &&
                           !(end && end->fault) && f.problem.empty();
     if (flags.json)
-        std::cout << nlohmann::json{{"file", file},
-                                    {"utc", utc_text(utc_now())},
-                                    {"segments", f.segments},
-                                    {"seconds", to_seconds(f.duration)},
-                                    {"bytes", f.bytes},
-                                    {"pictures", f.frames},
-                                    {"dropped", missing.dropped},
-                                    {"lost", missing.lost},
-                                    {"room_bytes", f.room_bytes},
-                                    {"voice_bytes", f.voice_bytes},
-                                    {"voices", describe_voices(intake.voices())},
-                                    {"voices_not_agreed", source->voices_not_agreed()},
-                                    {"not_agreed", source->not_agreed()},
-                                    {"cut_bytes", f.cut_bytes},
-                                    {"gone_files", gone_files},
-                                    {"missing_end_seconds", missing_end},
-                                    {"complete", complete},
-                                    {"cameras", std::move(cameras)},
-                                    {"cpu_cores", cpu / wall},
-                                    {"problem", f.problem}}
-                         .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)
-                  << std::endl;
+        output::result(nlohmann::json{{"file", file},
+                                      {"utc", utc_text(utc_now())},
+                                      {"segments", f.segments},
+                                      {"seconds", to_seconds(f.duration)},
+                                      {"bytes", f.bytes},
+                                      {"pictures", f.frames},
+                                      {"dropped", missing.dropped},
+                                      {"lost", missing.lost},
+                                      {"room_bytes", f.room_bytes},
+                                      {"voice_bytes", f.voice_bytes},
+                                      {"voices", describe_voices(intake.voices())},
+                                      {"voices_not_agreed", source->voices_not_agreed()},
+                                      {"not_agreed", source->not_agreed()},
+                                      {"cut_bytes", f.cut_bytes},
+                                      {"gone_files", gone_files},
+                                      {"missing_end_seconds", missing_end},
+                                      {"complete", complete},
+                                      {"cameras", std::move(cameras)},
+                                      {"cpu_cores", cpu / wall},
+                                      {"problem", f.problem}}
+                           .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) +
+                       "\n");
     else
-        std::cout << status_line(f, missing.lost + missing.dropped, file) << std::endl;
+        output::print(status_line(f, missing.lost + missing.dropped, file) + "\n");
     if (!f.problem.empty())
         throw Error(f.problem);
     if (!complete) {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "source_remarks.h"
 
-#include <iostream>
-
 #include "base/log.h"
 
 namespace theatron::app {
@@ -62,12 +60,9 @@ std::vector<std::string> SourceRemarks::take(const publish::CameraPublisher& pub
     return take(sources, now);
 }
 
-void say(const std::vector<std::string>& remarks, bool live_line) {
-    for (const std::string& remark : remarks) {
-        if (live_line)
-            std::cout << "\r\033[K" << std::flush;
+void say(const std::vector<std::string>& remarks) {
+    for (const std::string& remark : remarks)
         log::say(remark);
-    }
 }
 
 }  // namespace theatron::app

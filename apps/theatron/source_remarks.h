@@ -41,8 +41,7 @@ private:
     TimePoint next_look_;                 // at a publisher
 };
 
-// Writes them on the terminal. `live_line`: it has a line that changes in place, which is wiped,
-// and is written again soon.
-void say(const std::vector<std::string>& remarks, bool live_line);
+// Writes them on the terminal.
+void say(const std::vector<std::string>& remarks);
 
 }  // namespace theatron::app

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/log.h"
+#include "base/output.h"
 #include "base/steady_clock.h"
 #include "cli/stop_signal.h"
 #include "files/png_file.h"
@@ -153,13 +154,15 @@ void follow_sound(VoiceLine& voice, std::optional<sound::DeviceWatch>& devices,
 
 void print_end(viewer::Viewer& viewer, const client::Participant& participant,
                const xr::DesktopWindow& window) {
-    std::printf("%s\n", status_line(participant).c_str());
-    std::printf("drew %llu pictures, age on screen %.0f ms (half), %.0f ms (99 of 100)\n",
-                static_cast<unsigned long long>(viewer.pictures()),
-                viewer.ages_ms().percentile(0.5), viewer.ages_ms().percentile(0.99));
+    char drawn[128];
+    std::snprintf(drawn, sizeof(drawn),
+                  "drew %llu pictures, age on screen %.0f ms (half), %.0f ms (99 of 100)\n",
+                  static_cast<unsigned long long>(viewer.pictures()),
+                  viewer.ages_ms().percentile(0.5), viewer.ages_ms().percentile(0.99));
+    output::print(status_line(participant) + "\n" + drawn);
     if (window.gl_errors() > 0)
-        std::fprintf(stderr, "The graphics driver reported %d errors, the first: %s\n",
-                     window.gl_errors(), window.first_gl_error().c_str());
+        log::say("The graphics driver reported " + std::to_string(window.gl_errors()) +
+                 " errors, the first: " + window.first_gl_error());
 }
 
 }  // namespace

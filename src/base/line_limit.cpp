@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/line_limit.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace theatron {
@@ -15,11 +16,11 @@ std::optional<std::uint64_t> LineLimit::take(const std::string& source, TimePoin
         if (sources_.size() < max_sources)
             entry = &sources_[source];
     }
-    if (now < entry->next) {
+    if (now + (at_once_ - 1) * interval < entry->next) {
         ++entry->left_out;
         return std::nullopt;
     }
-    entry->next = now + interval;
+    entry->next = std::max(entry->next, now) + interval;
     return std::exchange(entry->left_out, 0);
 }
 

@@ -13,7 +13,10 @@ namespace theatron {
 
 class LineLimit {
 public:
-    // One line for each source in this time.
+    // `at_once`: lines of a source that may follow each other without a pause.
+    explicit LineLimit(int at_once = 1) : at_once_(at_once) {}
+
+    // In the long run one line for each source in this time.
     static constexpr Duration interval = std::chrono::seconds(1);
     // Further sources share one limit.
     static constexpr std::size_t max_sources = 64;
@@ -26,6 +29,7 @@ private:
         TimePoint next;
         std::uint64_t left_out = 0;
     };
+    const int at_once_;
     std::map<std::string, Source> sources_;
     Source others_;
 };

@@ -14,6 +14,9 @@ namespace {
 
 std::atomic<Level> lowest_level{Level::info};
 
+// Longer sentences are cut.
+constexpr std::size_t max_sentence_characters = 1000;
+
 constexpr const char* names[] = {"debug", "info", "warning", "error"};
 
 thread_local const std::string* session = nullptr;  // of the newest SessionScope
@@ -66,7 +69,7 @@ void write(Level level, std::string_view area, std::string_view what,
 void say(std::string_view sentence) {
     const std::string of =
         session ? clean_text(*session, max_outside_characters) + ": " : std::string();
-    output_line(of + clean_text(sentence, max_field_characters) + '\n');
+    output_line(of + clean_text(sentence, max_sentence_characters) + '\n');
 }
 
 }  // namespace theatron::log

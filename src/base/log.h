@@ -58,8 +58,8 @@ inline void error(std::string_view area, std::string_view what,
     write(Level::error, area, what, fields);
 }
 
-// A sentence for the person at the terminal, without time and area; cut at
-// max_field_characters.
+// A sentence for the person at the terminal, without time and area; a very long
+// one is cut.
 void say(std::string_view sentence);
 
 // Waits until all logged lines are written, at most `patience`. Also called at exit.

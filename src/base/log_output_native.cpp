@@ -1,39 +1,90 @@
 // SPDX-License-Identifier: Apache-2.0
+// The threads that write standard error, the log's, and standard output.
+#include <poll.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
+#include <optional>
 
 #include "base/line_writer.h"
 #include "base/log.h"
 #include "base/log_output.h"
+#include "base/output.h"
 
-namespace theatron::log {
+namespace theatron {
 namespace {
 
 constexpr Duration exit_patience = std::chrono::milliseconds(500);
+constexpr const char* wipe = "\r\033[K";
 
-void write_to_stderr(std::string_view line) {
-    while (!line.empty()) {
-        const ssize_t written = ::write(STDERR_FILENO, line.data(), line.size());
+bool write_all(int file, std::string_view text) {
+    while (!text.empty()) {
+        const ssize_t written = ::write(file, text.data(), text.size());
         if (written < 0 && errno == EINTR)
             continue;
+        if (written < 0 && errno == EAGAIN) {
+            // Another program that has the same terminal or pipe does not want to wait for it.
+            pollfd ready{file, POLLOUT, 0};
+            (void)poll(&ready, 1, -1);
+            continue;
+        }
         if (written <= 0)
-            return;  // there is no place to report it
-        line.remove_prefix(std::size_t(written));
+            return false;
+        text.remove_prefix(std::size_t(written));
     }
+    return true;
 }
 
-// Never destroyed: other threads may log until the process ends, and the writing thread may
-// be blocked by a pipe without a reader.
-LineWriter& writer() {
+// The same terminal, pipe or file.
+bool is_same_file(int a, int b) {
+    struct stat of_a {
+    }, of_b{};
+    return fstat(a, &of_a) == 0 && fstat(b, &of_b) == 0 && of_a.st_dev == of_b.st_dev &&
+           of_a.st_ino == of_b.st_ino;
+}
+
+// Never destroyed: other threads may log until the process ends, and a writing thread may be
+// blocked by a pipe without a reader.
+LineWriter& error_writer() {
     static LineWriter* const only = [] {
-        auto* made = new LineWriter(write_to_stderr);
-        std::atexit([] { flush(exit_patience); });
+        auto* made =
+            new LineWriter([](std::string_view line) { return write_all(STDERR_FILENO, line); });
+        std::atexit([] { log::flush(exit_patience); });
         return made;
     }();
     return *only;
+}
+
+// Lines for one and the same file keep their order. Elsewhere neither waits for the other.
+LineWriter& writer_of_output() {
+    static LineWriter* const only = [] {
+        if (is_same_file(STDOUT_FILENO, STDERR_FILENO))
+            return &error_writer();
+        return new LineWriter([](std::string_view line) { return write_all(STDOUT_FILENO, line); },
+                              [](std::uint64_t left_out) {
+                                  error_writer().put("... " + std::to_string(left_out) +
+                                                     " lines of standard output were left out.\n");
+                                  return true;
+                              });
+    }();
+    return *only;
+}
+
+LineWriter& writer_of(output::Stream stream) {
+    return stream == output::Stream::output ? writer_of_output() : error_writer();
+}
+
+// The stream of a status line that stands on the terminal; a line wipes it first.
+std::atomic<std::optional<output::Stream>> status_stream;
+
+std::string wiped(std::string line, int file) {
+    if (status_stream.load() && isatty(file) && status_stream.exchange(std::nullopt))
+        line.insert(0, wipe);
+    return line;
 }
 
 LineWriter* aborting_writer = nullptr;
@@ -49,18 +100,59 @@ extern "C" void on_abort(int) {
 
 }  // namespace
 
+namespace log {
+
 void output_line(std::string line) {
-    writer().put(std::move(line));
+    error_writer().put(wiped(std::move(line), STDERR_FILENO));
 }
 
 void flush(Duration patience) {
-    writer().flush(patience);
+    error_writer().flush(patience);
 }
 
 void flush_before_abort() {
-    aborting_writer = &writer();
+    aborting_writer = &error_writer();
     // After the handler returns, abort() ends the process as it would without.
     std::signal(SIGABRT, on_abort);
 }
 
-}  // namespace theatron::log
+}  // namespace log
+
+namespace output {
+
+void print(std::string lines, Stream stream) {
+    const int file = stream == Stream::output ? STDOUT_FILENO : STDERR_FILENO;
+    writer_of(stream).put(wiped(std::move(lines), file));
+}
+
+void result(std::string line) {
+    writer_of_output().keep(wiped(std::move(line), STDOUT_FILENO));
+}
+
+void status_line(const std::string& text, Stream stream) {
+    LineWriter& writer = writer_of(stream);
+    if (!writer.idle())
+        return;
+    status_stream = stream;
+    writer.put(wipe + text);
+}
+
+void end_status_line() {
+    if (const auto stream = status_stream.exchange(std::nullopt))
+        writer_of(*stream).put("\n");
+}
+
+bool is_written() {
+    return writer_of_output().idle() && error_writer().idle();
+}
+
+bool has_results() {
+    return writer_of_output().keeps();
+}
+
+bool has_lost_results() {
+    return writer_of_output().has_lost_kept();
+}
+
+}  // namespace output
+}  // namespace theatron

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/log.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <future>
@@ -17,7 +18,10 @@ namespace {
 TEST(LineWriter, WritesLinesInOrderBeforeItEnds) {
     std::string written;
     {
-        LineWriter writer([&](std::string_view line) { written += line; });
+        LineWriter writer([&](std::string_view line) {
+            written += line;
+            return true;
+        });
         writer.put("one\n");
         writer.put("two\n");
     }
@@ -33,6 +37,7 @@ TEST(LineWriter, NobodyWaitsForAnOutputThatIsStuckAndWhatWasLeftOutIsCounted) {
             freed.get_future().wait();
         }
         written.emplace_back(line);
+        return true;
     });
     writer.put("first\n");
     stuck.get_future().wait();
@@ -46,6 +51,53 @@ TEST(LineWriter, NobodyWaitsForAnOutputThatIsStuckAndWhatWasLeftOutIsCounted) {
     EXPECT_TRUE(writer.idle());
     ASSERT_EQ(written.size(), 1 + LineWriter::max_waiting + 1);
     EXPECT_EQ(written[2], "... 7 lines were left out.\n");
+}
+
+TEST(LineWriter, KeepsAResultHoweverMuchWaitsAndLinesOnlyUpToABoundOfTheirBytes) {
+    std::promise<void> stuck, freed;
+    std::vector<std::string> written;
+    LineWriter writer([&, first = true](std::string_view line) mutable {
+        if (std::exchange(first, false)) {
+            stuck.set_value();
+            freed.get_future().wait();
+        }
+        written.emplace_back(line);
+        return true;
+    });
+    writer.put("first\n");
+    stuck.get_future().wait();
+    const std::string half(LineWriter::max_waiting_bytes / 2, 'x');
+    for (int i = 0; i < 3; ++i)
+        writer.put(half);
+    EXPECT_FALSE(writer.keeps());
+    writer.keep("result\n");
+    EXPECT_TRUE(writer.keeps());
+    freed.set_value();
+    EXPECT_TRUE(writer.flush(std::chrono::minutes(1)));
+    EXPECT_THAT(written, testing::ElementsAre("first\n", half, "... 1 lines were left out.\n", half,
+                                              "result\n"));
+    EXPECT_FALSE(writer.keeps() || writer.has_lost_kept());
+}
+
+TEST(LineWriter, LinesThatCannotBeWrittenAreCountedAndToldOnceTheyCan) {
+    bool works = false;
+    std::vector<std::string> written;
+    LineWriter writer([&](std::string_view line) {
+        if (works)
+            written.emplace_back(line);
+        return works;
+    });
+    for (int i = 0; i < 3; ++i)
+        writer.put("lost\n");
+    ASSERT_TRUE(writer.flush(std::chrono::minutes(1)));
+    EXPECT_FALSE(writer.has_lost_kept());
+    writer.keep("a result\n");
+    ASSERT_TRUE(writer.flush(std::chrono::minutes(1)));
+    EXPECT_TRUE(writer.has_lost_kept());
+    works = true;
+    writer.put("again\n");
+    ASSERT_TRUE(writer.flush(std::chrono::minutes(1)));
+    EXPECT_THAT(written, testing::ElementsAre("again\n", "... 4 lines were left out.\n"));
 }
 
 TEST(SessionScope, LinesAndSentencesNameTheirSession) {
@@ -76,6 +128,21 @@ TEST(LineLimit, WritesOneLinePerSourceAndInterval) {
     now += LineLimit::interval;
     EXPECT_EQ(limit.take("a", now), 1u);
     EXPECT_EQ(limit.take("a", now + LineLimit::interval), 0u);
+}
+
+TEST(LineLimit, LetsSomeLinesOfASourceFollowEachOther) {
+    LineLimit limit(3);
+    TimePoint now = from_us(1'000'000);
+    for (int i = 0; i < 3; ++i)
+        EXPECT_EQ(limit.take("a", now), 0u);
+    EXPECT_EQ(limit.take("a", now), std::nullopt);
+    now += LineLimit::interval;
+    EXPECT_EQ(limit.take("a", now), 1u);
+    EXPECT_EQ(limit.take("a", now), std::nullopt);
+    now += 10 * LineLimit::interval;
+    for (int i = 0; i < 3; ++i)
+        EXPECT_TRUE(limit.take("a", now));
+    EXPECT_FALSE(limit.take("a", now));
 }
 
 TEST(LineLimit, ManySourcesShareWhatOneHas) {

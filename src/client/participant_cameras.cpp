@@ -32,6 +32,10 @@ std::vector<Participant::Camera> described_cameras(const session::ViewerSession&
     return cameras;
 }
 
+std::string publisher_of(const Participant::Camera& camera) {
+    return std::to_string(std::uint32_t(camera.description.publisher));
+}
+
 }  // namespace
 
 // A new connection: numbers of settings may start again.
@@ -78,9 +82,9 @@ void Participant::on_welcome() {
 }
 
 void Participant::on_cameras() {
-    std::vector<std::string> news;
     for (const wire::Text& problem : session_.left_out())
-        news.push_back(wire::sentence(problem));
+        remark(wire::sentence(problem));
+    std::vector<std::string> news;
     decoders_->change_cameras(session_.cameras());
     {
         const std::lock_guard lock(shared_->mutex);
@@ -94,10 +98,12 @@ void Participant::on_cameras() {
         };
         for (const Camera& camera : cameras)
             if (without(shared_->cameras, camera.description.id) && !is_face(camera))
-                news.push_back(say(Phrase::camera_joined, camera.description.name));
+                shared_->add_remark(news, publisher_of(camera),
+                                    say(Phrase::camera_joined, camera.description.name));
         for (const Camera& camera : shared_->cameras)
             if (without(cameras, camera.description.id) && !is_face(camera))
-                news.push_back(say(Phrase::camera_left, camera.description.name));
+                shared_->add_remark(news, publisher_of(camera),
+                                    say(Phrase::camera_left, camera.description.name));
         shared_->cameras = std::move(cameras);
         shared_->settings = session_.settings();
         ++shared_->generation;
@@ -123,6 +129,9 @@ void Participant::on_camera_states() {
                 std::exchange(camera.state, found->second).condition;
             using Condition = wire::CameraCondition;
             const std::string& name = camera.description.name;
+            const auto add = [&](const std::string& text) {
+                shared_->add_remark(news, publisher_of(camera), text);
+            };
             const std::string problem = problem_text(camera.state, shared_->status.standing.role);
             const bool is_live = camera.state.condition == Condition::live;
             // The problem that it had before its pictures stood still is not told again.
@@ -130,21 +139,21 @@ void Participant::on_camera_states() {
             if (is_live)
                 camera.told_problem = camera.state.problem.code;
             if (is_news && !problem.empty())
-                news.push_back(say(Phrase::camera_problem, name, problem));
+                add(say(Phrase::camera_problem, name, problem));
             else if (is_news)
-                news.push_back(say(Phrase::camera_well, name));
+                add(say(Phrase::camera_well, name));
             // Faces come and go; people see it.
             if (camera.state.condition == before ||
                 camera.description.frame == wire::CameraFrame::face)
                 continue;
             if (camera.state.condition == Condition::ended)
-                news.push_back(say(Phrase::camera_ended, name));
+                add(say(Phrase::camera_ended, name));
             else if (camera.state.condition == Condition::failed)
-                news.push_back(say(Phrase::camera_failed, name, problem));
+                add(say(Phrase::camera_failed, name, problem));
             else if (camera.state.condition == Condition::stale)
-                news.push_back(say(Phrase::camera_stale, name, problem));
+                add(say(Phrase::camera_stale, name, problem));
             else
-                news.push_back(say(Phrase::camera_live_again, name));
+                add(say(Phrase::camera_live_again, name));
         }
     }
     for (const std::string& text : news)

@@ -61,16 +61,20 @@ void Participant::follow_role(wire::Role before, wire::Role now) {
 }
 
 void Participant::on_visitors() {
-    std::vector<wire::Visitor> before;
+    std::vector<std::string> remarks;
     {
         const std::lock_guard lock(shared_->mutex);
-        before = std::exchange(shared_->visitors, session_.visitors());
+        const auto before = std::exchange(shared_->visitors, session_.visitors());
+        for (const wire::Visitor& visitor : session_.visitors())
+            if (std::find(before.begin(), before.end(), visitor) == before.end())
+                shared_->add_remark(
+                    remarks, "visitors",
+                    say(visitor.records ? Phrase::asks_to_record : Phrase::asks_to_come_in,
+                        visitor.name, wire::spoken_with_article(visitor.role)));
     }
     announce();
-    for (const wire::Visitor& visitor : session_.visitors())
-        if (std::find(before.begin(), before.end(), visitor) == before.end())
-            remark(say(visitor.records ? Phrase::asks_to_record : Phrase::asks_to_come_in,
-                       visitor.name, wire::spoken_with_article(visitor.role)));
+    for (const std::string& text : remarks)
+        remark(text);
 }
 
 void Participant::on_managed() {

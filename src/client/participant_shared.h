@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/line_limit.h"
+#include "base/steady_clock.h"
 #include "client/participant.h"
 #include "net/clock_sync.h"
 
@@ -66,8 +68,17 @@ struct Participant::Shared {
     std::map<CameraId, wire::ChooseCodecs> camera_wishes;    // the same for single cameras
     std::array<std::vector<wire::OfferedCamera>, 2> offers;  // by Participant::Offer
     std::size_t media_waiting = 0;                           // for the participant's thread
-    std::set<std::pair<StreamId, SettingId>> broken;         // frames of these were dropped
-    std::set<StreamId> direct_streams;                       // at the last tick
+    LineLimit remarks_of_others{8};
+    // Adds a remark about another participant, who must not hide what others do by all that it
+    // does.
+    void add_remark(std::vector<std::string>& remarks, const std::string& source,
+                    const std::string& text) {
+        if (const auto left_out = remarks_of_others.take(source, steady_now()))
+            remarks.push_back(*left_out > 0 ? text + " (+" + std::to_string(*left_out) + ")"
+                                            : text);
+    }
+    std::set<std::pair<StreamId, SettingId>> broken;  // frames of these were dropped
+    std::set<StreamId> direct_streams;                // at the last tick
 };
 
 }  // namespace theatron::client

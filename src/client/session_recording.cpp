@@ -8,6 +8,9 @@
 #include <set>
 
 #include "base/error.h"
+#include "base/line_limit.h"
+#include "base/log.h"
+#include "base/steady_clock.h"
 #include "client/left_cameras.h"
 #include "client/participant.h"
 #include "client/person_id.h"
@@ -63,9 +66,7 @@ public:
         options.delivery.target_latency_ms = 0;  // a recording may be late, but not thinned
         options.records = true;
         options.person = load_or_make_person_id(files::state_folder());
-        options.remark = [](const std::string& text) {
-            std::fprintf(stderr, "%s\n", text.c_str());
-        };
+        options.remark = [](const std::string& text) { log::say(text); };
         options.media = [this](const wire::MediaHeader& header, ByteView message) {
             on_media(header, std::make_shared<Bytes>(message.begin(), message.end()));
         };
@@ -159,8 +160,7 @@ private:
         if (there)
             return;
         if (now - gone_since_ > said_after && !std::exchange(said_, true))
-            std::fprintf(stderr, "Waiting for the host, up to %s.\n",
-                         seconds_text(patience).c_str());
+            log::say("Waiting for the host, up to " + seconds_text(patience) + ".");
         if (begun && now - gone_since_ > patience)
             end_ = End{"The host did not come back within " + seconds_text(patience) +
                            ", so the recording ends here.",
@@ -202,14 +202,23 @@ private:
             if (!d.may_record && left_out_.insert({joins_, d.id}).second) {
                 if (std::find(not_agreed_.begin(), not_agreed_.end(), d.name) == not_agreed_.end())
                     not_agreed_.push_back(d.name);
-                std::fprintf(stderr,
-                             "Camera %s is left out: its participant has not agreed to be "
-                             "recorded (--may-record).\n",
-                             d.name.c_str());
+                say_left_out(d);
             }
             return !d.may_record;
         });
         return cameras;
+    }
+
+    // A participant whose cameras come and go all the time does not hide all else.
+    void say_left_out(const wire::Camera& camera) {
+        const auto passed_over =
+            left_out_lines_.take(std::to_string(std::uint32_t(camera.publisher)), steady_now());
+        if (passed_over)
+            log::say("Camera " + camera.name +
+                     " is left out: its participant has not agreed to be recorded (--may-record)." +
+                     (*passed_over > 0
+                          ? " (And " + std::to_string(*passed_over) + " others before.)"
+                          : ""));
     }
 
     // On the participant's thread, before the media that it is about.
@@ -467,6 +476,7 @@ private:
 
     mutable std::mutex mutex_;                     // guards all below but the participant
     std::set<std::pair<int, CameraId>> left_out_;  // cameras of each connection
+    LineLimit left_out_lines_{4};
     std::vector<std::string> not_agreed_;
     std::vector<record::RecordedVoice> agreed_;
     std::vector<std::string> silent_;  // names of people whose voices may not be recorded

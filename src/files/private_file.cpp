@@ -66,6 +66,14 @@ bool write_all(int file, std::string_view text) {
     return true;
 }
 
+// A name that is new, or gone, is durable only after its folder has been synchronised.
+bool synchronise_folder_of(const fs::path& path) {
+    const fs::path parent = path.parent_path();
+    const Descriptor folder(
+        open(parent.empty() ? "." : parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    return folder.is_open() && fsync(folder.get()) == 0;
+}
+
 }  // namespace
 
 void open_private_folder(const fs::path& folder) {
@@ -140,12 +148,19 @@ void write_private_file(const fs::path& path, const std::string& text) {
         errno = reason;
         refuse("write", path);
     }
-    // The new name is durable only after its folder has been synchronised.
-    const fs::path parent = path.parent_path();
-    const Descriptor folder(
-        open(parent.empty() ? "." : parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-    if (!folder.is_open() || fsync(folder.get()) != 0)
+    if (!synchronise_folder_of(path))
         refuse("write", path);
+}
+
+bool remove_private_file(const fs::path& path) {
+    if (unlink(path.c_str()) != 0) {
+        if (errno == ENOENT)
+            return false;
+        refuse("delete", path);
+    }
+    if (!synchronise_folder_of(path))
+        refuse("delete", path);
+    return true;
 }
 
 }  // namespace theatron::files

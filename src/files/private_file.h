@@ -29,4 +29,7 @@ std::optional<std::string> read_private_file(const std::filesystem::path& path, 
 // `text`. A draft left by a crash is replaced.
 void write_private_file(const std::filesystem::path& path, const std::string& text);
 
+// Durable, too: after a crash the file does not come back. False if there is none.
+bool remove_private_file(const std::filesystem::path& path);
+
 }  // namespace theatron::files

@@ -2,10 +2,10 @@
 #include "host/camera_recording.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <set>
 
 #include "base/error.h"
+#include "base/log.h"
 #include "send/camera_lane.h"
 
 namespace theatron::host {
@@ -161,16 +161,16 @@ private:
         const bool plays_damage = !state.problem.empty() && (state.condition == Condition::live ||
                                                              state.condition == Condition::ended);
         if (plays_damage && (damage_said_.insert(state.camera).second || state.condition != before))
-            std::fprintf(stderr, "%s: %s\n", camera.c_str(), problem.c_str());
+            log::say(camera + ": " + problem);
         if (state.condition == before)
             return;
         before = state.condition;
         if (state.condition == Condition::stale) {
-            std::fprintf(stderr, "%s stands still. %s\n", camera.c_str(), problem.c_str());
+            log::say(camera + " stands still. " + problem);
         } else if (state.condition == Condition::live) {
-            std::fprintf(stderr, "%s is live again.\n", camera.c_str());
+            log::say(camera + " is live again.");
         } else if (state.condition == Condition::failed) {
-            std::fprintf(stderr, "%s has failed: %s\n", camera.c_str(), problem.c_str());
+            log::say(camera + " has failed: " + problem);
             failed_.insert(state.camera);
             over_since_ = steady_now();
         } else {

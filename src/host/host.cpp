@@ -110,15 +110,15 @@ void Host::Impl::open(const SessionOptions& options, const capture::Progress& pr
     session::HostSession::Config config;
     if (!options.token.empty())
         check_token(options.token);
-    own_token = options.token;
     asks = options.asks;
+    LinkKeeper::Options keeping{state_folder, options.token, {}};
     if (options.link_lifetime > Duration(0))
-        roles_expire = steady_now() + options.link_lifetime;
+        keeping.roles_expire = steady_now() + options.link_lifetime;
     // Monitoring systems need not be able to join.
     metrics_token = load_or_make_token(state_folder, "metrics.token");
-    (void)load_links(state_folder);  // makes files, whose times the watch reads
-    link_watch.emplace(state_folder);
-    config.admission.tokens = load_tokens();
+    links = std::make_unique<LinkKeeper>(std::move(keeping));
+    config.admission.tokens = links->tokens();
+    config.admission.utc_now = files::utc_now;
     config.admission.asks = options.asks;
     if (AuditLog* log = port->open_audit())
         audit = std::make_unique<SessionAudit>(*log, in_logs);

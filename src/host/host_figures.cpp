@@ -203,28 +203,30 @@ nlohmann::json to_json(const HostFigures& figures) {
                                 {"expires", files::utc_text(certificate.ends)},
                                 {"seconds_left", seconds_left(figures, certificate)},
                                 {"problem", certificate.problem}});
-    return {
-        {"name", figures.name},
-        {"utc", utc_text(figures.utc)},
-        {"session_us", to_us(figures.session_time)},
-        {"seconds", figures.seconds},
-        {"automatic_color", figures.automatic_color},
-        {"cameras", cameras},
-        {"participants", participants},
-        {"published", published},
-        {"overlaps", overlaps},
-        {"registration",
-         {{"made", figures.registration.made},
-          {"method", figures.registration.method},
-          {"problem", figures.registration.problem}}},
-        {"visitors", visitors},
-        {"case_problems", figures.case_problems},
-        {"past_bytes", figures.past_bytes},
-        {"turned_away", figures.turned_away},
-        {"faults", figures.faults},
-        {"page_problem", figures.page_problem},
-        {"problems", {{"audit_log", figures.problems.audit_log}, {"room", figures.problems.room}}},
-        {"certificates", certificates}};
+    return {{"name", figures.name},
+            {"utc", utc_text(figures.utc)},
+            {"session_us", to_us(figures.session_time)},
+            {"seconds", figures.seconds},
+            {"automatic_color", figures.automatic_color},
+            {"cameras", cameras},
+            {"participants", participants},
+            {"published", published},
+            {"overlaps", overlaps},
+            {"registration",
+             {{"made", figures.registration.made},
+              {"method", figures.registration.method},
+              {"problem", figures.registration.problem}}},
+            {"visitors", visitors},
+            {"case_problems", figures.case_problems},
+            {"past_bytes", figures.past_bytes},
+            {"turned_away", figures.turned_away},
+            {"faults", figures.faults},
+            {"page_problem", figures.page_problem},
+            {"problems",
+             {{"audit_log", figures.problems.audit_log},
+              {"room", figures.problems.room},
+              {"links", figures.problems.links}}},
+            {"certificates", certificates}};
 }
 
 nlohmann::json to_json(const PortFigures& all) {
@@ -374,10 +376,11 @@ std::string to_prometheus(const PortFigures& figures_of_all) {
     per_session("past_bytes", "Encoded pictures that are kept for looking back.",
                 [](const HostFigures& f) { return f.past_bytes; });
     out.family("host_problem", "gauge",
-               "1 while the host cannot write its audit log or a session's room.");
+               "1 while the host cannot write its audit log or a session's room, or use a link.");
     for (const HostFigures& figures : all) {
-        const auto& [audit_log, room] = figures.problems;
-        for (const auto& [of, problem] : {std::pair("audit_log", audit_log), {"room", room}})
+        const auto& [audit_log, room, links] = figures.problems;
+        for (const auto& [of, problem] :
+             {std::pair("audit_log", audit_log), {"room", room}, {"links", links}})
             out.value(in_session(figures, "of=" + quoted(of)), problem.empty() ? 0 : 1);
     }
     const HostFigures& host = all.front();

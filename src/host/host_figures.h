@@ -72,9 +72,10 @@ struct HostFigures {
     std::string page_problem;                // of the browser client (host/page.h); else empty
     std::uint64_t faults = 0;  // that cost a connection, a picture or a camera (base/fault.h)
 
-    // Sentences about what the host cannot write, and operators must know; empty: all is well.
+    // Sentences about what the host cannot write or read, and operators must know; empty: all is
+    // well.
     struct Problems {
-        std::string audit_log, room;
+        std::string audit_log, room, links;
     };
     Problems problems;
 
@@ -106,7 +107,7 @@ struct PortFigures {
 // "person","role","records"}],"published":[{"id","name","publisher","state",
 // "adjusted","dropped_slow","bytes"}],"overlaps":[{"a","b","apart_mm","alarm"}],
 // "registration":{"made","method","problem"},"case_problems":[…],"past_bytes","turned_away",
-// "faults","page_problem","problems":{"audit_log","room"},
+// "faults","page_problem","problems":{"audit_log","room","links"},
 // "certificates":[{"of","fingerprint","expires","seconds_left","problem"}]}
 nlohmann::json to_json(const HostFigures& figures);
 // One of its visitors; who has no name there has none here.

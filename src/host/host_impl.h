@@ -3,6 +3,7 @@
 // which several sessions may share, is in host/host_port.h.
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <map>
 #include <mutex>
@@ -18,7 +19,7 @@
 #include "host/host.h"
 #include "host/host_identity.h"
 #include "host/host_port.h"
-#include "host/link_book.h"
+#include "host/link_keeper.h"
 #include "host/place_watch.h"
 #include "host/room_file.h"
 #include "host/room_replay.h"
@@ -40,19 +41,17 @@ struct Host::Impl {
     std::atomic<std::size_t>& participants;
     std::shared_ptr<HostPort> port;  // perhaps with other sessions
     std::filesystem::path state_folder;
-    std::optional<LinkWatch> link_watch;    // used by the owner of the host
-    std::optional<TimePoint> roles_expire;  // the links of the roles
+    std::unique_ptr<LinkKeeper> links;
+    std::uint64_t links_read = 0;                  // how often; used by the owner of the host
+    std::atomic<std::uint64_t> links_applied = 0;  // the newest that the session knows
     std::string metrics_token;
     bool asks = false;
-    bool has_ended = false;     // the session, before the host did
-    bool ends_by_host = false;  // as in Host
-    mutable std::mutex tokens_mutex;
-    std::string own_token;                          // guarded by tokens_mutex, as is the next
-    std::vector<session::Admission::Token> tokens;  // those of the session
-    std::string in_logs;                            // the session's name; empty: the first one
-    std::unique_ptr<SessionAudit> audit;            // may be null
-    session::TokenBucket audited{1, 500};           // events; server's thread
-    session::TokenBucket audited_knocks{1, 500};    // of people who wait; likewise
+    bool has_ended = false;                       // the session, before the host did
+    bool ends_by_host = false;                    // as in Host
+    std::string in_logs;                          // the session's name; empty: the first one
+    std::unique_ptr<SessionAudit> audit;          // may be null
+    session::TokenBucket audited{1, 500};         // events; server's thread
+    session::TokenBucket audited_knocks{1, 500};  // of people who wait; likewise
     std::unique_ptr<session::HostSession> session;
     std::unique_ptr<SessionPort> server;
     capture::CameraPlaces places;  // does not change once lanes run
@@ -143,8 +142,6 @@ struct Host::Impl {
     // `port` is set before; it opens for the first session.
     void open(const SessionOptions& options, const capture::Progress& progress);
     void audit_beginning();
-    // Reads all links, for the session and for the door.
-    std::vector<session::Admission::Token> load_tokens();
     std::string token_of(wire::Role role) const;
     net::Server::Handler handler();
     PortSession in_port();

@@ -21,28 +21,8 @@ constexpr Duration problem_repeated_after = std::chrono::seconds(60);
 
 }  // namespace
 
-std::vector<session::Admission::Token> Host::Impl::load_tokens() {
-    const KnownLinks book = load_links(state_folder);
-    for (const std::string& problem : book.problems)
-        log::warning("host", "a link admits nobody", {{"problem", problem}});
-    const TimePoint now = steady_now();
-    const files::UtcSeconds utc = files::utc_now();
-    std::vector<session::Admission::Token> loaded;
-    const std::lock_guard lock(tokens_mutex);
-    for (const KnownLink& known : book.links) {
-        const bool is_of_role = wire::parse_role(known.name).has_value();
-        std::optional<TimePoint> expires = is_of_role ? roles_expire : std::nullopt;
-        if (known.expires)
-            expires = now + std::chrono::seconds(*known.expires - utc);
-        const bool is_own = known.name == wire::text_of(wire::Role::expert) && !own_token.empty();
-        loaded.push_back({is_own ? own_token : known.token, known.role, expires, known.name});
-    }
-    return tokens = std::move(loaded);
-}
-
 std::string Host::Impl::token_of(wire::Role role) const {
-    const std::lock_guard lock(tokens_mutex);
-    for (const auto& token : tokens)
+    for (const auto& token : links->tokens())
         if (token.link == wire::text_of(role))
             return token.secret;
     return "";
@@ -64,25 +44,27 @@ bool Host::Impl::is_held_back(const std::string& secret) const {
 std::vector<std::string> Host::Impl::http_tokens() const {
     std::vector<std::string> secrets{metrics_token};
     const TimePoint now = steady_now();
-    const std::lock_guard lock(tokens_mutex);
-    for (const auto& token : tokens) {
-        if (!must_ask(token.role) && (!token.expires || now < *token.expires))
+    const files::UtcSeconds utc = files::utc_now();
+    for (const auto& token : links->tokens()) {
+        if (!must_ask(token.role) && !token.has_expired(now, utc))
             secrets.push_back(token.secret);
     }
     return secrets;
 }
 
 void Host::follow_links() {
-    if (!impl_->link_watch->changed())
-        return;
-    try {
-        impl_->server->post([impl = impl_.get(), tokens = impl_->load_tokens()] {
-            impl->session->set_tokens(tokens);
+    const TimePoint now = steady_now();
+    if (impl_->links->follow(now)) {
+        // The links of the moment at which the session takes them: an operator may revoke one
+        // meanwhile.
+        impl_->server->post([impl = impl_.get(), number = ++impl_->links_read] {
+            impl->session->set_tokens(impl->links->tokens());
             impl->carry_out();
+            impl->links_applied = number;
         });
         log::info("host", "links changed");
-    } catch (const Error& error) {
-        log::warning("host", "links stay as they were", {{"problem", error.what()}});
+    } else if (impl_->links_applied == impl_->links_read) {
+        impl_->links->tell_followed(now);
     }
 }
 
@@ -111,6 +93,7 @@ HostFigures::Problems Host::Impl::problems() const {
     if (!room_file->problem().empty())
         problems.room =
             "The room cannot be saved and would be lost with the host; its log says why.";
+    problems.links = links->problem();
     return problems;
 }
 
@@ -118,7 +101,7 @@ HostFigures::Problems Host::Impl::problems() const {
 void Host::Impl::tell_problems() {
     const HostFigures::Problems now = problems();
     const TimePoint time = steady_now();
-    for (const std::string& problem : {now.audit_log, now.room})
+    for (const std::string& problem : {now.audit_log, now.room, now.links})
         for (const auto& [id, participant] : session->participants()) {
             if (problem.empty() || !participant.may(session::Right::manage))
                 continue;
@@ -131,7 +114,7 @@ void Host::Impl::tell_problems() {
         }
     std::erase_if(told_problems, [&](const auto& entry) {
         const auto& [id, problem] = entry.first;
-        return (problem != now.audit_log && problem != now.room) ||
+        return (problem != now.audit_log && problem != now.room && problem != now.links) ||
                !session->participants().contains(id);
     });
 }
@@ -162,27 +145,15 @@ void Host::Impl::carry_out(const session::action::Audit& a) {
 
 std::optional<session::Admission::Token> Host::Impl::find_token(const std::string& secret) const {
     std::optional<session::Admission::Token> found;
-    const std::lock_guard lock(tokens_mutex);
-    for (const auto& token : tokens)
+    for (auto& token : links->tokens())
         if (net::equal_secrets(secret, token.secret))
-            found = token;
+            found = std::move(token);
     return found;
 }
 
 // The session has already removed those who came by it.
 void Host::Impl::carry_out(const session::action::RevokeLink& a) {
-    {
-        const std::lock_guard lock(tokens_mutex);
-        std::erase_if(tokens, [&](const auto& token) { return token.link == a.link; });
-        if (a.link == wire::text_of(wire::Role::expert))
-            own_token.clear();
-    }
-    try {
-        (void)revoke_link(state_folder, a.link);
-    } catch (const Error& error) {
-        log::error("host", "a revoked link will be valid again after a restart",
-                   {{"link", a.link}, {"problem", error.what()}});
-    }
+    links->revoke(a.link, steady_now());
 }
 
 // The speaker's number is that of the connection, whatever the packet says.

@@ -31,7 +31,7 @@ std::string to_table(const nlohmann::json& figures) {
     if (const std::string problem = text_field(figures, "page_problem"); !problem.empty())
         table += problem + "\n";
     if (figures.contains("problems") && figures["problems"].is_object())
-        for (const char* of : {"audit_log", "room"})
+        for (const char* of : {"audit_log", "room", "links"})
             if (const std::string problem = text_field(figures["problems"], of); !problem.empty())
                 table += problem + "\n";
     for (const auto& certificate : list_field(figures, "certificates"))

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/link_book.h"
 
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <sstream>
+#include <system_error>
 
 #include "base/error.h"
 #include "base/outside_text.h"
@@ -17,6 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t name_digits = 8;
 constexpr const char* never = "-";
+constexpr const char* followed_file = "links.followed";
 
 // The file of a role's token. That of the expert has this name since there was only one link.
 const char* token_file(wire::Role role) {
@@ -66,41 +70,92 @@ KnownLink read_link(const fs::path& path, const std::string& text) {
     return link;
 }
 
+// Throws Error.
+std::vector<std::string> names_of_made_links(const fs::path& folder) {
+    std::vector<std::string> names;
+    std::error_code error;
+    fs::directory_iterator entry(made_links(folder), error);
+    if (error == std::errc::no_such_file_or_directory)
+        return names;
+    for (; !error && entry != fs::directory_iterator(); entry.increment(error))
+        if (std::string name = entry->path().filename().string(); is_name(name))
+            names.push_back(std::move(name));
+    if (error)
+        throw Error("The links in '" + made_links(folder).string() +
+                    "' cannot be read: " + error.message() + ".");
+    std::ranges::sort(names);
+    return names;
+}
+
 KnownLinks load_made_links(const fs::path& folder) {
     KnownLinks book;
-    std::vector<KnownLink>& links = book.links;
-    std::error_code none;
-    for (const auto& entry : fs::directory_iterator(made_links(folder), none)) {
-        if (!is_name(entry.path().filename().string()))
-            continue;
+    std::vector<std::string> names;
+    try {
+        names = names_of_made_links(folder);
+    } catch (const Error& error) {
+        book.problems.emplace_back(error.what());
+    }
+    if (names.size() > max_made_links) {
+        book.problems.push_back("'" + made_links(folder).string() + "' has more than " +
+                                std::to_string(max_made_links) + " links, so those from '" +
+                                names[max_made_links] +
+                                "' on admit nobody; delete some with 'theatron link --revoke'.");
+        names.resize(max_made_links);
+    }
+    for (const std::string& name : names) {
+        const fs::path path = made_links(folder) / name;
         try {
             // Another program may delete it meanwhile.
-            if (const auto text = files::read_private_file(entry.path(), files::Privacy::secret))
-                links.push_back(read_link(entry.path(), *text));
+            if (const auto text = files::read_private_file(path, files::Privacy::secret))
+                book.links.push_back(read_link(path, *text));
         } catch (const Error& error) {
             book.problems.emplace_back(error.what());
         }
-        if (links.size() + book.problems.size() > max_made_links)
-            throw Error("'" + made_links(folder).string() + "' has more than " +
-                        std::to_string(max_made_links) +
-                        " links; delete some with 'theatron link --revoke'.");
     }
-    std::ranges::sort(links, {}, &KnownLink::name);
-    std::ranges::sort(book.problems);
     return book;
+}
+
+LinkFile look_at(const fs::path& path) {
+    struct stat info {};
+    LinkFile file{path.filename().string(), 0, 0};
+    if (stat(path.c_str(), &info) == 0) {
+        file.inode = info.st_ino;
+        file.changed_ns = std::int64_t(info.st_ctim.tv_sec) * 1'000'000'000 + info.st_ctim.tv_nsec;
+    }
+    return file;
+}
+
+std::string followed_text(const LinkFiles& files) {
+    std::string text;
+    for (const LinkFile& file : files)
+        text += file.name + " " + std::to_string(file.inode) + " " +
+                std::to_string(file.changed_ns) + "\n";
+    return text;
 }
 
 }  // namespace
 
-KnownLinks load_links(const fs::path& folder) {
-    std::vector<KnownLink> links;
+void make_role_links(const fs::path& folder) {
     for (const wire::Role role : wire::roles)
-        links.push_back({wire::text_of(role), role, load_or_make_token(folder, token_file(role)),
-                         std::nullopt, ""});
+        (void)load_or_make_token(folder, token_file(role));
+}
+
+KnownLinks load_links(const fs::path& folder) {
+    KnownLinks book;
+    for (const wire::Role role : wire::roles) {
+        try {
+            book.links.push_back({wire::text_of(role), role,
+                                  load_or_make_token(folder, token_file(role)), std::nullopt, ""});
+        } catch (const Error& error) {
+            book.problems.emplace_back(error.what());
+        }
+    }
     KnownLinks made = load_made_links(folder);
-    links.insert(links.end(), std::make_move_iterator(made.links.begin()),
-                 std::make_move_iterator(made.links.end()));
-    return {std::move(links), std::move(made.problems)};
+    book.links.insert(book.links.end(), std::make_move_iterator(made.links.begin()),
+                      std::make_move_iterator(made.links.end()));
+    book.problems.insert(book.problems.end(), std::make_move_iterator(made.problems.begin()),
+                         std::make_move_iterator(made.problems.end()));
+    return book;
 }
 
 std::string link_text(const KnownLink& link, net::Link address) {
@@ -144,27 +199,34 @@ bool revoke_link(const fs::path& folder, const std::string& name) {
         files::write_private_file(folder / token_file(*role), net::random_token() + "\n");
         return true;
     }
-    std::error_code none;
-    return is_name(name) && fs::remove(made_links(folder) / name, none);
+    return is_name(name) && files::remove_private_file(made_links(folder) / name);
 }
 
-LinkWatch::LinkWatch(fs::path folder) : folder_(std::move(folder)), seen_(times()) {}
-
-std::vector<fs::file_time_type> LinkWatch::times() const {
-    std::vector<fs::file_time_type> times;
-    std::error_code none;
+LinkFiles look_at_links(const fs::path& folder) {
+    LinkFiles files;
     for (const wire::Role role : wire::roles)
-        times.push_back(fs::last_write_time(folder_ / token_file(role), none));
-    times.push_back(fs::last_write_time(made_links(folder_), none));
-    return times;
+        files.push_back(look_at(folder / token_file(role)));
+    files.push_back(look_at(made_links(folder)));
+    std::vector<std::string> names;
+    try {
+        names = names_of_made_links(folder);
+    } catch (const Error&) {
+        // load_links() says why.
+    }
+    // All those that can be valid, and one more.
+    names.resize(std::min(names.size(), max_made_links + 1));
+    for (const std::string& name : names)
+        files.push_back(look_at(made_links(folder) / name));
+    return files;
 }
 
-bool LinkWatch::changed() {
-    auto now = times();
-    if (now == seen_)
-        return false;
-    seen_ = std::move(now);
-    return true;
+void tell_links_followed(const fs::path& folder, const LinkFiles& files) {
+    files::write_private_file(folder / followed_file, followed_text(files));
+}
+
+bool are_links_followed(const fs::path& folder) {
+    const auto told = files::read_private_file(folder / followed_file, files::Privacy::secret);
+    return told == followed_text(look_at_links(folder));
 }
 
 }  // namespace theatron::host

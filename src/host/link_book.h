@@ -5,6 +5,7 @@
 // All functions throw Error, one sentence that names the file and says what to do.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -31,11 +32,15 @@ struct KnownLink {
 
 struct KnownLinks {
     std::vector<KnownLink> links;
-    // A sentence for each file of a made link that cannot be used. Its link admits nobody.
+    // A sentence for each file that cannot be used. Its link admits nobody.
     std::vector<std::string> problems;
 };
 
-// All links. The one of each role is made where there is none yet.
+// Makes the link of each role that has none yet.
+void make_role_links(const std::filesystem::path& folder);
+
+// All links, each judged by its own file alone. That of a role is made where there is none yet.
+// Never throws Error.
 KnownLinks load_links(const std::filesystem::path& folder);
 
 // True if there is a link of each role, so that load_links() only reads.
@@ -48,21 +53,24 @@ std::string link_text(const KnownLink& link, net::Link address);
 KnownLink make_link(const std::filesystem::path& folder, wire::Role role,
                     std::optional<files::UtcSeconds> expires, const std::string& label);
 
-// Makes a link invalid for good; the one of a role gets another token. False if there is none of
-// this name.
+// Makes a link invalid for good, on the disk; the one of a role gets another token. False if there
+// is none of this name. Throws Error where the file stays as it was.
 bool revoke_link(const std::filesystem::path& folder, const std::string& name);
 
-// Notices changes of the files, also by other programs.
-class LinkWatch {
-public:
-    explicit LinkWatch(std::filesystem::path folder);
-    // True if a file has changed since the last call.
-    bool changed();
-
-private:
-    std::vector<std::filesystem::file_time_type> times() const;
-    const std::filesystem::path folder_;
-    std::vector<std::filesystem::file_time_type> seen_;
+// The files of all links, as another state of them differs: by a file that is new or gone, by what
+// is in it, or by who may read it.
+struct LinkFile {
+    std::string name;
+    std::uint64_t inode = 0;
+    std::int64_t changed_ns = 0;
+    bool operator==(const LinkFile&) const = default;
 };
+using LinkFiles = std::vector<LinkFile>;
+LinkFiles look_at_links(const std::filesystem::path& folder);
+
+// A running host writes which files its links are from, once it admits by them alone.
+void tell_links_followed(const std::filesystem::path& folder, const LinkFiles& files);
+// True if it admits by the files as they are now.
+bool are_links_followed(const std::filesystem::path& folder);
 
 }  // namespace theatron::host

@@ -64,15 +64,70 @@ TEST_F(LinkBook, RevokesALinkForGoodAndGivesARoleAnotherToken) {
     EXPECT_NE(find("operator")->token, before);
 }
 
-TEST_F(LinkBook, NoticesLinksThatOtherProgramsMakeAndRevoke) {
-    (void)load_links(folder.path());
-    LinkWatch watch(folder.path());
-    EXPECT_FALSE(watch.changed());
+TEST_F(LinkBook, FilesDifferAfterEachChange) {
+    make_role_links(folder.path());
+    LinkFiles seen = look_at_links(folder.path());
+    const auto is_other = [&] { return std::exchange(seen, look_at_links(folder.path())) != seen; };
+    EXPECT_FALSE(is_other());
     const KnownLink made = make_link(folder.path(), Role::expert, std::nullopt, "");
-    EXPECT_TRUE(watch.changed());
-    EXPECT_FALSE(watch.changed());
+    EXPECT_TRUE(is_other());
+    const auto file = folder.path() / "links" / made.name;
+    ASSERT_EQ(chmod(file.c_str(), 0644), 0);
+    EXPECT_TRUE(is_other()) << "others may read it";
+    std::ofstream(file) << "expert - 0123456789abcdef0123\n";
+    EXPECT_TRUE(is_other());
     (void)revoke_link(folder.path(), made.name);
-    EXPECT_TRUE(watch.changed());
+    EXPECT_TRUE(is_other());
+    (void)revoke_link(folder.path(), "observer");
+    EXPECT_TRUE(is_other());
+    EXPECT_FALSE(is_other());
+}
+
+TEST_F(LinkBook, AHostSaysWhichFilesItFollows) {
+    make_role_links(folder.path());
+    EXPECT_FALSE(are_links_followed(folder.path()));
+    tell_links_followed(folder.path(), look_at_links(folder.path()));
+    EXPECT_TRUE(are_links_followed(folder.path()));
+    (void)revoke_link(folder.path(), "expert");
+    EXPECT_FALSE(are_links_followed(folder.path()));
+}
+
+TEST_F(LinkBook, ALinkOfARoleThatCannotBeReadIsNoTroubleForOthers) {
+    make_role_links(folder.path());
+    const KnownLink made = make_link(folder.path(), Role::expert, std::nullopt, "");
+    ASSERT_EQ(chmod((folder.path() / "observer.token").c_str(), 0644), 0);
+    EXPECT_THROW(make_role_links(folder.path()), Error);
+    const KnownLinks known = load_links(folder.path());
+    ASSERT_EQ(known.problems.size(), 1u);
+    EXPECT_THAT(known.problems[0], HasSubstr("observer.token"));
+    EXPECT_FALSE(find("observer"));
+    EXPECT_TRUE(find("operator") && find(made.name));
+}
+
+TEST_F(LinkBook, MoreFilesThanLinksAreToldAndTheOthersAreJudged) {
+    (void)make_link(folder.path(), Role::expert, std::nullopt, "");
+    const auto links = folder.path() / "links";
+    for (std::size_t i = 0; i < max_made_links + 3; ++i) {
+        char name[16];
+        std::snprintf(name, sizeof(name), "%08zx", i);
+        files::write_private_file(links / name, "observer - 0123456789abcdef0123\n");
+    }
+    const KnownLinks known = load_links(folder.path());
+    ASSERT_EQ(known.problems.size(), 1u);
+    EXPECT_THAT(known.problems[0], HasSubstr("more than 256 links"));
+    EXPECT_EQ(known.links.size(), 4 + max_made_links);
+    EXPECT_TRUE(find("00000000"));
+    EXPECT_TRUE(revoke_link(folder.path(), "00000000"));
+    EXPECT_FALSE(find("00000000"));
+}
+
+TEST_F(LinkBook, ARevocationThatFailsIsNoRevocation) {
+    make_role_links(folder.path());
+    const auto in_the_way = folder.path() / "links" / "0badcafe";
+    std::filesystem::create_directories(in_the_way / "something");
+    EXPECT_THROW((void)revoke_link(folder.path(), "0badcafe"), Error);
+    std::filesystem::create_directories(folder.path() / "observer.token.part" / "something");
+    EXPECT_THROW((void)revoke_link(folder.path(), "observer"), Error);
 }
 
 TEST_F(LinkBook, NamesFilesThatAreNoLinksAndKeepsTheOthers) {

@@ -65,11 +65,13 @@ net::HttpAnswer answer_lobby(const net::HttpRequest& request,
                              const SessionSwitch::Sessions& sessions,
                              const std::vector<ClosedSession>& closed) {
     const std::string secret = net::shown_token(request);
-    const auto own = std::ranges::find_if(
-        sessions, [&](const auto& entry) { return entry.second.find_token(secret).has_value(); });
+    std::optional<session::Admission::Token> token;
+    const auto own = std::ranges::find_if(sessions, [&](const auto& entry) {
+        return (token = entry.second.find_token(secret)).has_value();
+    });
     if (own == sessions.end())
         return {.status = 401, .body = "Show the token of a link: docs/room.md\n"};
-    const wire::Role role = own->second.find_token(secret)->role;
+    const wire::Role role = token->role;
     const LobbyGuest guest{role, own->second.must_ask(role), own->second.is_held_back(secret)};
     const bool sees_all =
         own == sessions.begin() && role == wire::Role::operator_ && !guest.is_held_back;

@@ -168,12 +168,9 @@ std::vector<std::string> valid_tokens(const fs::path& state, const std::string& 
     // Their files may be made at this moment, when the session is opened.
     if (!has_links(folder))
         return tokens;
-    try {
-        for (const KnownLink& link : load_links(folder).links)
-            if (!link.has_expired(files::utc_now()))
-                tokens.push_back(link.token);
-    } catch (const Error&) {
-    }
+    for (const KnownLink& link : load_links(folder).links)
+        if (!link.has_expired(files::utc_now()))
+            tokens.push_back(link.token);
     return tokens;
 }
 

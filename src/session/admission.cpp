@@ -55,7 +55,7 @@ Admission::Verdict Admission::judge(const wire::Join& hello, TimePoint now) cons
             shown = &token;
     if (!shown)
         return {{}, "", {TextCode::wrong_token}};
-    if (shown->expires && now >= *shown->expires)
+    if (shown->has_expired(now, shown->expires_utc ? utc_now_() : 0))
         return {{}, "", {TextCode::link_expired}};
     const auto recorders = std::count_if(
         participants_.begin(), participants_.end(),

@@ -30,6 +30,12 @@ public:
         Role role = Role::expert;
         std::optional<TimePoint> expires;
         std::string link;  // a name for it that is not secret
+        // The same as seconds since 1970 in UTC, by a clock that may be corrected meanwhile.
+        std::optional<std::int64_t> expires_utc;
+        bool has_expired(TimePoint now, std::int64_t utc) const {
+            return (expires && now >= *expires) || (expires_utc && utc >= *expires_utc);
+        }
+        bool operator==(const Token&) const = default;
     };
     struct Config {
         std::vector<Token> tokens;
@@ -37,6 +43,8 @@ public:
         bool asks = false;
         // Compares secrets in constant time; given, because this module has no crypto.
         std::function<bool(std::string_view, std::string_view)> equal_secrets;
+        // Seconds since 1970, asked at each use of a token with an end in UTC.
+        std::function<std::int64_t()> utc_now;
     };
 
     // Connections that have not joined within this time are closed.
@@ -92,7 +100,9 @@ public:
     };
 
     explicit Admission(Config config)
-        : tokens_(std::move(config.tokens)), equal_secrets_(std::move(config.equal_secrets)) {}
+        : tokens_(std::move(config.tokens)),
+          equal_secrets_(std::move(config.equal_secrets)),
+          utc_now_(std::move(config.utc_now)) {}
 
     // Other tokens are valid from now on.
     void set_tokens(std::vector<Token> tokens) { tokens_ = std::move(tokens); }
@@ -138,6 +148,7 @@ private:
 
     std::vector<Token> tokens_;
     const std::function<bool(std::string_view, std::string_view)> equal_secrets_;
+    const std::function<std::int64_t()> utc_now_;
     std::map<ParticipantId, Participant> participants_;
 };
 

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/link_keeper.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/error.h"
+#include "base/log.h"
+
+namespace theatron::host {
+
+LinkKeeper::LinkKeeper(Options options)
+    : folder_(std::move(options.folder)),
+      roles_expire_(options.roles_expire),
+      own_token_(std::move(options.own_token)) {
+    make_role_links(folder_);
+    load({});
+}
+
+bool LinkKeeper::follow(TimePoint now) {
+    const bool is_other = look_at_links(folder_) != seen_;
+    bool tries_again = false;
+    {
+        const std::lock_guard lock(mutex_);
+        tries_again = (!problems_.empty() || !unsaved_.empty()) && now >= next_try_;
+        if (tries_again)
+            next_try_ = now + again_after;
+    }
+    if (!is_other && !tries_again)
+        return false;
+    if (tries_again)
+        save_revocations();
+    const auto before = tokens();
+    load(now);
+    return is_other || tokens() != before;
+}
+
+void LinkKeeper::load(TimePoint now) {
+    // Looked at before they are read: a change meanwhile is seen the next time.
+    seen_ = look_at_links(folder_);
+    KnownLinks book = load_links(folder_);
+    const std::lock_guard lock(mutex_);
+    tokens_.clear();
+    for (const KnownLink& known : book.links) {
+        const bool is_of_role = wire::parse_role(known.name).has_value();
+        const bool is_own = known.name == wire::text_of(wire::Role::expert) && !own_token_.empty();
+        const std::string& secret = is_own ? own_token_ : known.token;
+        if (!revoked_.contains(secret) && !unsaved_.contains(known.name))
+            tokens_.push_back({secret, known.role, is_of_role ? roles_expire_ : std::nullopt,
+                               known.name, known.expires});
+    }
+    if (book.problems != problems_) {
+        for (const std::string& problem : book.problems)
+            log::warning("host", "a link admits nobody", {{"problem", problem}});
+        if (book.problems.empty())
+            log::info("host", "all links can be read again");
+    }
+    if (problems_.empty())
+        next_try_ = std::max(next_try_, now + again_after);
+    problems_ = std::move(book.problems);
+}
+
+void LinkKeeper::tell_followed(TimePoint now) {
+    if (told_ == seen_ || now < next_tell_)
+        return;
+    try {
+        tell_links_followed(folder_, seen_);
+        told_ = seen_;
+    } catch (const Error&) {
+        // 'theatron link --revoke' says that the host did not answer.
+        next_tell_ = now + again_after;
+    }
+}
+
+std::vector<session::Admission::Token> LinkKeeper::tokens() const {
+    const std::lock_guard lock(mutex_);
+    return tokens_;
+}
+
+void LinkKeeper::revoke(const std::string& link, TimePoint now) {
+    {
+        const std::lock_guard lock(mutex_);
+        for (const auto& token : tokens_)
+            if (token.link == link)
+                revoked_.insert(token.secret);
+        std::erase_if(tokens_, [&](const auto& token) { return token.link == link; });
+        if (link == wire::text_of(wire::Role::expert))
+            own_token_.clear();
+        unsaved_.insert(link);
+        next_try_ = now + again_after;
+    }
+    save_revocations();
+    const std::lock_guard lock(mutex_);
+    if (unsaved_.contains(link))
+        log::error("host", "a revoked link would be valid again after a restart",
+                   {{"link", link}, {"problem", save_problem_}});
+}
+
+void LinkKeeper::save_revocations() {
+    std::set<std::string> unsaved;
+    {
+        const std::lock_guard lock(mutex_);
+        unsaved = unsaved_;
+    }
+    std::string problem;
+    for (const std::string& link : unsaved) {
+        try {
+            (void)revoke_link(folder_, link);
+            const std::lock_guard lock(mutex_);
+            unsaved_.erase(link);
+        } catch (const Error& error) {
+            problem = error.what();
+        }
+    }
+    const std::lock_guard lock(mutex_);
+    save_problem_ = std::move(problem);
+}
+
+std::string LinkKeeper::problem() const {
+    const std::lock_guard lock(mutex_);
+    std::string text;
+    if (!unsaved_.empty())
+        text =
+            "A revoked link admits nobody, but would after a restart of the host: " + save_problem_;
+    if (!problems_.empty())
+        text += (text.empty() ? "" : " ") + ("A link admits nobody. " + problems_.front());
+    if (problems_.size() > 1)
+        text += " " + std::to_string(problems_.size() - 1) +
+                " more cannot be used; 'theatron link --list' names them.";
+    return text;
+}
+
+}  // namespace theatron::host
