@@ -130,6 +130,13 @@ Json describe_calibrations(const record::CameraContent& camera) {
     return list;
 }
 
+Json describe_lacks(const record::Segment& segment) {
+    Json list = Json::array();
+    for (const record::Lack lack : segment.lacks)
+        list.push_back(record::text_of(lack));
+    return list;
+}
+
 Json describe_segments(const record::RecordingFile& recording) {
     Json list = Json::array();
     for (const record::Segment& segment : recording.segments()) {
@@ -144,6 +151,7 @@ Json describe_segments(const record::RecordingFile& recording) {
                         {"missing_end_seconds",
                          segment.missing_end ? Json(to_seconds(*segment.missing_end)) : Json()},
                         {"early_end", segment.early_end},
+                        {"lacks", describe_lacks(segment)},
                         {"recovered", segment.recovered},
                         {"head_damaged", segment.head_damaged},
                         {"damaged_places", segment.damaged_places},
@@ -367,6 +375,12 @@ bool ends_early(const record::RecordingFile& recording) {
                        [](const record::Segment& s) { return !s.early_end.empty(); });
 }
 
+// As its recorder noted.
+bool lacks_something(const record::RecordingFile& recording) {
+    return std::any_of(recording.segments().begin(), recording.segments().end(),
+                       [](const record::Segment& s) { return !s.lacks.empty(); });
+}
+
 // Pictures that never came into the recording, by the numbers of those that did. Where colour
 // refers to earlier colour, a picture without one takes a number, too.
 std::uint64_t missing_in(const Json& cameras) {
@@ -392,6 +406,12 @@ std::string verdict(const record::RecordingFile& recording, const exporting::Ver
         return decoded + "an end is missing";
     if (ends_early(recording))
         return decoded + "it ends earlier than was wanted";
+    if (lacks_something(recording))
+        return decoded +
+               (missing > 0 ? std::to_string(missing) + (missing == 1 ? " picture" : " pictures") +
+                                  " never came into it; "
+                            : "") +
+               "it is not complete, as its recorder noted";
     if (!recording.complete())
         return "every picture was decoded, but a file is not as it was recorded";
     if (missing > 0)
@@ -434,7 +454,8 @@ void run(const std::string& file, bool as_json, bool verified) {
         if (verified)
             print("%s\n", verdict(*recording, found, missing_in(json["cameras"])).c_str());
     }
-    if (verified && (found.damaged || !recording->complete() || ends_early(*recording)))
+    if (verified && (found.damaged || !recording->complete() || ends_early(*recording) ||
+                     lacks_something(*recording)))
         throw CLI::RuntimeError(damaged_exit_code);
 }
 
@@ -451,8 +472,8 @@ void add_inspect_command(CLI::App& app) {
     command->footer(
         "A recording that goes on in further files (operation.002.mkv ...) is one: name the "
         "first.\n"
-        "With --verify the exit code is 3 if anything is damaged, or an end is missing or came too "
-        "early.\n"
+        "With --verify the exit code is 3 if anything is damaged, an end is missing or came too "
+        "early,\nor the recorder noted that the recording is not complete.\n"
         "\nExamples:\n"
         "  theatron inspect operation.mkv\n"
         "  theatron inspect operation.mkv --json\n"

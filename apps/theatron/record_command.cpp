@@ -347,8 +347,20 @@ void run(const Flags& flags) {
         say(what_is_gone(gone) + " while the recording went on.");
         gone_files.insert(gone.string());
     }
-    const bool complete = has_rest && !missing.any() && gone_files.empty() && f.cut_bytes == 0 &&
-                          !(end && end->fault) && f.problem.empty();
+    record::Lacks lacks;
+    const auto note = [&](bool is_so, record::Lack lack) {
+        if (is_so)
+            lacks.insert(lack);
+    };
+    note(!has_rest, record::Lack::end);
+    note(missing.any(), record::Lack::pictures);
+    note(!gone_files.empty(), record::Lack::files);
+    note(f.cut_bytes > 0, record::Lack::cut);
+    note(!f.problem.empty(), record::Lack::index);
+    if (end && end->lack)
+        lacks.insert(*end->lack);
+    recorder->note_lacks(lacks);
+    const bool complete = lacks.empty();
     if (flags.json)
         output::result(nlohmann::json{{"file", file},
                                       {"utc", utc_text(utc_now())},
@@ -419,7 +431,7 @@ void add_record_command(CLI::App& app) {
     cli::add_seconds_option(
         *command, flags->wait,
         "How long to wait for a host that is not there (at the beginning 15, after a "
-        "loss 600)",
+        "loss until told to end)",
         "--wait");
     command
         ->add_option("--buffer", flags->buffer_mb,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <random>
 
 #include "base/error.h"
 #include "base/fault.h"
@@ -16,9 +17,12 @@
 namespace theatron::client {
 namespace {
 
-// Waiting before another attempt: soon at first, then patiently.
-constexpr Duration first_wait = std::chrono::milliseconds(200);
-constexpr Duration longest_wait = std::chrono::seconds(2);
+// A participant's connections have one number, so that the host knows them as its own; never 0.
+std::uint64_t random_run() {
+    std::random_device random;
+    return (std::uint64_t(random()) << 32 | random()) | 1;
+}
+
 // People whose poses are kept; a session has fewer.
 constexpr std::size_t max_poses = 256;
 
@@ -48,12 +52,12 @@ std::vector<wire::Feature> features_of(const Participant::Options& options) {
 Participant::Participant(Options options)
     : options_(std::move(options)),
       session_({options_.link.token, options_.name, options_.depth_codec, options_.color_codec,
-                options_.delivery, options_.records, features_of(options_), options_.person}),
+                options_.delivery, options_.records, features_of(options_), options_.person,
+                random_run()}),
       shared_(std::make_unique<Shared>()),
       direct_reception_(options_.direct ? std::make_unique<DirectReception>(direct_events())
                                         : nullptr),
-      decoders_(std::make_unique<Decoders>(decoded_events())),
-      wait_(first_wait) {
+      decoders_(std::make_unique<Decoders>(decoded_events())) {
     shared_->status.goal = options_.delivery;
     shared_->voice_may_record = options_.voice_may_record;
     if (options_.keeps_cases)
@@ -163,31 +167,26 @@ std::optional<Duration> Participant::end_connection(const net::Client::End& end)
     shared_->media_waiting = 0;
     if (shared_->stopping)
         return std::nullopt;
-    const bool refused = end.final || !session_.refusal().empty();
-    const bool ended = !session_.goodbye().empty();
-    const std::string why = refused && !session_.refusal().empty()
-                                ? wire::sentence(session_.refusal())
-                            : ended ? wire::sentence(session_.goodbye())
-                                    : end.why;
-    const bool news = shared_->status.problem != why || shared_->status.phase == Phase::joined;
-    if (shared_->status.phase == Phase::joined) {
-        was_joined_ = true;
-        wait_ = first_wait;
-    }
-    shared_->status.phase = refused ? Phase::refused : ended ? Phase::ended : Phase::lost;
-    shared_->status.problem = why;
+    if (shared_->status.phase == Phase::joined || shared_->status.phase == Phase::waiting)
+        attempts_.came_in();
+    const Attempts::Judged judged =
+        attempts_.after({session_.refusal(), session_.goodbye(), end.why, end.final});
+    const bool again = judged.next == Attempts::Next::again;
+    const bool ended = judged.next == Attempts::Next::ended;
+    const bool news =
+        shared_->status.problem != judged.why || shared_->status.phase == Phase::joined;
+    shared_->status.phase = again ? Phase::lost : ended ? Phase::ended : Phase::refused;
+    shared_->status.problem = judged.why;
     lock.unlock();
     end_direct();
     for (const Offer offer : {Offer::cameras, Offer::face})
         forget_numbers(offer);
     announce();
-    if (ended && !refused)
-        remark(why);
-    if (refused || ended)
-        return std::nullopt;
-    if (news)
-        remark(say(was_joined_ ? Phrase::reconnecting : Phrase::trying_again, why));
-    return std::exchange(wait_, std::min(2 * wait_, longest_wait));
+    if (ended)
+        remark(judged.why);
+    if (again && news)
+        remark(say(attempts_.was_in() ? Phrase::reconnecting : Phrase::trying_again, judged.why));
+    return again ? std::optional(judged.wait) : std::nullopt;
 }
 
 net::Client::Handler Participant::handler() {

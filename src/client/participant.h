@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "client/attempts.h"
 #include "client/case_keeper.h"
 #include "client/decoders.h"
 #include "client/direct_reception.h"
@@ -106,8 +107,8 @@ public:
         connecting,
         waiting,  // until an operator lets this participant in
         joined,
-        lost,
-        refused,
+        lost,     // and tried again
+        refused,  // for good, or before it was ever in
         ended,
     };
     struct Status {
@@ -344,8 +345,7 @@ private:
     std::unique_ptr<DirectReception> direct_reception_;  // null without Options::direct
     std::unique_ptr<Decoders> decoders_;                 // its threads use all above
     std::unique_ptr<CaseKeeper> cases_;                  // likewise; may be null
-    Duration wait_;                                      // before another attempt
-    bool was_joined_ = false;
+    Attempts attempts_;
 
     // The thread, in a browser the page's events: participant_loop_native.cpp, _web.cpp.
     struct Loop;

@@ -25,8 +25,6 @@ namespace theatron::client {
 namespace {
 
 constexpr Duration join_patience = std::chrono::seconds(15);
-// A host that was lost may be started again by hand.
-constexpr Duration return_patience = std::chrono::minutes(10);
 constexpr Duration said_after = std::chrono::seconds(1);
 constexpr Duration room_interval = std::chrono::milliseconds(10),
                    room_part = std::chrono::milliseconds(100);
@@ -92,15 +90,17 @@ public:
         wait(status);
         if (status.phase == Participant::Phase::refused && !begun)
             throw Error(status.problem);
-        if (status.phase == Participant::Phase::waiting)
-            created_ = steady_now();  // a person decides, who may need a while
+        // A person decides, who may need a while; a recorder that was in waits as long as it must.
+        if (status.phase == Participant::Phase::waiting ||
+            (status.phase == Participant::Phase::lost && status.joins > 0 && !patience_))
+            created_ = steady_now();
         if (!begun && steady_now() - created_ > patience_.value_or(join_patience))
             throw Error(status.problem.empty() ? "The host sent nothing to record."
                                                : status.problem);
         if (status.phase == Participant::Phase::refused)
-            end_ = End{status.problem, true};
+            end_ = End{status.problem, record::Lack::refused};
         if (status.phase == Participant::Phase::ended)
-            end_ = End{"", false};  // the participant has said it
+            end_ = End{"", std::nullopt};  // the participant has said it
         if (status.phase == Participant::Phase::joined) {
             note_states();
             if (settles() || let_go())
@@ -146,7 +146,8 @@ public:
     }
 
 private:
-    // How long the host has not been there; says so, and ends the recording in the end.
+    // How long the host has not been there; says so, and ends the recording if it was told how long
+    // to wait.
     void wait(const Participant::Status& status) {
         const TimePoint now = steady_now();
         const bool there = status.phase != Participant::Phase::connecting &&
@@ -155,16 +156,20 @@ private:
             gone_since_ = now;
             said_ = false;
         }
-        const bool begun = intake_.recorder() != nullptr;
-        const Duration patience = patience_.value_or(begun ? return_patience : join_patience);
         if (there)
             return;
-        if (now - gone_since_ > said_after && !std::exchange(said_, true))
-            log::say("Waiting for the host, up to " + seconds_text(patience) + ".");
-        if (begun && now - gone_since_ > patience)
-            end_ = End{"The host did not come back within " + seconds_text(patience) +
+        const bool begun = intake_.recorder() != nullptr;
+        const bool was_in = begun || status.joins > 0;
+        if (now - gone_since_ > said_after && !std::exchange(said_, true)) {
+            const std::string until =
+                was_in && !patience_ ? "until it is back; Ctrl-C ends the recording"
+                                     : "up to " + seconds_text(patience_.value_or(join_patience));
+            log::say("Waiting for the host, " + until + ".");
+        }
+        if (begun && patience_ && now - gone_since_ > *patience_)
+            end_ = End{"The host did not come back within " + seconds_text(*patience_) +
                            ", so the recording ends here.",
-                       true};
+                       record::Lack::host_gone};
     }
 
     bool settles() const {

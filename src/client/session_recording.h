@@ -12,8 +12,8 @@
 namespace theatron::client {
 
 // Joins the session as `name` and records its streams as they arrive. `patience`: how long to wait
-// for a host that does not answer, at the beginning and after each loss; not given: 15 s, then 10
-// minutes.
+// for a host that does not answer, at the beginning and after each loss; not given: 15 s, then
+// until it is told to end.
 std::unique_ptr<record::RecordSource> record_session(const net::Link& link, const std::string& name,
                                                      const std::string& file,
                                                      const record::RecordCodecs& codecs,

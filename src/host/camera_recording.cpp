@@ -112,7 +112,8 @@ public:
         if (ended_.size() + failed_.size() < lanes_.size() ||
             steady_now() - over_since_ < encoding_patience)
             return std::nullopt;
-        return End{"", !failed_.empty() || ended_with_problem_};
+        const bool is_fault = !failed_.empty() || ended_with_problem_;
+        return End{"", is_fault ? std::optional(record::Lack::camera_failed) : std::nullopt};
     }
 
     std::uint64_t not_encoded(CameraId camera) const override {

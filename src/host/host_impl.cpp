@@ -91,6 +91,9 @@ PortSession Host::Impl::in_port() {
     PortSession given;
     given.name_in_log = in_logs;
     given.events = handler();
+    given.knows_again = [this](const wire::Join& hello) {
+        return session->knows_again(hello, steady_now());
+    };
     given.find_token = [this](const std::string& secret) { return find_token(secret); };
     given.must_ask = [this](wire::Role role) { return must_ask(role); };
     given.is_held_back = [this](const std::string& secret) { return is_held_back(secret); };
@@ -127,6 +130,10 @@ void Host::Impl::carry_out(const session::action::Close& a) {
                       log::outside("why", a.why),
                       {"left_out", *left_out}});
     server->close(peer, a.why);
+}
+
+void Host::Impl::carry_out(const session::action::Drop& a) {
+    server->drop(peer_of(a.participant), a.why);
 }
 
 void Host::Impl::carry_out(const session::action::End& a) {

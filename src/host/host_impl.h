@@ -153,6 +153,7 @@ struct Host::Impl {
     void carry_out();
     void carry_out(const session::action::Send& a);
     void carry_out(const session::action::Close& a);
+    void carry_out(const session::action::Drop& a);
     void carry_out(const session::action::End& a);
     void carry_out(const session::action::Joined& a);
     void carry_out(const session::action::RequestKey& a);

@@ -52,6 +52,7 @@ void HostPort::open() {
 net::Server::Handler HostPort::handler() {
     net::Server::Handler h;
     h.invited = [this](ByteView first) { return sessions_.is_invited(first); };
+    h.has_place = [this](ByteView first) { return sessions_.has_place(first); };
     h.turned_away = [this](const std::string& address, const std::string& why) {
         ++turned_away_;
         if (const auto left_out = strangers_.take(address, steady_now()))

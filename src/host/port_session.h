@@ -21,6 +21,9 @@ struct PortSession {
     // `invited`, `http`, `turned_away` and `now` are the port's own and stay empty.
     net::Server::Handler events;
 
+    // On the server's thread: see Admission. Empty: it knows nobody again.
+    std::function<bool(const wire::Join&)> knows_again;
+
     // All below on any thread.
     // The link whose token this is; it may have expired. Compares in constant time.
     std::function<std::optional<session::Admission::Token>(const std::string& secret)> find_token;

@@ -62,6 +62,7 @@ public:
         return server().is_behind(peer, stream);
     }
     void close(net::PeerId peer, const std::string& why) { server().close(peer, why); }
+    void drop(net::PeerId peer, const std::string& why) { server().drop(peer, why); }
 
 private:
     // Shared with posted work, which may outlive this object.

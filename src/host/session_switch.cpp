@@ -10,11 +10,20 @@
 namespace theatron::host {
 namespace {
 
-// Empty for another message than Join.
-std::string token_of(ByteView first) {
-    const auto message = wire::decode_to_host(first);
-    const auto* join = message ? std::get_if<wire::Join>(&*message) : nullptr;
-    return join ? join->token : std::string();
+// Nothing for another message.
+std::optional<wire::Join> join_of(ByteView first) {
+    auto message = wire::decode_to_host(first);
+    auto* join = message ? std::get_if<wire::Join>(&*message) : nullptr;
+    return join ? std::optional(std::move(*join)) : std::nullopt;
+}
+
+PortPlaces::Kind kind_of(const PortSession& session, wire::Role role, const wire::Join& join) {
+    using Kind = PortPlaces::Kind;
+    if (session::may(role, session::Right::manage))
+        return Kind::operator_;
+    if (!session.knows_again || !session.knows_again(join))
+        return Kind::other;
+    return join.records ? Kind::recorder_again : Kind::viewer_again;
 }
 
 }  // namespace
@@ -23,6 +32,7 @@ SessionNumber SessionSwitch::add(PortSession session) {
     const std::lock_guard lock(mutex_);
     const SessionNumber number{next_++};
     sessions_.emplace_back(number, std::move(session));
+    places_.add(number);
     return number;
 }
 
@@ -34,6 +44,7 @@ std::vector<net::PeerId> SessionSwitch::remove(SessionNumber number) {
         return entry.second == number;
     });
     alarms_.erase(number);
+    places_.remove(number);
     const std::lock_guard lock(mutex_);
     std::erase_if(sessions_, [&](const auto& entry) { return entry.first == number; });
     return peers;
@@ -50,12 +61,18 @@ const PortSession* SessionSwitch::find(net::PeerId peer) const {
 }
 
 // Asks every session, so that the time tells nothing about tokens.
-std::optional<SessionNumber> SessionSwitch::session_of(const std::string& secret) const {
-    std::optional<SessionNumber> found;
+SessionSwitch::Claim SessionSwitch::claim_of(ByteView first) const {
+    Claim claim;
+    const wire::Join join = join_of(first).value_or(wire::Join{});
     for (const auto& [number, session] : sessions_)
-        if (session.find_token(secret) && !found)
-            found = number;
-    return found;
+        if (const auto token = session.find_token(join.token); token && !claim.session)
+            claim = {number, kind_of(session, token->role, join)};
+    return claim;
+}
+
+bool SessionSwitch::has_place(ByteView first) const {
+    const Claim claim = claim_of(first);
+    return places_.has_place(claim.session.value_or(SessionNumber{}), claim.kind);
 }
 
 void SessionSwitch::set_closed(std::vector<ClosedSession> closed) {
@@ -78,9 +95,12 @@ bool SessionSwitch::is_closed(const std::string& secret) const {
 }
 
 bool SessionSwitch::is_invited(ByteView first) const {
-    const std::string secret = token_of(first);
+    const std::string secret = join_of(first).value_or(wire::Join{}).token;
     const std::lock_guard lock(mutex_);
-    return session_of(secret).has_value() || is_closed(secret);
+    bool found = false;
+    for (const auto& [number, session] : sessions_)
+        found = session.find_token(secret).has_value() || found;
+    return found || is_closed(secret);
 }
 
 void SessionSwitch::connected(net::PeerId peer, const std::string& address, bool invited) {
@@ -91,12 +111,13 @@ void SessionSwitch::control(net::PeerId peer, ByteView message) {
     if (const auto entering = entering_.extract(peer)) {
         if (sessions_.empty())
             return;
-        const std::string secret = token_of(message);
-        const auto own = session_of(secret);
-        if (!own && is_closed(secret))
+        const Claim claim = claim_of(message);
+        if (!claim.session && is_closed(join_of(message).value_or(wire::Join{}).token))
             return turn_back_(peer);
-        const SessionNumber number = own.value_or(sessions_.front().first);
+        const SessionNumber number = claim.session.value_or(sessions_.front().first);
         peers_[peer] = number;
+        if (claim.session)
+            places_.enter(peer, number, claim.kind);
         find(number)->events.connected(peer, entering.mapped().address, entering.mapped().invited);
     }
     if (const PortSession* session = find(peer))
@@ -132,6 +153,7 @@ void SessionSwitch::closed(net::PeerId peer, const std::string& why) {
     entering_.erase(peer);
     const PortSession* session = find(peer);
     peers_.erase(peer);
+    places_.leave(peer);
     if (session)
         session->events.closed(peer, why);
 }

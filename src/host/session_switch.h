@@ -14,12 +14,10 @@
 #include <vector>
 
 #include "host/closed_session.h"
+#include "host/port_places.h"
 #include "host/port_session.h"
 
 namespace theatron::host {
-
-// A session of a port. Numbers begin with 1 and are not used again.
-enum class SessionNumber : std::uint32_t {};
 
 class SessionSwitch {
 public:
@@ -33,6 +31,8 @@ public:
     // Returns its connections. Their events, and calls of the session, go nowhere from now on.
     std::vector<net::PeerId> remove(SessionNumber number);
 
+    // True if a connection with this first message finds a place; see PortPlaces.
+    bool has_place(ByteView first) const;
     // The events of connections. One that has shown no session's token comes to the oldest session,
     // which says why it refuses. A session that throws costs the connection alone.
     void connected(net::PeerId peer, const std::string& address, bool invited);
@@ -73,9 +73,14 @@ private:
         std::string address;
         bool invited = false;
     };
+    // That a connection claims by its first message.
+    struct Claim {
+        std::optional<SessionNumber> session;  // whose token it shows
+        PortPlaces::Kind kind = PortPlaces::Kind::other;
+    };
     const PortSession* find(net::PeerId peer) const;
     const PortSession* find(SessionNumber number) const;
-    std::optional<SessionNumber> session_of(const std::string& secret) const;
+    Claim claim_of(ByteView first) const;
     void arm();
 
     const std::function<void(TimePoint)> set_server_alarm_;
@@ -88,6 +93,7 @@ private:
     std::uint32_t next_ = 1;
     std::map<net::PeerId, Entering> entering_;  // whose first message is still to come
     std::map<net::PeerId, SessionNumber> peers_;
+    PortPlaces places_;
     std::map<SessionNumber, TimePoint> alarms_;
     std::optional<TimePoint> armed_;
 };

@@ -73,7 +73,8 @@ void Server::Impl::tick() {
 }
 
 void Server::Impl::enter(Door::Visitor visitor) {
-    if (visitor.invited && peers.size() - uninvited.size() >= max_invited) {
+    if (visitor.invited && (peers.size() - uninvited.size() >= max_invited ||
+                            (handler.has_place && !handler.has_place(visitor.first)))) {
         log::warning("net", "participant refused, too many connections",
                      {{"address", visitor.address}});
         return;
@@ -251,6 +252,14 @@ void Server::close(PeerId peer, const std::string& why) {
         return;
     const auto connection = found->second;
     connection->close(why);
+}
+
+void Server::drop(PeerId peer, const std::string& why) {
+    const auto found = impl_->peers.find(peer);
+    if (found == impl_->peers.end())
+        return;
+    const auto connection = found->second;
+    connection->end(why);
 }
 
 }  // namespace theatron::net

@@ -36,6 +36,9 @@ public:
         // On the door's thread, at the same time as the others: true if a connection's first
         // control message shows the token. Empty: all connections are invited.
         std::function<bool(ByteView first)> invited;
+        // True if an invited connection, whose first message this is, finds a place; else it is
+        // closed. Empty: each does, up to max_invited.
+        std::function<bool(ByteView first)> has_place;
         // On the door's thread, too. Empty: a default answer names the host's program.
         std::function<HttpAnswer(const HttpRequest&)> http;
         // Also on the door's thread: a connection was refused; `why` is a short phrase. Optional.
@@ -95,6 +98,7 @@ public:
     SendingFigures take_figures(PeerId peer);
     bool is_behind(PeerId peer, StreamId stream) const;
     void close(PeerId peer, const std::string& why);  // after the control that is queued
+    void drop(PeerId peer, const std::string& why);   // at once
 
 private:
     struct Impl;

@@ -124,6 +124,8 @@ Status read_tag(Window& window, const Element& tag, FoundHead& head) {
             head.recovered = value;
         if (name == early_end_tag)
             head.early_end = value;
+        if (name == lacks_tag)
+            head.lacks = value;
         if (name == next_segment_tag)
             head.next_segment = number_of(value);
         return status;
@@ -314,8 +316,8 @@ PlainHead read_plain(ByteSource& source) {
         if (found.status != Status::ok)
             break;
         if (part->end <= segment->begin + seek_head_space) {
-            const bool says_something =
-                !found.head.early_end.empty() || found.head.next_segment != 0;
+            const bool says_something = !found.head.early_end.empty() ||
+                                        !found.head.lacks.empty() || found.head.next_segment != 0;
             found.is_front_damaged |=
                 part->id == ids::tags ? !says_something
                                       : part->id != ids::seek_head && part->id != ids::void_element;
@@ -369,6 +371,7 @@ Result<FoundHead> read_head(ByteSource& source, CopySearch search) {
               copy->attachments != plain.head.attachments;
     copy->damaged = damaged;
     copy->early_end = plain.head.early_end;
+    copy->lacks = plain.head.lacks;
     copy->next_segment = plain.head.next_segment;
     copy->closed = plain.head.closed;
     copy->segment_end = plain.head.segment_end;

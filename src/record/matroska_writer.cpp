@@ -236,6 +236,11 @@ void MatroskaWriter::name_next(std::uint32_t number) {
         (void)fdatasync(file_);
 }
 
+void MatroskaWriter::note_lacks(const std::string& letters) {
+    if (!notes_early_end_ && write_seek_head({{lacks_tag, letters}}) == 0)
+        (void)fdatasync(file_);
+}
+
 std::string MatroskaWriter::finish() {
     const bool was_cut_back = failed_;
     std::string trouble;
@@ -253,7 +258,8 @@ std::string MatroskaWriter::finish() {
 
     // These parts have their room in the file, on a full disk too.
     std::vector<Tag> tags;
-    if (was_cut_back && !early_end_.empty())
+    notes_early_end_ = was_cut_back && !early_end_.empty();
+    if (notes_early_end_)
         tags.push_back({early_end_tag, early_end_});
     int error = write_seek_head(tags);
     if (error == 0)

@@ -50,6 +50,10 @@ public:
     // that its absence is noticed. A failure changes nothing else.
     void name_next(std::uint32_t number);
 
+    // After finish(), unless the cause of an early end is noted: notes what the recording lacks. A
+    // failure changes nothing else.
+    void note_lacks(const std::string& letters);
+
     std::uint64_t bytes() const { return end_; }
     // Bytes that another program has cut off the file meanwhile, as of the last write.
     std::uint64_t cut_bytes() const { return cut_bytes_; }
@@ -71,6 +75,7 @@ private:
     int file_ = -1;
     bool failed_ = false;
     std::string early_end_;  // the cause of the first failure, for its tag
+    bool notes_early_end_ = false;
     std::uint64_t end_ = 0;  // of the file
     std::uint64_t cut_bytes_ = 0;
     std::uint64_t segment_ = 0;                    // position of the segment's content

@@ -197,6 +197,11 @@ void Recorder::finish() {
         thread_.join();
 }
 
+void Recorder::note_lacks(const Lacks& lacks) {
+    if (!lacks.empty())
+        writer_->note_lacks(letters_of(lacks));
+}
+
 void Recorder::run() {
     block_file_size_signal();
     std::deque<Waiting> batch;

@@ -20,6 +20,7 @@
 #include "base/bytes.h"
 #include "base/ids.h"
 #include "base/time.h"
+#include "record/lacks.h"
 #include "record/recorded_camera.h"
 #include "record/segment_info.h"
 #include "record/segment_writer.h"
@@ -95,6 +96,9 @@ public:
 
     // Writes all added messages and closes the file. Further messages are refused.
     void finish();
+    // After finish(): notes in the last file what the recording lacks, besides what Figures says of
+    // an end by itself.
+    void note_lacks(const Lacks& lacks);
 
 private:
     // A message, or the beginning of a segment.

@@ -132,6 +132,34 @@ TEST(Recording, AFullDiskEndsItWithASentenceAndKeepsWhatCameBefore) {
     EXPECT_EQ(count_equal(*recording, messages), frames_in(*recording));
 }
 
+TEST(Recording, NotesInItsFileWhatItLacks) {
+    const testing::TemporaryFolder folder;
+    const auto messages = generated(1, 30, 1'000);
+    const Lacks all{Lack::camera_failed, Lack::cut,   Lack::end,      Lack::files,
+                    Lack::host_gone,     Lack::index, Lack::pictures, Lack::refused};
+    EXPECT_EQ(lacks_of_letters(letters_of(all) + "?Z"), all);
+    for (const Lacks& lacks : {Lacks{}, Lacks{Lack::refused, Lack::end}, all}) {
+        const fs::path path = folder.path() / ("a" + letters_of(lacks) + ".mkv");
+        {
+            Recorder recorder(path, cameras(1), session_begin);
+            for (const auto& one : messages)
+                EXPECT_EQ(add(recorder, one), Recorder::Added::taken);
+            recorder.finish();
+            recorder.note_lacks(lacks);
+        }
+        const auto recording = RecordingFile::open(path);
+        const Segment& segment = recording->segments()[0];
+        EXPECT_TRUE(recording->complete()) << "nothing is damaged";
+        EXPECT_EQ(segment.lacks, lacks);
+        EXPECT_EQ(remarks_on(segment).empty(), lacks.empty());
+        EXPECT_EQ(count_equal(*recording, messages), messages.size());
+    }
+    const auto recording = RecordingFile::open(folder.path() / "aer.mkv");
+    EXPECT_EQ(lacks_of(recording->segments()[0]),
+              "it is not complete: the last pictures before its end did not come from the host, "
+              "the host refused its recorder");
+}
+
 // A publisher's clock is estimated, so the time of a picture that is sent again may differ.
 TEST(Recording, APictureThatIsSentAgainStaysBehindTheFirst) {
     const testing::TemporaryFolder folder;

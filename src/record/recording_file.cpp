@@ -289,6 +289,7 @@ void RecordingFile::add_segment(SegmentChain::Member member, SegmentChain& chain
         }
     }
     segment.early_end = clean_text(head.early_end, max_note);
+    segment.lacks = lacks_of_letters(head.lacks);
     segment.next = head.next_segment;
     segment.recovered = clean_text(head.recovered, max_note);
     segments_.push_back(std::move(segment));

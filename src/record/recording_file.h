@@ -17,6 +17,7 @@
 #include "base/ids.h"
 #include "base/status.h"
 #include "record/byte_source.h"
+#include "record/lacks.h"
 #include "record/matroska_reader.h"
 #include "record/segment_chain.h"
 #include "wire/media_header.h"
@@ -119,6 +120,7 @@ struct Segment {
     std::uint64_t unread_end = 0;
     std::uint32_t next = 0;     // of the segment that follows, as it says; 0: none
     std::string early_end;      // its writing failed: the tag's text (early_end_tag)
+    Lacks lacks;                // as its recorder knew
     std::string recovered;      // a recovered file: losses_of() of the original
     bool head_damaged = false;  // and found whole elsewhere
     std::uint64_t damaged_places = 0, damaged_bytes = 0;

@@ -23,6 +23,8 @@ inline constexpr const char* recovered_tag = "THEATRON_RECOVERED";
 // A tag of a file whose writing failed: the cause, one of the three below.
 inline constexpr const char* early_end_tag = "THEATRON_ENDED";
 inline constexpr const char* next_segment_tag = "THEATRON_NEXT";
+// A tag of a recording's last file: letters for what the recorder knew to be missing (lacks.h).
+inline constexpr const char* lacks_tag = "THEATRON_LACKS";
 inline constexpr const char* disk_full = "disk full";
 inline constexpr const char* disk_failed = "disk failed";
 inline constexpr const char* file_too_large = "file size";  // the system allows no larger one

@@ -73,6 +73,13 @@ std::string early_end_of(const Segment& segment) {
     return segment.early_end.empty() ? "" : begin + "the disk failed";
 }
 
+std::string lacks_of(const Segment& segment) {
+    std::string all;
+    for (const Lack lack : segment.lacks)
+        all += (all.empty() ? "it is not complete: " : ", ") + text_of(lack);
+    return all;
+}
+
 std::string losses_of(const Segment& segment) {
     std::string losses = segment.recovered;
     const auto add = [&](const std::string& more) {
@@ -80,6 +87,7 @@ std::string losses_of(const Segment& segment) {
     };
     add(end_of(segment));
     add(early_end_of(segment));
+    add(lacks_of(segment));
     if (segment.damaged_places > 0)
         add(count_of(segment.damaged_places, "damaged place"));
     if (segment.refused > 0)
@@ -93,6 +101,8 @@ std::vector<std::string> remarks_on(const Segment& segment) {
         remarks.push_back(std::move(end));
     if (std::string early = early_end_of(segment); !early.empty())
         remarks.push_back(std::move(early));
+    if (std::string lacks = lacks_of(segment); !lacks.empty())
+        remarks.push_back(std::move(lacks));
     if (segment.head_damaged)
         remarks.emplace_back(
             "its beginning or a copy of that is damaged; an intact one was read, and no picture "

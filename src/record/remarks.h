@@ -14,6 +14,8 @@ namespace theatron::record {
 std::string end_of(const Segment& segment);
 // For example "it ends earlier than was wanted: the disk was full"; empty if writing did not fail.
 std::string early_end_of(const Segment& segment);
+// For example "it is not complete: the host did not come back"; empty if nothing was noted.
+std::string lacks_of(const Segment& segment);
 // One line on missing and damaged parts, as far as the index shows them; empty if there are none.
 std::string losses_of(const Segment& segment);
 // Everything about a segment and its file; empty if both are as they were recorded.

@@ -56,6 +56,7 @@ public:
     std::string sync() { return writer_.sync(); }
     std::string finish() { return writer_.finish(); }
     void name_next(std::uint32_t number) { writer_.name_next(number); }
+    void note_lacks(const std::string& letters) { writer_.note_lacks(letters); }
 
     std::uint64_t bytes() const { return writer_.bytes(); }
     std::uint64_t cut_bytes() const { return writer_.cut_bytes(); }

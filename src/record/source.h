@@ -24,8 +24,8 @@ public:
 
     // Nothing more will come.
     struct End {
-        std::string remark;  // why, if that is of interest
-        bool fault = false;  // more was to be expected
+        std::string remark;        // why, if that is of interest
+        std::optional<Lack> lack;  // more was to be expected
     };
     virtual std::optional<End> ended() = 0;
 

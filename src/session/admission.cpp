@@ -21,6 +21,30 @@ std::string name_of_guest(const std::string& given) {
     return name.empty() ? "guest" : name;
 }
 
+AdmissionMemory::Who who(const wire::Join& hello) {
+    return {hello.person, hello.token, hello.records};
+}
+AdmissionMemory::Who who(const Admission::Participant& there) {
+    return {there.person, there.token, there.records};
+}
+
+bool asks_for(const wire::Join& hello, wire::Feature feature) {
+    return std::find(hello.features.begin(), hello.features.end(), feature) != hello.features.end();
+}
+
+bool is_silent(const Admission::Participant& there, TimePoint now) {
+    return now - there.heard > Admission::silent_after;
+}
+
+bool only_watches(const Admission::Participant& there) {
+    return !there.records && !there.sends_only;
+}
+
+bool is_replaced(const Admission::Verdict& verdict, ParticipantId id) {
+    return std::any_of(verdict.replaced.begin(), verdict.replaced.end(),
+                       [&](const Admission::Replaced& replaced) { return replaced.id == id; });
+}
+
 }  // namespace
 
 bool Admission::Participant::has(wire::Feature feature) const {
@@ -29,7 +53,7 @@ bool Admission::Participant::has(wire::Feature feature) const {
 
 void Admission::on_connected(ParticipantId id, std::size_t streams, TimePoint now) {
     const auto found = participants_.try_emplace(id, streams).first;
-    found->second.connected = now;
+    found->second.connected = found->second.heard = now;
 }
 
 Admission::Participant* Admission::find(ParticipantId id) {
@@ -55,42 +79,144 @@ Admission::Verdict Admission::judge(const wire::Join& hello, TimePoint now) cons
             shown = &token;
     if (!shown)
         return {{}, "", {TextCode::wrong_token}};
-    if (shown->has_expired(now, shown->expires_utc ? utc_now_() : 0))
+    if (shown->has_expired(now, shown->expires_utc ? utc_now_() : 0) && !knows_again(hello, now))
         return {{}, "", {TextCode::link_expired}};
-    const auto recorders = std::count_if(
-        participants_.begin(), participants_.end(),
-        [](const auto& entry) { return entry.second.takes_part() && entry.second.records; });
-    if (hello.records && recorders >= max_recorders)
-        return {{}, "", {TextCode::too_many_recordings, {std::to_string(max_recorders)}}};
-    return {shown->role, shown->link, full(hello, shown->role)};
+    Verdict verdict{shown->role, shown->link, {}, {}, {}};
+    if (const auto* left = memory_.find(who(hello), now))
+        verdict.since = left->since;
+    replace_own(hello, now, verdict);
+    if (verdict.refusal.empty() && hello.records)
+        find_recorder_place(hello, now, verdict);
+    if (verdict.refusal.empty())
+        find_place(hello, verdict);
+    return verdict;
 }
 
-wire::Text Admission::full(const wire::Join& hello, Role role) const {
+std::vector<ParticipantId> Admission::connections_of(const Bytes& person) const {
+    std::vector<ParticipantId> own;
+    for (const auto& [id, there] : participants_)
+        if (there.is_there() && !person.empty() && there.person == person)
+            own.push_back(id);
+    return own;
+}
+
+bool Admission::knows_again(const wire::Join& hello, TimePoint now) const {
+    const std::vector<ParticipantId> own = connections_of(hello.person);
+    return memory_.find(who(hello), now) || std::any_of(own.begin(), own.end(), [&](auto id) {
+               return who(participants_.at(id)) == who(hello);
+           });
+}
+
+void Admission::remember(const Participant& participant) {
+    memory_.note({who(participant), participant.since, participant.heard});
+}
+
+void Admission::replace_own(const wire::Join& hello, TimePoint now, Verdict& verdict) const {
+    const bool sends_only = asks_for(hello, wire::Feature::sends_only);
+    std::vector<ParticipantId> others;
+    for (const ParticipantId id : connections_of(hello.person)) {
+        const Participant& there = participants_.at(id);
+        const bool is_same = hello.run != 0 && there.run == hello.run;
+        // A silent recorder may still get what is kept for it.
+        const bool is_lost = is_silent(there, now) && !there.records;
+        if (who(there) != who(hello) || there.sends_only != sends_only || !(is_same || is_lost)) {
+            others.push_back(id);
+            continue;
+        }
+        verdict.replaced.push_back({id, {}});
+        verdict.since = std::min(verdict.since.value_or(there.since), there.since);
+    }
+    if (int(others.size()) < max_of_one_person)
+        return;
+    const auto first = [&](auto is_right) {
+        return std::find_if(others.begin(), others.end(),
+                            [&](ParticipantId id) { return is_right(participants_.at(id)); });
+    };
+    const auto silent = first([&](const Participant& p) { return is_silent(p, now); });
+    const auto watching = first([](const Participant& p) { return only_watches(p); });
+    const std::string most = std::to_string(max_of_one_person);
+    if (silent != others.end())
+        verdict.replaced.push_back({*silent, {}});
+    else if (watching != others.end())
+        verdict.replaced.push_back({*watching, {TextCode::came_in_again, {most}}});
+    else
+        verdict.refusal = {TextCode::person_is_in_often, {most}};
+}
+
+void Admission::find_recorder_place(const wire::Join& hello, TimePoint now,
+                                    Verdict& verdict) const {
+    int recorders = 0;
+    std::optional<ParticipantId> silent;
+    for (const auto& [id, there] : participants_) {
+        if (!there.takes_part() || !there.records || is_replaced(verdict, id))
+            continue;
+        ++recorders;
+        if (!hello.person.empty() && there.person == hello.person && is_silent(there, now))
+            silent = id;
+    }
+    if (recorders < max_recorders + (verdict.since ? kept_for_returned_recorders : 0))
+        return;
+    if (silent)
+        verdict.replaced.push_back({*silent, {}});
+    else
+        verdict.refusal = {TextCode::too_many_recordings, {std::to_string(max_recorders)}};
+}
+
+void Admission::find_place(const wire::Join& hello, Verdict& verdict) const {
     int all = 0, by_this_link = 0;
     for (const auto& [id, there] : participants_) {
-        const bool is_the_same_person = !hello.person.empty() && there.person == hello.person;
-        if ((!there.takes_part() && !there.waits()) || is_the_same_person)
+        if (!there.is_there() || is_replaced(verdict, id))
             continue;
         ++all;
         by_this_link += there.token == hello.token;
     }
-    const bool manages = may(role, Right::manage);
-    if (all >= max_participants - (manages ? 0 : kept_for_operators))
-        return {TextCode::all_places_taken, {std::to_string(max_participants)}};
-    if (!manages && by_this_link >= max_by_one_link)
-        return {TextCode::link_full, {std::to_string(max_by_one_link)}};
-    return {};
+    const bool manages = may(verdict.role, Right::manage);
+    wire::Text full;
+    std::string link;
+    if (all >= max_participants - (manages ? 0 : kept_for_operators)) {
+        full = {TextCode::all_places_taken, {std::to_string(max_participants)}};
+    } else if (!manages && by_this_link >= max_by_one_link) {
+        full = {TextCode::link_full, {std::to_string(max_by_one_link)}};
+        link = hello.token;
+    }
+    if (!full.empty())
+        give_place(link, false, std::move(full), verdict);
 }
 
-bool Admission::is_door_full(const wire::Join& hello) const {
+void Admission::give_place(const std::string& token, bool at_the_door, wire::Text full,
+                           Verdict& verdict) const {
+    const std::pair<const ParticipantId, Participant>* newest = nullptr;
+    // Those who only watch make way first.
+    const auto rank = [](const Participant& there) {
+        return std::pair(only_watches(there), there.since);
+    };
+    for (const auto& entry : participants_) {
+        const auto& [id, there] = entry;
+        const bool may_go = (at_the_door ? there.waits() : there.is_there()) &&
+                            (token.empty() || there.token == token) &&
+                            !session::may(there.role, Right::manage) && !is_replaced(verdict, id);
+        if (may_go && verdict.since && there.since > *verdict.since &&
+            (!newest || rank(there) >= rank(newest->second)))
+            newest = &entry;
+    }
+    if (newest)
+        verdict.replaced.push_back({newest->first, std::move(full)});
+    else
+        verdict.refusal = std::move(full);
+}
+
+void Admission::find_door_place(const wire::Join& hello, Verdict& verdict) const {
     std::size_t all = 0;
     int by_this_link = 0;
     for (const auto& [id, there] : participants_)
-        if (there.waits()) {
+        if (there.waits() && !is_replaced(verdict, id)) {
             ++all;
             by_this_link += there.token == hello.token;
         }
-    return all >= wire::max_visitors || by_this_link >= max_visitors_by_one_link;
+    if (all < wire::max_visitors && by_this_link < max_visitors_by_one_link)
+        return;
+    give_place(all < wire::max_visitors ? hello.token : "", true, {TextCode::too_many_visitors},
+               verdict);
 }
 
 bool Admission::knows(const Participant& participant) const {
@@ -105,7 +231,7 @@ std::vector<std::string> Admission::names_beside(const Participant& participant)
         const bool is_the_same_person =
             &there == &participant ||
             (!participant.person.empty() && there.person == participant.person);
-        if ((there.takes_part() || there.waits()) && !is_the_same_person)
+        if (there.is_there() && !is_the_same_person)
             names.push_back(there.name);
     }
     return names;
@@ -118,14 +244,16 @@ void Admission::note(Participant& participant, const wire::Join& hello,
     participant.link = verdict.link;
     participant.token = hello.token;
     participant.person = hello.person;
+    participant.run = hello.run;
+    participant.since = verdict.since.value_or(participant.connected);
     participant.records = hello.records;
+    participant.sends_only = asks_for(hello, wire::Feature::sends_only);
     participant.given_name = name_of_guest(hello.name);
     // The audit log names whoever sits at the host's machine so.
     std::vector<std::string> others = names_beside(participant);
     others.push_back(at_the_host);
     participant.name = told_apart(participant.given_name, others, wire::max_name);
-    participant.asks_to_publish =
-        std::count(hello.features.begin(), hello.features.end(), wire::Feature::publish) > 0;
+    participant.asks_to_publish = asks_for(hello, wire::Feature::publish);
 }
 
 void Admission::admit(Participant& participant, const wire::Join& hello) {
@@ -141,9 +269,8 @@ std::vector<wire::Feature> Admission::features_of(const wire::Join& hello, Role 
           wire::Feature::cases, wire::Feature::voice_consent, wire::Feature::adjusting,
           wire::Feature::playback, wire::Feature::screens, wire::Feature::look_back,
           wire::Feature::webcam, wire::Feature::patient, wire::Feature::direct}) {
-        const bool is_asked =
-            std::find(hello.features.begin(), hello.features.end(), known) != hello.features.end();
-        if (is_asked && (known != wire::Feature::publish || may(role, Right::publish)))
+        if (asks_for(hello, known) &&
+            (known != wire::Feature::publish || may(role, Right::publish)))
             features.push_back(known);
     }
     return features;

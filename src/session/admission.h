@@ -16,6 +16,7 @@
 
 #include "base/ids.h"
 #include "base/time.h"
+#include "session/admission_memory.h"
 #include "session/permissions.h"
 #include "session/request_budget.h"
 #include "wire/control.h"
@@ -49,12 +50,17 @@ public:
 
     // Connections that have not joined within this time are closed.
     static constexpr Duration join_deadline = std::chrono::seconds(5);
-    // Recorders at once; one more is refused. Each may use net::Outbox::max_kept_bytes.
-    static constexpr int max_recorders = 4;
+    // Recorders at once; one more is refused. Each may use net::Outbox::max_kept_bytes. Those that
+    // come back find places of their own, should others have taken theirs.
+    static constexpr int max_recorders = 4, kept_for_returned_recorders = 4;
     // Participants at once, with those who wait to be let in. The last places are for operators,
     // and one link admits no more than half of all, so that a link in foreign hands shuts out
-    // nobody who has another one. Somebody who comes back does not count twice.
+    // nobody who has another one. Somebody who comes back takes the place of the one who came last.
     static constexpr int max_participants = 128, kept_for_operators = 8, max_by_one_link = 64;
+    // Connections of one person. One more ends the oldest that neither records nor sends cameras.
+    static constexpr int max_of_one_person = 4;
+    // A program that takes part says something many times in this time.
+    static constexpr Duration silent_after = std::chrono::seconds(3);
     // Half of those who wait may have come by one link.
     static constexpr int max_visitors_by_one_link = wire::max_visitors / 2;
 
@@ -70,12 +76,16 @@ public:
             return takes_part() && session::may(role, right) && !(muted && right == Right::speak);
         }
         bool has(wire::Feature feature) const;
+        bool is_there() const { return takes_part() || waits(); }
         TimePoint connected;
+        TimePoint since;  // it takes part or waits, over all connections after which it came back
+        TimePoint heard;  // its newest message
         std::optional<TimePoint> admitted;  // by an operator, perhaps on an earlier connection
         std::uint16_t protocol = 0;
         std::string name;                     // as shown, told apart from others
         std::string given_name;               // as the person gave it
         Bytes person;                         // as in wire::Join
+        std::uint64_t run = 0;                // likewise
         std::vector<wire::Feature> features;  // those of Join that hold here
         Role of_link = Role::expert, role = Role::expert;
         bool muted = false;
@@ -86,6 +96,8 @@ public:
         std::uint64_t denied = 0;         // messages that its role does not allow
         std::uint64_t refused_faces = 0;  // pictures beyond face_limits.h
         bool records = false;             // as in wire::Join
+        bool sends_only = false;          // as wire::Feature::sends_only
+        bool refused_for_good = false;    // see wire::is_for_good()
         // The newest message about the patient; nullopt: it may be lost.
         std::optional<wire::Patient> patient = wire::Patient{};
         std::size_t max_media = 0;               // bytes of its largest media message so far
@@ -119,15 +131,33 @@ public:
     std::map<ParticipantId, Participant>& participants() { return participants_; }
     void remove(ParticipantId id) { participants_.erase(id); }
 
+    // A connection that ends for one that comes. `told`: why; empty: it has lost its host without
+    // noticing, and may come back.
+    struct Replaced {
+        ParticipantId id{};
+        wire::Text told;
+    };
     // The answer to Join: the role, or why the connection is refused.
     struct Verdict {
         Role role = Role::expert;
         std::string link;
         wire::Text refusal;  // empty: the token is valid
+        std::vector<Replaced> replaced = {};
+        std::optional<TimePoint> since = {};  // it comes back, and was in since then
     };
+    // A new connection of the same run of a program replaces the old one. That of another run of
+    // its person for the same purpose is replaced if it is silent. Decisions at joining (expiry,
+    // places) hold for somebody while it is there, and for AdmissionMemory::kept_for.
     Verdict judge(const wire::Join& hello, TimePoint now) const;
-    // True if nobody more can wait, or nobody more by this link.
-    bool is_door_full(const wire::Join& hello) const;
+    // Adds to the verdict for somebody who has to wait: nobody more can, or nobody more by this
+    // link.
+    void find_door_place(const wire::Join& hello, Verdict& verdict) const;
+    // True for somebody who is there, or was there a short while ago, by the same link and for the
+    // same purpose.
+    bool knows_again(const wire::Join& hello, TimePoint now) const;
+    // The participant's connection has ended, and it may come back.
+    void remember(const Participant& participant);
+    void forget_those_who_left() { memory_.forget_all(); }
     // Notes what the participant says of itself.
     void note(Participant& participant, const wire::Join& hello, const Verdict& verdict) const;
     // Marks the participant as joined, in its role.
@@ -143,13 +173,22 @@ private:
     // The names of those whom the others see beside this participant: not of the same person, whose
     // earlier connection may still be there.
     std::vector<std::string> names_beside(const Participant& participant) const;
-    // Why there is no place for the bearer of this token; empty if there is one.
-    wire::Text full(const wire::Join& hello, Role role) const;
+    // The connections of this person that are there, the oldest first.
+    std::vector<ParticipantId> connections_of(const Bytes& person) const;
+    // Each finds those who make way, or the reason why there is no place.
+    void replace_own(const wire::Join& hello, TimePoint now, Verdict& verdict) const;
+    void find_recorder_place(const wire::Join& hello, TimePoint now, Verdict& verdict) const;
+    void find_place(const wire::Join& hello, Verdict& verdict) const;
+    // The one that came last by this link (empty: by any; `at_the_door`: of those who wait) makes
+    // way for somebody who was in before. Otherwise the refusal is `full`.
+    void give_place(const std::string& token, bool at_the_door, wire::Text full,
+                    Verdict& verdict) const;
 
     std::vector<Token> tokens_;
     const std::function<bool(std::string_view, std::string_view)> equal_secrets_;
     const std::function<std::int64_t()> utc_now_;
     std::map<ParticipantId, Participant> participants_;
+    AdmissionMemory memory_;
 };
 
 }  // namespace theatron::session

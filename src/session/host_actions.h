@@ -26,6 +26,11 @@ struct Close {
     ParticipantId participant{};
     std::string why;
 };
+// End the connection at once; `why` is for the log.
+struct Drop {
+    ParticipantId participant{};
+    std::string why;
+};
 // Send `message` and close the connection: the session is over.
 struct End {
     ParticipantId participant{};
@@ -98,10 +103,10 @@ struct RevokeLink {
 
 }  // namespace action
 
-using Action =
-    std::variant<action::Send, action::Close, action::End, action::Joined, action::TakeMedia,
-                 action::RequestKey, action::ChangeSettings, action::KeepEverything,
-                 action::SetCeiling, action::Stepped, action::Drawing, action::Audit,
-                 action::RevokeLink, action::SendContent, action::Adjusted, action::Play>;
+using Action = std::variant<action::Send, action::Close, action::Drop, action::End, action::Joined,
+                            action::TakeMedia, action::RequestKey, action::ChangeSettings,
+                            action::KeepEverything, action::SetCeiling, action::Stepped,
+                            action::Drawing, action::Audit, action::RevokeLink, action::SendContent,
+                            action::Adjusted, action::Play>;
 
 }  // namespace theatron::session

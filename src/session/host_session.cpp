@@ -39,6 +39,7 @@ void HostSession::on_control(ParticipantId id, ByteView bytes, TimePoint now) {
     Participant* participant = admission_.find(id);
     if (!participant || participant->closing)
         return;
+    participant->heard = now;
     auto message = wire::decode_to_host(bytes);
     // A newer participant may send messages that this host does not know.
     if (!message && message.error() != Status::unsupported)
@@ -144,6 +145,8 @@ void HostSession::on_closed(ParticipantId id) {
         if (participant->joined || has_waited)
             audit(AuditEvent::What::left, id);
         shared_.remove_all(id);
+        if (!participant->refused_for_good && !has_ended_)
+            admission_.remember(*participant);
         admission_.remove(id);
         if (has_waited)
             tell_operators();
@@ -214,22 +217,27 @@ std::vector<Action> HostSession::take_actions() {
     return std::exchange(actions_, {});
 }
 
-// The participant gets no more messages and sends nothing that counts.
 void HostSession::refuse(ParticipantId id, wire::Text reason) {
     Participant& participant = *admission_.find(id);
     const bool has_waited = participant.waits();
+    participant.refused_for_good = wire::is_for_good(reason.code);
     wire::Refused refusal = wire::refused(std::move(reason));
     std::string why = refusal.in_english;
     send(id, std::move(refusal));
+    take_out(id);
+    actions_.push_back(action::Close{id, std::move(why)});
+    if (has_waited)
+        tell_operators();
+}
+
+// The participant gets no more messages and sends nothing that counts.
+void HostSession::take_out(ParticipantId id) {
     shared_.remove_all(id);
-    participant.closing = true;
+    admission_.find(id)->closing = true;
     look_back_.leave(id);
     direct_.leave(id);
     streams_.leave(id);
     room_.leave(id);
-    actions_.push_back(action::Close{id, std::move(why)});
-    if (has_waited)
-        tell_operators();
 }
 
 void HostSession::send(ParticipantId id, wire::ToParticipant message) {

@@ -157,6 +157,11 @@ public:
         renderers_.set(name, wish);
     }
 
+    // See Admission.
+    bool knows_again(const wire::Join& hello, TimePoint now) const {
+        return admission_.knows_again(hello, now);
+    }
+
     // Actions for the host to carry out, in order.
     std::vector<Action> take_actions();
 
@@ -219,6 +224,8 @@ private:
                std::string detail = "");
     void describe_session(ParticipantId id);
     void refuse(ParticipantId id, wire::Text reason);
+    void take_out(ParticipantId id);
+    void make_way(const Admission::Replaced& replaced);
     void send(ParticipantId id, wire::ToParticipant message);
 
     const Config config_;

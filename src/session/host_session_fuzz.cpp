@@ -94,6 +94,7 @@ Bytes hello(std::uint8_t choice) {
                        wire::Feature::direct};
     if (choice % 5 != 0)
         wishes.person = Bytes(wire::person_id_size, std::byte(choice % 7));
+    wishes.run = choice % 3;
     return session::ViewerSession(wishes).begin();
 }
 

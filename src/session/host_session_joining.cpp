@@ -9,7 +9,7 @@ namespace theatron::session {
 using wire::TextCode;
 
 void HostSession::join(ParticipantId id, const wire::Join& hello, TimePoint now) {
-    const Admission::Verdict verdict = admission_.judge(hello, now);
+    Admission::Verdict verdict = admission_.judge(hello, now);
     if (!verdict.refusal.empty())
         return refuse(id, verdict.refusal);
     const CheckedCodec depth = checked(config_.check_depth, hello.depth_codec);
@@ -25,6 +25,13 @@ void HostSession::join(ParticipantId id, const wire::Join& hello, TimePoint now)
         return refuse(id, {TextCode::session_has_ended});
     if (hello.records && !may(judged.role, Right::record))
         return refuse(id, {TextCode::observer_records});
+    const bool waits = judged.entry == Membership::Entry::waits;
+    if (waits)
+        admission_.find_door_place(hello, verdict);
+    if (!verdict.refusal.empty())
+        return refuse(id, verdict.refusal);
+    for (const Admission::Replaced& replaced : verdict.replaced)
+        make_way(replaced);
     Participant& participant = *admission_.find(id);
     admission_.note(participant, hello, verdict);
     participant.role = judged.role;
@@ -32,14 +39,22 @@ void HostSession::join(ParticipantId id, const wire::Join& hello, TimePoint now)
     participant.admitted = judged.admitted;
     if (has_ended_)
         begin_again(participant.name);
-    if (judged.entry == Membership::Entry::enters)
+    if (!waits)
         return enter(id, hello);
-    if (admission_.is_door_full(hello))
-        return refuse(id, {TextCode::too_many_visitors});
     participant.asked = hello;
     audit(AuditEvent::What::waits, id);
     send(id, wire::Waiting{config_.name});
     tell_operators();
+}
+
+void HostSession::make_way(const Admission::Replaced& replaced) {
+    if (!replaced.told.empty())
+        return refuse(replaced.id, replaced.told);
+    const bool has_waited = admission_.find(replaced.id)->waits();
+    take_out(replaced.id);
+    actions_.push_back(action::Drop{replaced.id, "its program has come back"});
+    if (has_waited)
+        tell_operators();
 }
 
 // `hello` was judged; it is a copy where the participant has waited.

@@ -167,6 +167,7 @@ std::vector<ParticipantId> HostSession::connections_of(ParticipantId id) {
 void HostSession::begin_again(const std::string& by) {
     has_ended_ = false;
     membership_.forget_all();
+    admission_.forget_those_who_left();
     room_.clear();
     cases_.tell_patient();
     look_back_.clear();

@@ -48,6 +48,7 @@ Bytes ViewerSession::begin() {
     join.records = wishes_.records;
     join.features = wishes_.features;
     join.person = wishes_.person;
+    join.run = wishes_.run;
     return wire::encode(join);
 }
 

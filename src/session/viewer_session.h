@@ -25,6 +25,7 @@ public:
         bool records = false;
         std::vector<wire::Feature> features = {};
         Bytes person = {};
+        std::uint64_t run = 0;
     };
 
     explicit ViewerSession(Wishes wishes) : wishes_(std::move(wishes)) {}

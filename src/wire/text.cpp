@@ -82,6 +82,16 @@ constexpr Row rows[] = {
       "of your own.",
       "Über diesen Link sind {0} Teilnehmer da, mehr lässt ein Link nicht ein; bitten Sie um einen "
       "eigenen Link."}},
+    {TextCode::person_is_in_often,
+     {"You are in this session {0} times already, and record or send cameras each time; end one of "
+      "these first.",
+      "Sie sind schon {0}-mal in dieser Sitzung und nehmen jedes Mal auf oder senden Kameras; "
+      "beenden Sie zuerst eines davon."}},
+    {TextCode::came_in_again,
+     {"You came into this session once more; a person can be in {0} times, so the oldest view "
+      "ends.",
+      "Sie sind noch einmal in diese Sitzung gekommen; eine Person kann {0}-mal da sein, darum "
+      "endet die älteste Ansicht."}},
 
     {TextCode::camera_silent, {"It sends no pictures.", "Sie sendet keine Bilder."}},
     {TextCode::camera_repeating,
@@ -306,6 +316,38 @@ constexpr bool is_in_every_language() {
 }
 static_assert(is_in_every_language());
 
+// The two classes of texts on why a connection ends.
+constexpr TextCode for_good[] = {
+    TextCode::host_too_old,  TextCode::program_too_old,     TextCode::wrong_token,
+    TextCode::session_over,  TextCode::removed_by_operator, TextCode::link_revoked,
+    TextCode::not_let_in,    TextCode::ended_by_operator,   TextCode::session_has_ended,
+    TextCode::came_in_again,
+};
+constexpr TextCode for_now[] = {
+    TextCode::link_expired,     TextCode::too_many_recordings, TextCode::damaged_message,
+    TextCode::not_joined,       TextCode::joined_too_late,     TextCode::too_many_requests,
+    TextCode::damaged_picture,  TextCode::foreign_picture,     TextCode::no_reason,
+    TextCode::observer_records, TextCode::too_many_visitors,   TextCode::all_places_taken,
+    TextCode::link_full,        TextCode::person_is_in_often,
+};
+
+constexpr bool is_each_end_in_one_class() {
+    constexpr int first = 100, end = 200;
+    for (const Row& row : rows) {
+        const auto in = [&](const auto& list) {
+            int found = 0;
+            for (const TextCode code : list)
+                found += code == row.code;
+            return found;
+        };
+        const bool ends = int(row.code) >= first && int(row.code) < end;
+        if (in(for_good) + in(for_now) != int(ends))
+            return false;
+    }
+    return true;
+}
+static_assert(is_each_end_in_one_class());
+
 // Null if there is none.
 const Row* find(TextCode code) {
     const auto* row =
@@ -360,6 +402,10 @@ std::string unknown(const Text& text, Language which) {
 
 bool is_known(TextCode code) {
     return find(code) != nullptr;
+}
+
+bool is_for_good(TextCode code) {
+    return std::find(std::begin(for_good), std::end(for_good), code) != std::end(for_good);
 }
 
 Text as_written(std::string sentence) {

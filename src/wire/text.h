@@ -35,8 +35,10 @@ enum class TextCode : std::uint16_t {
     session_has_ended = 117,
     observer_records = 118,
     too_many_visitors = 119,
-    all_places_taken = 120,  // {0}: how many there can be
-    link_full = 121,         // {0}: how many can be in by one link
+    all_places_taken = 120,    // {0}: how many there can be
+    link_full = 121,           // {0}: how many can be in by one link
+    person_is_in_often = 122,  // {0}: how often a person can be in
+    came_in_again = 123,       // {0}: how often a person can be in
 
     // Cameras. With a name in {0}: the camera cannot be shown, and an offer of it is refused whole.
     camera_silent = 200,
@@ -137,6 +139,10 @@ struct Text {
 
 // True if this program has a text for the code.
 bool is_known(TextCode code);
+
+// True for texts on why a connection ends after which it is of no use to join again. False for the
+// others, after which a program that was in tries again, and for those of a newer host.
+bool is_for_good(TextCode code);
 
 // A text that is known in English only; none if it is empty.
 Text as_written(std::string sentence);

@@ -32,6 +32,9 @@ struct Join {
     // 16 random bytes that this person's program keeps; empty: it keeps none. They are equal in all
     // of its connections, whereas a participant's number changes.
     Bytes person;
+    // A random number that a program makes when it begins, and sends on each of its connections to
+    // this session; 0: it has none. By it the host knows which connection takes whose place.
+    std::uint64_t run = 0;
 
     static void fields(auto& m, auto&& field) {
         field(m.protocol_min);
@@ -45,6 +48,7 @@ struct Join {
         field(m.records);
         field(m.features, max_features);
         field(m.person, person_id_size);
+        field(m.run);
     }
 };
 

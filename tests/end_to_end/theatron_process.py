@@ -8,6 +8,7 @@ import re
 import signal
 import struct
 import subprocess
+import tempfile
 import threading
 import zlib
 
@@ -28,6 +29,10 @@ class Process:
     """A running theatron whose output lines can be waited for."""
 
     def __init__(self, *arguments, prefix=(), **options):
+        # Each program is another person's, unless the test says whose it is.
+        self.home = None if "env" in options else tempfile.TemporaryDirectory(prefix="theatron_home_")
+        if self.home:
+            options["env"] = {**os.environ, "XDG_STATE_HOME": self.home.name}
         self.process = subprocess.Popen(
             [*prefix, PROGRAM, *map(str, arguments)], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
             stderr=subprocess.PIPE, text=True, **options)
@@ -142,6 +147,8 @@ class Process:
         self.output_thread.join(5)
         for pipe in (self.process.stdin, self.process.stdout, self.process.stderr):
             pipe.close()
+        if self.home:
+            self.home.cleanup()
         if kind is None and code in CRASHES:
             raise AssertionError(f"the program ended by {signal.Signals(-code).name}: " + "".join(self.errors[-20:]))
 

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Decides after the end of a participant's connection on another attempt, or none. Pure.
+#pragma once
+
+#include <chrono>
+#include <string>
+
+#include "base/time.h"
+#include "wire/text.h"
+
+namespace theatron::client {
+
+class Attempts {
+public:
+    // Waiting before another attempt: soon at first, then patiently. After a refusal, patiently.
+    static constexpr Duration first_wait = std::chrono::milliseconds(200);
+    static constexpr Duration longest_wait = std::chrono::seconds(2);
+
+    // The host has taken this participant in, or lets it wait for admission.
+    void came_in() {
+        was_in_ = true;
+        wait_ = first_wait;
+    }
+    bool was_in() const { return was_in_; }
+
+    struct End {
+        wire::Text refusal, goodbye;  // of the host; empty: it said none
+        std::string why;              // one sentence, for an end without them
+        bool final = false;           // as net::Client::End::final
+    };
+    enum class Next : std::uint8_t { again, refused, ended };
+    struct Judged {
+        Next next{};
+        std::string why;
+        Duration wait{};  // until another attempt
+    };
+    // A refusal that is not for good (wire::is_for_good()) is final only for somebody who was never
+    // in.
+    Judged after(const End& end);
+
+private:
+    bool was_in_ = false;
+    Duration wait_ = first_wait;
+};
+
+}  // namespace theatron::client

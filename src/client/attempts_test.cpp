@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "client/attempts.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace theatron::client {
+namespace {
+
+using wire::TextCode;
+using Next = Attempts::Next;
+
+// As in docs/formats/connection.md.
+const std::set<TextCode> of_no_use_to_try = {
+    TextCode::host_too_old,        TextCode::program_too_old, TextCode::wrong_token,
+    TextCode::session_over,        TextCode::link_revoked,    TextCode::not_let_in,
+    TextCode::removed_by_operator, TextCode::came_in_again,   TextCode::ended_by_operator,
+    TextCode::session_has_ended};
+
+std::vector<TextCode> refusals() {
+    std::vector<TextCode> codes{TextCode::as_written, TextCode{199}};
+    for (int code = 100; wire::is_known(TextCode(code)); ++code)
+        codes.push_back(TextCode(code));
+    return codes;
+}
+
+TEST(Attempts, SomebodyWhoWasInTriesAgainAfterEachRefusalThatIsForNow) {
+    EXPECT_GT(refusals().size(), 20u);
+    for (const TextCode code : refusals()) {
+        Attempts attempts;
+        attempts.came_in();
+        const auto judged = attempts.after({{code, {"4"}}, {}, "", false});
+        const bool is_final = of_no_use_to_try.contains(code);
+        EXPECT_EQ(judged.next, is_final ? Next::refused : Next::again) << int(code);
+        EXPECT_FALSE(judged.why.empty()) << int(code);
+        EXPECT_EQ(judged.wait, Attempts::longest_wait) << int(code);
+    }
+}
+
+TEST(Attempts, SomebodyWhoWasNeverInIsToldAtOnce) {
+    for (const TextCode code : refusals())
+        EXPECT_EQ(Attempts().after({{code}, {}, "", false}).next, Next::refused) << int(code);
+}
+
+TEST(Attempts, ABrokenConnectionIsTriedAgainSoonAndThenPatiently) {
+    Attempts attempts;
+    const Attempts::End broken{{}, {}, "The cable is out.", false};
+    EXPECT_EQ(attempts.after(broken).wait, Attempts::first_wait);
+    EXPECT_EQ(attempts.after(broken).wait, 2 * Attempts::first_wait);
+    for (int i = 0; i < 10; ++i)
+        EXPECT_EQ(attempts.after(broken).next, Next::again);
+    EXPECT_EQ(attempts.after(broken).wait, Attempts::longest_wait);
+    attempts.came_in();
+    const auto judged = attempts.after(broken);
+    EXPECT_EQ(judged.wait, Attempts::first_wait);
+    EXPECT_EQ(judged.why, "The cable is out.");
+}
+
+TEST(Attempts, AnotherCertificateAndTheEndOfTheSessionAreFinal) {
+    Attempts attempts;
+    attempts.came_in();
+    EXPECT_EQ(attempts.after({{}, {}, "Another certificate.", true}).next, Next::refused);
+    EXPECT_EQ(attempts.after({{}, {TextCode::session_over}, "", false}).next, Next::ended);
+    EXPECT_EQ(attempts.after({{TextCode::link_revoked}, {TextCode::session_over}, "", false}).next,
+              Next::refused);
+}
+
+}  // namespace
+}  // namespace theatron::client
