@@ -89,9 +89,9 @@ HostSessions::HostSessions(const host::HostOptions& options, const SessionFlags&
 }
 
 HostSessions::~HostSessions() {
-    if (opening_.valid())
-        opening_.wait();
-    opening_ = {};
+    for (const auto& session : further_)
+        if (session->opening.valid())
+            session->opened = session->opening.get();
     host::tell_no_sessions(state_);
     further_.clear();
 }
@@ -144,7 +144,7 @@ void HostSessions::follow_folders() {
         if (was_open)
             first_->note_deleted(name);
     }
-    open_next();
+    open_due();
     first_->set_closed(closed());
     tell();
 }
@@ -158,7 +158,8 @@ std::vector<host::ClosedSession> HostSessions::closed() const {
 }
 
 void HostSessions::take_kept(const host::KeptSession& kept) {
-    if (kept.ends && kept.name != opening_name_) {
+    const Further* known = find(kept.name);
+    if (kept.ends && !(known && known->opening.valid())) {
         // One that could never be opened has nothing that is deleted.
         const bool was_open = host::has_links(kept.folder);
         end(kept.name);
@@ -167,7 +168,7 @@ void HostSessions::take_kept(const host::KeptSession& kept) {
             first_->note_deleted(kept.name);
         return;
     }
-    if (find(kept.name) || kept.ends || (!kept.words && kept.problem.empty()))
+    if (known || kept.ends || (!kept.words && kept.problem.empty()))
         return;
     auto session = std::make_unique<Further>();
     session->is_kept = true;
@@ -190,24 +191,24 @@ void HostSessions::take_kept(const host::KeptSession& kept) {
     further_.push_back(std::move(session));
 }
 
-void HostSessions::open_next() {
-    if (opening_.valid())
-        return;
+void HostSessions::open_due() {
     const TimePoint now = steady_now();
+    std::size_t places = open().size();
+    for (const auto& session : further_)
+        places += session->opening.valid();
     for (const auto& session : further_) {
-        if (session->opened.host || session->next_try > now)
+        if (session->opened.host || session->opening.valid() || session->next_try > now)
             continue;
-        if (open().size() >= host::max_sessions) {
+        if (places >= host::max_sessions) {
             session->opened.problem = "A host has at most " + std::to_string(host::max_sessions) +
                                       " sessions at once; end another one.";
             session->next_try = now + retry_interval;
             continue;
         }
-        opening_name_ = session->flags.options.name;
-        opening_ = std::async(std::launch::async, [this, flags = session->flags] {
+        ++places;
+        session->opening = std::async(std::launch::async, [this, flags = session->flags] {
             return open(*first_, state_, flags);
         });
-        return;
     }
 }
 
@@ -223,28 +224,28 @@ HostSessions::Opened HostSessions::open(const host::Host& first, const std::file
 }
 
 void HostSessions::take_opened() {
-    if (!opening_.valid() || opening_.wait_for(Duration(0)) != std::future_status::ready)
-        return;
-    Opened opened = opening_.get();
-    const std::string name = std::exchange(opening_name_, {});
-    Further* session = find(name);
-    if (!session)
-        return;
-    if (opened.host)
-        log::info("host", "session is open", {{"session", name}});
-    else if (opened.problem != session->opened.problem)
-        log::error("host", "a session cannot be opened",
-                   {{"session", name}, {"problem", opened.problem}});
-    session->opened = std::move(opened);
-    session->was_open = session->was_open || session->opened.host;
-    session->next_try = steady_now() + retry_interval;
-    next_look_ = {};
+    for (const auto& session : further_) {
+        if (!session->opening.valid() ||
+            session->opening.wait_for(Duration(0)) != std::future_status::ready)
+            continue;
+        Opened opened = session->opening.get();
+        const std::string& name = session->flags.options.name;
+        if (opened.host)
+            log::info("host", "session is open", {{"session", name}});
+        else if (opened.problem != session->opened.problem)
+            log::error("host", "a session cannot be opened",
+                       {{"session", name}, {"problem", opened.problem}});
+        session->opened = std::move(opened);
+        session->was_open = session->was_open || session->opened.host;
+        session->next_try = steady_now() + retry_interval;
+        next_look_ = {};
+    }
 }
 
 void HostSessions::end(const std::string& name) {
     const auto found =
         std::ranges::find(further_, name, [](const auto& s) { return s->flags.options.name; });
-    if (found == further_.end() || name == opening_name_)
+    if (found == further_.end() || (*found)->opening.valid())
         return;
     if (host::Host* open = (*found)->opened.host.get())
         open->end_by_host();

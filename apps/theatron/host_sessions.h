@@ -56,11 +56,14 @@ private:
         bool was_open = false;  // now or in an earlier run: it has links
         Opened opened;
         TimePoint next_try;
+        // While it is opened, on a thread of its own: cameras may take long, and no session waits
+        // for those of another one.
+        std::future<Opened> opening;
     };
 
     void follow_folders();
     void take_kept(const host::KeptSession& kept);
-    void open_next();
+    void open_due();
     void take_opened();
     // For good.
     void end(const std::string& name);
@@ -74,8 +77,6 @@ private:
     std::string first_name_;
     std::unique_ptr<host::Host> first_;
     std::vector<std::unique_ptr<Further>> further_;
-    std::future<Opened> opening_;  // on a thread of its own, since cameras may take long
-    std::string opening_name_;
     TimePoint next_look_;
     std::vector<host::ToldSession> told_;
     std::string folder_problem_;  // that was logged

@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "base/error.h"
+#include "base/shown_address.h"
 
 namespace theatron {
 namespace {
@@ -18,11 +19,11 @@ std::string quoted(std::string_view text) {
 
 Options Options::parse(std::string_view text) {
     Options options;
-    options.text_ = text;
+    options.text_ = shown_address(text);
     const auto colon = text.find(':');
     options.kind_ = text.substr(0, colon);
     if (options.kind_.empty())
-        options.note("The specification " + quoted(text) +
+        options.note("The specification " + quoted(options.text_) +
                      " names no kind; write it as kind:value,key=value.");
     if (colon == std::string_view::npos)
         return options;
@@ -49,10 +50,13 @@ Options Options::parse(std::string_view text) {
         if (first && !is_key) {
             options.value_ = part;
         } else if (!is_key || equals == 0) {
-            options.note("In " + quoted(text) + ", " + quoted(part) + " is not a key=value pair.");
+            // It may be the rest of an address.
+            options.note("In " + quoted(options.text_) + ", " +
+                         (options.text_ == text ? quoted(part) : "the end") +
+                         " is not a key=value pair.");
         } else if (!options.keys_.emplace(part.substr(0, equals), part.substr(equals + 1)).second) {
-            options.note("In " + quoted(text) + ", the key " + quoted(part.substr(0, equals)) +
-                         " is given twice.");
+            options.note("In " + quoted(options.text_) + ", the key " +
+                         quoted(part.substr(0, equals)) + " is given twice.");
         }
         first = false;
     }

@@ -16,7 +16,7 @@ class Options {
 public:
     static Options parse(std::string_view text);
 
-    const std::string& text() const { return text_; }
+    const std::string& text() const { return text_; }  // for sentences: without secrets
     const std::string& kind() const { return kind_; }
     const std::string& value() const { return value_; }
 

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "base/error.h"
+#include "base/shown_address.h"
 #include "base/steady_clock.h"
 #include "capture/readable_file.h"
 #include "capture/rtsp_text.h"
@@ -247,8 +248,9 @@ std::unique_ptr<Camera> open_rtsp_camera(Options& options, const Progress&) {
         throw Error(
             "A network stream is written as rtsp://HOST/PATH or "
             "rtsp://USER:PASSWORD@HOST:PORT/PATH.");
-    const std::string subject = "the stream '" + url->address + "'";
-    Opening opening{ffmpeg::needed_by("rtsp"), subject, "rtsp:" + options.value(), taken.wanted, 30, false};
+    const std::string subject = "the stream '" + shown_address(url->address) + "'";
+    Opening opening{
+        ffmpeg::needed_by("rtsp"), subject, "rtsp:" + options.value(), taken.wanted, 30, false};
     const auto open = [&](int port) {
         return std::make_unique<SourceCamera>(connect_to(url->host, port, subject), opening,
                                               taken.name.empty() ? url->host : taken.name,

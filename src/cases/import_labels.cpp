@@ -34,7 +34,7 @@ Part part_of(int value, const LabelMap& map, const ImportOptions& options) {
 }
 
 void add_parts(const LabelMap& map, const fs::path& file, const ImportOptions& options,
-               std::set<int>& found, std::vector<ImportedPart>& parts,
+               std::set<int>& found, SurfaceBudget& budget, std::vector<ImportedPart>& parts,
                std::vector<std::string>& remarks, const Progress& progress) {
     const std::vector<LabelCount> labels = labels_in(map);
     if (looks_like_an_image(map))
@@ -52,10 +52,12 @@ void add_parts(const LabelMap& map, const fs::path& file, const ImportOptions& o
         const int value = labels[i].value;
         found.insert(value);
         Part part = part_of(value, map, options);
-        Mesh mesh = surface_of_label(map, value, options.max_triangles, tell);
+        Mesh mesh = surface_of_label(map, labels[i], options.max_triangles, budget, tell);
         if (mesh.triangles.empty())
             remarks.push_back("The label " + std::to_string(value) +
-                              " has a surface of too many triangles and is left out.");
+                              " has a surface of too many triangles, alone or together with the "
+                              "labels before it, and is left out; save the labels that matter as a "
+                              "label map of their own.");
         else
             parts.push_back({std::move(part), std::move(mesh)});
     }
@@ -105,10 +107,11 @@ std::vector<ImportedPart> import_labels(const fs::path& file, const ImportOption
     progress("Reading the label map", 0);
     std::vector<ImportedPart> parts;
     try {
+        SurfaceBudget budget;
         std::size_t layers = 1;
         for (std::size_t layer = 0; layer < layers; ++layer)
-            add_parts(read_label_map(file, layer, layers), file, options, found, parts, remarks,
-                      progress);
+            add_parts(read_label_map(file, layer, layers), file, options, found, budget, parts,
+                      remarks, progress);
     } catch (const NotForUs& error) {
         left_out.add(file, error.reason());
         return {};

@@ -300,7 +300,8 @@ LabelMap shapes() {
 TEST(LabelSurface, IsClosedManifoldSmoothAndAsLargeAsItsSamples) {
     const LabelMap map = shapes();
     for (const LabelCount& label : labels_in(map)) {
-        const medical::Mesh mesh = surface_of_label(map, label.value, 4000);
+        SurfaceBudget budget;
+        const medical::Mesh mesh = surface_of_label(map, label, 4000, budget);
         const medical::MeshShape shape = medical::shape_of(mesh);
         EXPECT_TRUE(shape.manifold) << label.value;
         EXPECT_LE(mesh.triangles.size(), 4000u);
@@ -308,13 +309,35 @@ TEST(LabelSurface, IsClosedManifoldSmoothAndAsLargeAsItsSamples) {
         EXPECT_NEAR(shape.volume_mm3, volume, 0.02 * volume) << label.value;
         EXPECT_TRUE(medical::decode_mesh(medical::encode_mesh(mesh)));
     }
-    const medical::Mesh ball = surface_of_label(map, 1, 4000);
+    SurfaceBudget budget;
+    const medical::Mesh ball = surface_of_label(map, labels_in(map).front(), 4000, budget);
     for (const medical::Vec3f p : ball.positions)
         EXPECT_NEAR(length(medical::to_double(p) - Vec3{21, 21, 32}), 15, 1.1);
 }
 
-TEST(LabelSurface, ALabelThatDoesNotOccurHasNone) {
-    EXPECT_TRUE(surface_of_label(shapes(), 9, 1000).triangles.empty());
+// A small file may hold a surface that is everywhere, or many labels that are.
+TEST(LabelSurface, AllOfAnImportTakeNoMoreThanTheirBudget) {
+    LabelMap map;
+    map.grid.columns = map.grid.rows = map.grid.slices = 12;
+    map.grid.column_step_mm = {1, 0, 0};
+    map.grid.row_step_mm = {0, 1, 0};
+    map.grid.slice_step_mm = {0, 0, 1};
+    for (int i = 0; i < 12 * 12 * 12; ++i)
+        map.labels.push_back(std::uint16_t(1 + (i + i / 12 + i / 144) % 2));
+    const std::vector<LabelCount> labels = labels_in(map);
+    ASSERT_EQ(labels.size(), 2u);
+    EXPECT_EQ(labels[0].samples, 864u);
+    SurfaceBudget budget;
+    const SurfaceBudget whole = budget;
+    EXPECT_FALSE(surface_of_label(map, labels[0], 4000, budget).triangles.empty());
+    const std::size_t taken = whole.triangles - budget.triangles;
+    EXPECT_GT(taken, 10 * labels[0].samples);
+    EXPECT_EQ(whole.samples - budget.samples, 14u * 14 * 14);
+    budget.triangles = taken - 1;
+    EXPECT_TRUE(surface_of_label(map, labels[0], 4000, budget).triangles.empty());
+    EXPECT_EQ(budget.triangles, taken - 1);
+    budget = {14 * 14 * 14 - 1, taken};
+    EXPECT_TRUE(surface_of_label(map, labels[1], 4000, budget).triangles.empty());
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // Smooth closed surfaces around the labels of a label map. Pure functions.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -13,6 +14,9 @@ namespace theatron::cases {
 struct LabelCount {
     int value = 0;
     std::size_t samples = 0;
+    // The block of samples that holds them, ends excluded; columns, rows, slices.
+    int first[3] = {1 << 30, 1 << 30, 1 << 30};
+    int end[3] = {0, 0, 0};
 };
 // The labels that occur, by value; 0 is none.
 std::vector<LabelCount> labels_in(const LabelMap& map);
@@ -20,12 +24,20 @@ std::vector<LabelCount> labels_in(const LabelMap& map);
 // The volume of one sample.
 double sample_volume_mm3(const medical::VolumeGrid& grid);
 
+// What the surfaces of one import may take together: samples of the labels' blocks, and triangles
+// before they are simplified. Each takes some nanoseconds, or microseconds; a small packed file can
+// hold many labels that are everywhere, or one whose surface is.
+struct SurfaceBudget {
+    std::uint64_t samples = std::uint64_t(1) << 32;
+    std::size_t triangles = std::size_t(1) << 25;
+};
+
 // The surface around all samples of one label: closed, manifold, smoothed (steps of thick slices
-// stay visible), as large as the samples together, of about `max_triangles`. Empty where the label
-// does not occur or its surface has too many triangles. Also holds normals. `between_steps` is
-// called often, and may throw to stop this.
+// stay visible), as large as the samples together, of about `max_triangles`. Empty where its
+// surface has too many triangles, or more than the budget has left, from which it is taken. Also
+// holds normals. `between_steps` is called often, and may throw to stop this.
 medical::Mesh surface_of_label(
-    const LabelMap& map, int value, std::size_t max_triangles,
+    const LabelMap& map, const LabelCount& label, std::size_t max_triangles, SurfaceBudget& budget,
     const std::function<void()>& between_steps = [] {});
 
 }  // namespace theatron::cases

@@ -120,7 +120,8 @@ TEST(RealCase, ALabelMapBecomesClosedManifoldSurfacesOfItsVolume) {
     const std::vector<LabelCount> labels = labels_in(map);
     ASSERT_EQ(labels.size(), 4u);
     for (const LabelCount& label : labels) {
-        const medical::Mesh mesh = surface_of_label(map, label.value, 60'000);
+        SurfaceBudget budget;
+        const medical::Mesh mesh = surface_of_label(map, label, 60'000, budget);
         const medical::MeshShape shape = medical::shape_of(mesh);
         const double volume = double(label.samples) * sample_volume_mm3(map.grid);
         std::printf("label %d: %zu triangles, volume off by %.2f %%\n", label.value,

@@ -15,6 +15,7 @@
 #include "base/thread_name.h"
 #include "client/direct_reception.h"
 #include "net/client.h"
+#include "session/direct_pace.h"
 #include "wire/direct_greeting.h"
 
 namespace theatron::client {
@@ -26,14 +27,22 @@ constexpr std::size_t max_bytes_waiting = std::size_t(64) << 20;
 // their way between threads, and the publisher need not wait for them.
 constexpr std::size_t frames_on_the_way = 4;
 
+// All links to one publisher share it.
+struct Pace {
+    std::mutex mutex;
+    session::DirectPace pace;  // guarded by mutex
+};
+
 }  // namespace
 
 // One publisher, on a thread of its own.
 class DirectReception::Link {
 public:
-    Link(std::uint64_t number, wire::DirectGrant grant, const Events& events)
+    Link(std::uint64_t number, wire::DirectGrant grant, std::shared_ptr<Pace> pace,
+         const Events& events)
         : number_(number),
           grant_(std::move(grant)),
+          pace_(std::move(pace)),
           events_(events),
           addresses_(grant_.addresses),
           thread_([this] {
@@ -67,30 +76,48 @@ public:
 
 private:
     void run() {
-        Duration pause = first_pause;
-        while (true) {
-            bool was_proven = false;
+        while (wait_for_turn()) {
+            Duration lasted{};
             for (auto address = addresses_.begin(); address != addresses_.end(); ++address) {
-                const auto lasted = connect(*address);
-                if (!lasted)
-                    return;
-                if (*lasted == Duration(0))
+                lasted = connect(*address);
+                if (stops())
+                    break;
+                if (lasted == Duration(0))
                     continue;
                 // The next attempt begins with the address that has answered.
                 std::rotate(addresses_.begin(), address, address + 1);
-                was_proven = *lasted > proven;
                 break;
             }
-            pause = was_proven ? first_pause : pause;
-            std::unique_lock lock(mutex_);
-            if (changed_.wait_for(lock, pause, [&] { return stopping_; }))
-                return;
-            pause = std::min(2 * pause, longest_pause);
+            const std::lock_guard lock(pace_->mutex);
+            pace_->pace.on_end(steady_now(), lasted > proven);
         }
     }
 
-    // Returns how long frames have come, or nothing when the link is to end.
-    std::optional<Duration> connect(const std::string& address) {
+    // False when the link is to end.
+    bool wait_for_turn() {
+        std::unique_lock lock(mutex_);
+        while (!stopping_) {
+            Duration wait;
+            {
+                const std::lock_guard pace_lock(pace_->mutex);
+                wait = pace_->pace.wait(steady_now());
+                if (wait == Duration(0)) {
+                    pace_->pace.on_attempt(steady_now());
+                    return true;
+                }
+            }
+            changed_.wait_for(lock, wait, [&] { return stopping_; });
+        }
+        return false;
+    }
+
+    bool stops() {
+        const std::lock_guard lock(mutex_);
+        return stopping_;
+    }
+
+    // Returns how long frames have come.
+    Duration connect(const std::string& address) {
         std::optional<TimePoint> first, newest;
         std::string why;
         TimePoint begun = steady_now();
@@ -125,7 +152,7 @@ private:
         net::Client client({address, grant_.port, "", hex_text(grant_.fingerprint)}, std::move(h));
         client.set_patience(connect_patience);
         if (!begin(client))
-            return std::nullopt;
+            return Duration(0);
         const net::Client::End end = client.run();
         const bool stops = !finish();
         if (stops)
@@ -136,8 +163,6 @@ private:
         if (first)
             log::info("direct", "direct pictures have ended",
                       {{"publisher", int(grant_.publisher)}, log::outside("why", why)});
-        if (stops)
-            return std::nullopt;
         return first ? *newest - *first + std::chrono::microseconds(1) : Duration(0);
     }
 
@@ -159,6 +184,7 @@ private:
 
     const std::uint64_t number_;
     const wire::DirectGrant grant_;
+    const std::shared_ptr<Pace> pace_;
     const Events& events_;
     std::vector<std::string> addresses_;                // the thread of the link only
     std::atomic<std::size_t> waiting_ = 0, bytes_ = 0;  // frames, and their sizes
@@ -177,6 +203,7 @@ struct DirectReception::Impl {
     std::uint64_t next = 1;
     std::mutex mutex;
     std::map<std::uint64_t, std::shared_ptr<Link>> links;  // guarded by mutex
+    std::map<ParticipantId, std::shared_ptr<Pace>> paces;  // likewise
 };
 
 bool DirectReception::is_possible() {
@@ -207,8 +234,15 @@ void DirectReception::set_grants(const std::vector<wire::DirectGrant>& grants) {
         if (is_linked(grant))
             continue;
         const std::uint64_t number = impl_->next++;
-        impl_->links[number] = std::make_shared<Link>(number, grant, events_);
+        std::shared_ptr<Pace>& pace = impl_->paces[grant.publisher];
+        if (!pace)
+            pace = std::make_shared<Pace>();
+        impl_->links[number] = std::make_shared<Link>(number, grant, pace, events_);
     }
+    std::erase_if(impl_->paces, [&](const auto& entry) {
+        const std::lock_guard pace_lock(entry.second->mutex);
+        return entry.second.use_count() == 1 && entry.second->pace.is_over(steady_now());
+    });
 }
 
 void DirectReception::taken(std::uint64_t link, std::size_t bytes) {

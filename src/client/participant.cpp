@@ -9,6 +9,7 @@
 #include "base/fault.h"
 #include "base/outside_text.h"
 #include "base/steady_clock.h"
+#include "client/host_person.h"
 #include "client/participant_figures.h"
 #include "client/participant_shared.h"
 #include "wire/envelope.h"
@@ -52,8 +53,8 @@ std::vector<wire::Feature> features_of(const Participant::Options& options) {
 Participant::Participant(Options options)
     : options_(std::move(options)),
       session_({options_.link.token, options_.name, options_.depth_codec, options_.color_codec,
-                options_.delivery, options_.records, features_of(options_), options_.person,
-                random_run()}),
+                 options_.delivery, options_.records, features_of(options_),
+                 person_for_host(options_.person, options_.link), random_run()}),
       shared_(std::make_unique<Shared>()),
       direct_reception_(options_.direct ? std::make_unique<DirectReception>(direct_events())
                                         : nullptr),

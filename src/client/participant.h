@@ -57,7 +57,7 @@ public:
         wire::ChooseDelivery delivery{150, 0};
         bool records = false;     // as in wire::Join
         bool sends_only = false;  // as in wire::Join: gets no cameras of others
-        Bytes person;             // likewise; see client/person_id.h
+        Bytes person;             // the secret of client/person_id.h
         // Messages for the user: reconnecting, refused, a camera ended. Called
         // from the participant's thread with one line of clean text.
         std::function<void(const std::string&)> remark;

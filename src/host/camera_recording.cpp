@@ -13,8 +13,8 @@ namespace {
 
 // A camera that gives no picture for so long keeps the others waiting no more.
 constexpr Duration first_frame_patience = std::chrono::seconds(5);
-// An encoder may still have the last frame of a camera that has ended.
-constexpr Duration encoding_patience = std::chrono::milliseconds(500);
+// At the end: for the last pictures of the cameras, which are still being encoded.
+constexpr Duration encoding_patience = std::chrono::milliseconds(1500);
 
 // A recording wants every frame: half a second of them may wait for the encoder.
 constexpr std::size_t waiting_frames = 15;
@@ -67,6 +67,7 @@ public:
         plays_only_ = std::all_of(lanes_.begin(), lanes_.end(),
                                   [](const auto& lane) { return lane->waits(); });
         not_encoded_before_.resize(lanes_.size());
+        not_encoded_at_end_.resize(lanes_.size());
     }
 
     ~CameraRecording() override { lanes_.clear(); }
@@ -109,8 +110,7 @@ public:
 
     std::optional<End> ended() override {
         const std::lock_guard lock(mutex_);
-        if (ended_.size() + failed_.size() < lanes_.size() ||
-            steady_now() - over_since_ < encoding_patience)
+        if (ended_.size() + failed_.size() < lanes_.size())
             return std::nullopt;
         const bool is_fault = !failed_.empty() || ended_with_problem_;
         return End{"", is_fault ? std::optional(record::Lack::camera_failed) : std::nullopt};
@@ -118,7 +118,9 @@ public:
 
     std::uint64_t not_encoded(CameraId camera) const override {
         const auto i = std::size_t(camera);
-        return begun_ ? lanes_[i]->figures().dropped_newest - not_encoded_before_[i] : 0;
+        return begun_ ? lanes_[i]->figures().dropped_newest - not_encoded_before_[i] +
+                            not_encoded_at_end_[i]
+                      : 0;
     }
 
     std::uint64_t lost_in_source(CameraId camera) const override {
@@ -134,17 +136,31 @@ public:
                        .camera.figures.troubles[int(capture::Trouble::gone)] > 0;
     }
 
+    // All that the cameras have given is encoded first, so that the last depth has its colour.
     void stop() override {
         for (const auto& lane : lanes_)
-            lane->set_settings({}, {});
+            lane->close();
+        const TimePoint until = steady_now() + encoding_patience;
+        for (const auto& lane : lanes_)
+            (void)lane->wait_until_encoded(std::max(until - steady_now(), Duration(0)));
+        const std::lock_guard lock(media_mutex_);
+        stopped_ = true;
+        for (std::size_t i = 0; i < lanes_.size(); ++i) {
+            if (begun_)
+                not_encoded_at_end_[i] = lanes_[i]->wait_until_encoded(Duration(0));
+            lanes_[i]->set_settings({}, {});
+        }
     }
 
 private:
     // On working threads.
     void on_media(send::EncodedMedia media) {
         const wire::MediaHeader header = media.header;
+        const std::lock_guard lock(media_mutex_);
+        if (stopped_)
+            return;
         {
-            const std::lock_guard lock(mutex_);
+            const std::lock_guard played(mutex_);
             played_ = std::max(played_.value_or(header.captured), header.captured);
         }
         if (intake_.take(header, std::move(media.message), "", now()))
@@ -173,11 +189,9 @@ private:
         } else if (state.condition == Condition::failed) {
             log::say(camera + " has failed: " + problem);
             failed_.insert(state.camera);
-            over_since_ = steady_now();
         } else {
             ended_.insert(state.camera);
             ended_with_problem_ = ended_with_problem_ || !problem.empty();
-            over_since_ = steady_now();
             intake_.on_end(state.camera);
         }
     }
@@ -188,14 +202,16 @@ private:
     TimePoint opened_;
     std::atomic<bool> begun_ = false;
     bool plays_only_ = false;
-    std::vector<std::uint64_t> not_encoded_before_;
+    std::vector<std::uint64_t> not_encoded_before_, not_encoded_at_end_;
+
+    std::mutex media_mutex_;
+    bool stopped_ = false;  // what is encoded from now on counts as missing
 
     mutable std::mutex mutex_;  // guards all up to the workers
     std::map<CameraId, wire::CameraCondition> conditions_;
     std::set<CameraId> ended_, failed_, damage_said_;
     bool ended_with_problem_ = false;
     std::optional<TimePoint> played_;  // capture of the newest picture
-    TimePoint over_since_;
 
     send::Workers workers_;
     // Last: their threads use all of the above.

@@ -260,7 +260,10 @@ void CaseShelf::publish() {
         if (folder.shared) {
             offered.push_back(facts_of(*folder.shared));
             offered.back().name = offered_names_.at(name).offered;
-            content.insert(folder.shared->content.begin(), folder.shared->content.end());
+            for (const auto& [hash, bytes] : folder.shared->content) {
+                content.insert({hash, bytes});
+                offer.content[folder.shared->id].insert(hash);
+            }
             add_patient(folder, offer.patients);
         }
     offer.problems = problems();

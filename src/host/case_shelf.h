@@ -18,6 +18,7 @@
 #include "cases/patient_texts.h"
 #include "cases/share_case.h"
 #include "session/case_objects.h"
+#include "session/offered_cases.h"
 #include "wire/control.h"
 
 namespace theatron::host {
@@ -36,6 +37,7 @@ public:
     struct Offer {
         std::vector<session::CaseFacts> cases;
         std::vector<wire::Patient> patients;
+        session::OfferedCases::Content content;
         std::vector<std::string> problems;
     };
     // This is offered from now on: once the folders were read for the first time, and after each

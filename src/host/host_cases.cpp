@@ -9,7 +9,7 @@ namespace theatron::host {
 
 void Host::Impl::take_cases(const CaseShelf::Offer& offer) {
     offered_cases = offer;
-    session->set_cases(offer.cases, offer.patients);
+    session->set_cases(offer.cases, offer.patients, offer.content);
     carry_out();
     const std::string problem = lost_case();
     if (!problem.empty() && problem != said_lost_case)

@@ -324,10 +324,10 @@ private:
                            .headers = {{"Allow", "GET, HEAD"}}});
         if (!websocket::is_upgrade(request)) {
             const std::string authorization(request[http::field::authorization]);
-            HttpAnswer answered =
-                door_.events.http({std::string(request.target()), authorization,
-                                   std::string(request[http::field::accept_encoding])});
-            if (answered.status == 401 && !authorization.empty())
+            const HttpRequest asked{std::string(request.target()), authorization,
+                                    std::string(request[http::field::accept_encoding])};
+            HttpAnswer answered = door_.events.http(asked);
+            if (is_wrong_guess(asked, answered))
                 door_.places.note_wrong_token(address_group(address_), steady_now());
             return answer(std::move(answered));
         }

@@ -71,6 +71,10 @@ std::string shown_token(const HttpRequest& request) {
     return query_value(request.target, "token");
 }
 
+bool is_wrong_guess(const HttpRequest& request, const HttpAnswer& answer) {
+    return answer.status == 401 && !(request.authorization.empty() && shown_token(request).empty());
+}
+
 bool accepts_encoding(std::string_view accept_encoding, std::string_view coding) {
     constexpr std::string_view blanks = " \t";
     while (!accept_encoding.empty()) {

@@ -36,6 +36,9 @@ std::string query_value(std::string_view target, std::string_view parameter);
 // The token that a request shows: "Authorization: Bearer TOKEN", or token=TOKEN in the query.
 std::string shown_token(const HttpRequest& request);
 
+// True if the answer says that the token which the request shows, wherever it stands, is wrong.
+bool is_wrong_guess(const HttpRequest& request, const HttpAnswer& answer);
+
 // True if the header Accept-Encoding allows this coding by name. Safe for untrusted input.
 bool accepts_encoding(std::string_view accept_encoding, std::string_view coding);
 

@@ -17,6 +17,17 @@ TEST(Http, ReadsTheToken) {
     EXPECT_EQ(shown_token({"", ""}), "");
 }
 
+TEST(Http, AGuessIsOneWhereverTheTokenStands) {
+    const HttpAnswer refused{.status = 401}, answered{.status = 200};
+    for (const HttpRequest& request :
+         {HttpRequest{"/status", "Bearer abc"}, HttpRequest{"/status", "Basic abc"},
+          HttpRequest{"/status?token=abc", ""}, HttpRequest{"/lobby?x=1&token=abc", ""}}) {
+        EXPECT_TRUE(is_wrong_guess(request, refused)) << request.target;
+        EXPECT_FALSE(is_wrong_guess(request, answered)) << request.target;
+    }
+    EXPECT_FALSE(is_wrong_guess({"/status", ""}, refused)) << "nothing is guessed";
+}
+
 TEST(Http, ThePathEndsWhereTheQueryBegins) {
     EXPECT_EQ(path_of("/connection?a=b?c"), "/connection");
     EXPECT_EQ(path_of("/connection"), "/connection");

@@ -149,6 +149,18 @@ void CameraLane::hold(bool held) {
     begin_work();
 }
 
+void CameraLane::close() {
+    const std::lock_guard lock(mutex_);
+    closed_ = true;
+    room_.notify_all();
+}
+
+std::size_t CameraLane::wait_until_encoded(Duration patience) {
+    std::unique_lock lock(mutex_);
+    idle_.wait_for(lock, patience, [this] { return !busy_ && !newest_.waiting(); });
+    return newest_.size() + has_frame_in_work_;
+}
+
 void CameraLane::request_key(StreamId stream, SettingId setting) {
     const std::lock_guard lock(mutex_);
     orders_.keys.insert({stream, setting});
@@ -163,14 +175,16 @@ void CameraLane::on_frame(FramePtr frame) {
     events_.frame(frame);
     if (tag.pass_over && options_.one_per_moment)
         return meter_.on_drop(DropReason::moment);
-    if (waits_) {
-        std::unique_lock lock(mutex_);
-        room_.wait(lock, [this] { return stopping_ || newest_.size() < options_.waiting_frames; });
-    }
-    if (newest_.put({std::move(frame), tag.moment}))
-        meter_.on_drop(DropReason::newer);
     {
-        const std::lock_guard lock(mutex_);
+        std::unique_lock lock(mutex_);
+        if (waits_)
+            room_.wait(lock, [this] {
+                return stopping_ || closed_ || newest_.size() < options_.waiting_frames;
+            });
+        if (closed_)
+            return;
+        if (newest_.put({std::move(frame), tag.moment}))
+            meter_.on_drop(DropReason::newer);
         frame_came_ = came;
         wanted_ = true;
     }
@@ -226,6 +240,7 @@ void CameraLane::work() {
             return;
         }
         next = newest_.take(Duration(0));
+        has_frame_in_work_ = next.has_value();
     }
     room_.notify_one();
     bool ready = false;
@@ -246,6 +261,7 @@ void CameraLane::end_work() {
     bool more;
     {
         const std::lock_guard lock(mutex_);
+        has_frame_in_work_ = false;
         more = (wanted_ || newest_.waiting()) && !stopping_ && !held_;
         wanted_ = wanted_ && !more;
         busy_ = more;

@@ -98,6 +98,12 @@ public:
     // While held, no work on a frame begins: no receiver could take it yet. The newest one waits.
     void hold(bool held);
 
+    // Frames that the camera gives from now on are not taken; those that it gave are encoded.
+    void close();
+    // Waits until the frames that were taken are encoded in all settings that keep up. Returns the
+    // number of those that are not after this time.
+    std::size_t wait_until_encoded(Duration patience);
+
     // The next frame becomes a key frame. If none comes within 100 ms, the last one is sent again.
     void request_key(StreamId stream, SettingId setting);
 
@@ -163,6 +169,8 @@ private:
     TimePoint frame_came_;
     bool wanted_ = false;  // there is something to do although no frame has come
     bool held_ = false;
+    bool closed_ = false;
+    bool has_frame_in_work_ = false;
     bool stopping_ = false;
     bool busy_ = false;  // work() is running or will
 

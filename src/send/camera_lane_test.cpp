@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <condition_variable>
 #include <deque>
+#include <semaphore>
 
 #include "codec/depth_stream.h"
 #include "video/color_codec.h"
@@ -95,10 +97,28 @@ private:
     capture::CameraInfo info_;
 };
 
+// Encodes a picture when the test says so.
+class GatedColor final : public video::ColorEncoder {
+public:
+    using Gate = std::shared_ptr<std::counting_semaphore<>>;
+    explicit GatedColor(Gate gate) : gate_(std::move(gate)) {}
+    Result<video::EncodedColor> encode(const ColorData&, bool) override {
+        (void)gate_->try_acquire_for(patience);
+        return video::EncodedColor{bytes_};
+    }
+
+private:
+    const Gate gate_;
+    const Bytes bytes_ = Bytes(8);
+};
+
 // A lane with everything that it published.
 class Lane : public ::testing::Test {
 protected:
-    Lane() {
+    Lane() { open({}); }
+    // With these options, but for the clock.
+    void open(CameraLane::Options options) {
+        lane.reset();
         CameraLane::Events events;
         events.media = [this](EncodedMedia media) {
             const std::lock_guard lock(mutex);
@@ -110,10 +130,9 @@ protected:
             states.push_back(std::move(state));
             changed.notify_all();
         };
-        CameraLane::Options options;
         options.clock = script->clock.clock();
         lane = std::make_unique<CameraLane>(CameraId{3}, std::make_unique<ManualCamera>(script),
-                                            events, workers, options);
+                                            events, workers, std::move(options));
     }
     // Returns when there are `count` messages.
     void wait_for(std::size_t count) {
@@ -304,6 +323,35 @@ TEST_F(Lane, WhileHeldTheNewestFrameWaitsAndNoReferenceIsMissing) {
                   Status::ok);
     }
     EXPECT_EQ(image.pixels[0], 1002);
+}
+
+// The end of a recording: no last depth without its colour, and what is missing has a number.
+TEST_F(Lane, AClosedLaneEncodesTheFramesThatItHasTakenAndNoFurther) {
+    const GatedColor::Gate gate = std::make_shared<std::counting_semaphore<>>(0);
+    CameraLane::Options options;
+    options.waiting_frames = 15;
+    options.make_color = [gate](const video::ColorSetting&) {
+        return std::make_unique<GatedColor>(gate);
+    };
+    open(std::move(options));
+    lane->set_settings({{SettingId{1}, "rvl"}}, {{SettingId{2}, "jpeg"}});
+    for (int n = 1; n <= 3; ++n) {
+        script->give_frame(1000);
+        ASSERT_TRUE(script->wait_until_taken(n));
+    }
+    lane->close();
+    script->give_frame(1000);
+    ASSERT_TRUE(script->wait_until_taken(4));
+    EXPECT_EQ(lane->wait_until_encoded(0s), 3u);
+    gate->release(2);
+    ASSERT_TRUE(wait_for(5));  // the third depth, too, if another thread encodes it
+    gate->release();
+    EXPECT_EQ(lane->wait_until_encoded(patience), 0u);
+    const std::lock_guard lock(mutex);
+    EXPECT_EQ(std::count_if(published.begin(), published.end(),
+                            [](const auto& media) { return is_depth(media.header.stream); }),
+              3);
+    EXPECT_EQ(published.size(), 6u);
 }
 
 TEST_F(Lane, AFailureIsToldWithItsSentence) {

@@ -100,6 +100,9 @@ public:
         bool refused_for_good = false;    // see wire::is_for_good()
         // The newest message about the patient; nullopt: it may be lost.
         std::optional<wire::Patient> patient = wire::Patient{};
+        // The newest message about cases, see OfferedCases; nullopt: it may be lost.
+        static constexpr std::pair<bool, std::uint64_t> no_cases{};
+        std::optional<std::pair<bool, std::uint64_t>> cases = no_cases;
         std::size_t max_media = 0;               // bytes of its largest media message so far
         std::vector<wire::StreamReport> report;  // the newest
         std::string renderer;                    // as it reports it; may be empty

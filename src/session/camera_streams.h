@@ -73,8 +73,9 @@ public:
 
     std::optional<wire::CameraState> state;  // the publisher's newest
 
-    std::string publisher_name;  // empty: the host
-    int slot = 0;                // unique in the session; the position of a camera without a place
+    // As they were given, before they were told apart from others; empty: the host's.
+    std::string publisher_name, given_name;
+    int slot = 0;  // unique in the session; the position of a camera without a place
 
     // Settings that were active at the last call and are not any more; empty if the active settings
     // have not changed.

@@ -4,29 +4,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "session/direct_addresses.h"
+
 namespace theatron::session {
-namespace {
-
-// Characters of the longest address, an IPv6 one that ends with an IPv4 one.
-constexpr std::size_t max_address = 45;
-
-// Receivers never look up names for a publisher.
-bool is_address(const std::string& text) {
-    const bool has_colon = text.find(':') != std::string::npos;
-    return text.size() <= max_address && (has_colon || text.find('.') != std::string::npos) &&
-           std::all_of(text.begin(), text.end(), [&](char c) {
-               const bool is_digit = c >= '0' && c <= '9';
-               const bool is_letter = (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F');
-               return is_digit || c == '.' || (has_colon && (is_letter || c == ':'));
-           });
-}
-
-// Such an address means the machine that uses it.
-bool is_loopback(const std::string& address) {
-    return address.starts_with("127.") || address == "::1" || address.starts_with("::ffff:127.");
-}
-
-}  // namespace
 
 void DirectPaths::set_address(ParticipantId participant, std::string address) {
     addresses_[participant] = std::move(address);
@@ -57,10 +37,10 @@ void DirectPaths::offer(ParticipantId publisher, wire::OfferDirect offer) {
     if (!is_possible() || !members_.contains(publisher))
         return;
     has_changed_ = true;
-    std::erase_if(offer.addresses, [](const std::string& text) { return !is_address(text); });
+    std::erase_if(offer.addresses, [](const std::string& text) { return !parse_ipv4(text); });
     // The listener may be another one: no secret of the one before is shown to it.
     std::erase_if(paths_, [&](const auto& entry) { return entry.first.publisher == publisher; });
-    if (offer.port == 0)
+    if (offer.port < least_direct_port)
         offers_.erase(publisher);
     else
         offers_[publisher] = std::move(offer);
@@ -177,22 +157,13 @@ std::map<ParticipantId, wire::DirectGrants> DirectPaths::to_receivers() const {
     return messages;
 }
 
-// The one at which the host sees the publisher comes first: it leads through the networks between.
 std::vector<std::string> DirectPaths::addresses_for(const PathId& path) const {
     const auto seen_at = [&](ParticipantId participant) {
         const auto found = addresses_.find(participant);
         return found == addresses_.end() ? std::string() : found->second;
     };
-    std::vector<std::string> all{seen_at(path.publisher)};
-    const auto& offered = offers_.at(path.publisher).addresses;
-    all.insert(all.end(), offered.begin(), offered.end());
-    const bool is_on_this_machine = is_loopback(seen_at(path.receiver));
-    std::vector<std::string> result;
-    for (std::string& address : all)
-        if (is_address(address) && (is_on_this_machine || !is_loopback(address)) &&
-            std::find(result.begin(), result.end(), address) == result.end())
-            result.push_back(std::move(address));
-    return result;
+    return direct_addresses(seen_at(path.publisher), offers_.at(path.publisher).addresses,
+                            seen_at(path.receiver));
 }
 
 // Sends what has changed. A participant without a message is told that there is nothing.

@@ -40,7 +40,8 @@ public:
     // The participant takes part, and its program knows direct sending.
     void join(ParticipantId participant);
     void leave(ParticipantId participant);
-    // The participant listens. Addresses that are none are left out; port 0 withdraws the offer.
+    // The participant listens; direct_addresses.h says which of its addresses are believed. A port
+    // below least_direct_port withdraws the offer.
     void offer(ParticipantId publisher, wire::OfferDirect offer);
     // The settings whose frames come directly to this receiver.
     void report(ParticipantId receiver, const std::vector<wire::StreamReport>& streams);

@@ -21,7 +21,7 @@ protected:
                   return secret;
               },
               actions) {
-        paths.set_address(path_sender, "192.0.2.5");
+        paths.set_address(path_sender, "10.0.1.5");
         paths.join(path_sender);
         paths.offer(path_sender, {{"10.0.0.5"}, 4000, Bytes(wire::fingerprint_size)});
     }
@@ -37,7 +37,7 @@ protected:
         return uses;
     }
     void come(ParticipantId id) {
-        paths.set_address(id, "192.0.2." + std::to_string(std::uint32_t(id)));
+        paths.set_address(id, "10.0.2." + std::to_string(std::uint32_t(id)));
         paths.join(id);
     }
     void report(ParticipantId id, std::vector<SettingId> direct) {
@@ -78,7 +78,7 @@ TEST_F(DirectPathsTest, BothSidesLearnOneSecret) {
     ASSERT_EQ(grants[0].grants.size(), 1u);
     const wire::DirectGrant& grant = grants[0].grants[0];
     EXPECT_EQ(grant.publisher, path_sender);
-    EXPECT_EQ(grant.addresses, (std::vector<std::string>{"192.0.2.5", "10.0.0.5"}))
+    EXPECT_EQ(grant.addresses, (std::vector<std::string>{"10.0.1.5", "10.0.0.5"}))
         << "the address at which the host sees it comes first";
     EXPECT_EQ(grant.port, 4000);
     const auto receivers = messages_to<wire::DirectReceivers>(path_sender, sent);
@@ -224,12 +224,13 @@ TEST_F(DirectPathsTest, OnlyAddressesAreHandedOn) {
             .grants.at(0)
             .addresses;
     };
-    EXPECT_EQ(addresses(alice), (std::vector<std::string>{"192.0.2.5", "10.0.0.5", "fe80::1"}));
-    // One at the host's own machine may be at the publisher's, too.
-    paths.set_address(bob, "127.0.0.1");
-    paths.join(bob);
-    EXPECT_EQ(addresses(bob),
-              (std::vector<std::string>{"192.0.2.5", "10.0.0.5", "fe80::1", "127.0.0.1", "::1"}));
+    EXPECT_EQ(addresses(alice), (std::vector<std::string>{"10.0.1.5", "10.0.0.5"}));
+}
+
+TEST_F(DirectPathsTest, AnOfferOfAPortOfServicesIsNone) {
+    paths.offer(path_sender, {{"10.0.0.5"}, 443, Bytes(wire::fingerprint_size)});
+    come(alice);
+    EXPECT_TRUE(follow(used_by({alice})).empty());
 }
 
 TEST_F(DirectPathsTest, MoreReceiversThanAListHoldsStayWithTheHost) {

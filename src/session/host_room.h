@@ -7,6 +7,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "session/case_objects.h"
@@ -90,6 +91,8 @@ public:
     const std::vector<CaseFacts>& cases() const { return cases_; }
     // The case that is open; not that of a replayed recording.
     std::optional<ContentHash> open_case() const;
+    // That one, and the one of a recording that is replayed.
+    std::set<ContentHash> shown_cases() const;
 
     struct Forward {
         std::vector<ParticipantId> receivers;
@@ -113,6 +116,7 @@ public:
     std::uint64_t revision() const { return state_.revision(); }
     // Grows with each change of snapshot().
     std::uint64_t version() const { return state_.revision() - replayed_changes_; }
+    std::uint64_t replayed_changes() const { return replayed_changes_; }
 
 private:
     struct Member {

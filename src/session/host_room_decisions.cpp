@@ -18,6 +18,15 @@ std::optional<ContentHash> HostRoom::open_case() const {
     return std::nullopt;
 }
 
+std::set<ContentHash> HostRoom::shown_cases() const {
+    std::set<ContentHash> shown;
+    for (const RoomObjects* objects : {&state_.objects(), &replayed_.objects()})
+        for (const auto& [id, object] : *objects)
+            if (const auto organ = decode_as<CaseOrgan>(object.kind, object.properties))
+                shown.insert(organ->of_case);
+    return shown;
+}
+
 std::optional<RoomState::Decision> HostRoom::decide_on_case(ParticipantId id, std::uint32_t number,
                                                             const Request& request) {
     const auto is_of_case = [](ObjectKind kind) {

@@ -100,14 +100,17 @@ void HostSession::carry_out(ParticipantId id, const wire::Report& report, TimePo
 void HostSession::carry_out(ParticipantId id, const wire::RoomRequest& request, TimePoint) {
     if (const auto ended = room_.on_request(id, request))
         shared_.end_share(*ended, id);
-    cases_.tell_patient();
+    cases_.tell_changes();
 }
 
 void HostSession::carry_out(ParticipantId id, const wire::RequestContent& request, TimePoint) {
-    if (request.count > 0)
-        actions_.push_back(
-            action::SendContent{id, to_content_hash(request.hash).value_or(ContentHash{}),
-                                request.offset, request.count});
+    if (request.count == 0)
+        return;
+    const ContentHash hash = to_content_hash(request.hash).value_or(ContentHash{});
+    if (cases_.may_have(id, hash))
+        actions_.push_back(action::SendContent{id, hash, request.offset, request.count});
+    else  // as of content that there is not
+        send(id, wire::Content{request.hash, request.offset, 0, {}});
 }
 
 void HostSession::carry_out(ParticipantId id, const wire::VoiceConsent& consent, TimePoint) {
@@ -118,6 +121,14 @@ void HostSession::carry_out(ParticipantId id, const wire::VoiceConsent& consent,
     audit(consent.may_record ? AuditEvent::What::voice_agreed : AuditEvent::What::voice_not_agreed,
           id);
     room_.set_person(id, facts_of(person));
+}
+
+std::vector<ObjectPose> HostSession::replay_room(const RoomObjects& recorded, TimePoint now) {
+    const std::uint64_t before = room_.replayed_changes();
+    std::vector<ObjectPose> moved = room_.replay(recorded, now);
+    if (room_.replayed_changes() != before)
+        cases_.tell_changes();
+    return moved;
 }
 
 std::vector<ParticipantId> HostSession::on_media(const wire::MediaHeader& header, std::size_t size,
@@ -182,9 +193,8 @@ void HostSession::resynchronise(ParticipantId id) {
     streams_.tell_again(id);
     direct_.tell_again(id);
     room_.send_snapshot(id);
-    cases_.tell(id);
     tell_playback(id);
-    cases_.tell_patient_again(id);
+    cases_.tell_again(id);
     if (participant->may(Right::manage))
         tell_operators();
 }

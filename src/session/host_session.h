@@ -111,13 +111,12 @@ public:
     }
     const HostRoom& room() const { return room_; }
     // See HostRoom::replay().
-    std::vector<ObjectPose> replay_room(const RoomObjects& recorded, TimePoint now) {
-        return room_.replay(recorded, now);
-    }
+    std::vector<ObjectPose> replay_room(const RoomObjects& recorded, TimePoint now);
     // The cases that can be opened from now on, in this order, at most wire::max_offered_cases, and
-    // their patients, as far as they are known.
-    void set_cases(std::vector<CaseFacts> cases, std::vector<wire::Patient> patients = {}) {
-        cases_.set(std::move(cases), std::move(patients));
+    // their patients, as far as they are known, and their content.
+    void set_cases(std::vector<CaseFacts> cases, std::vector<wire::Patient> patients = {},
+                   OfferedCases::Content content = {}) {
+        cases_.set(std::move(cases), std::move(patients), std::move(content));
     }
     // False, and counted, if its role does not allow this.
     bool allow(ParticipantId participant, Right right);
@@ -219,6 +218,7 @@ private:
     static PersonFacts facts_of(const Participant& person);
     void tell_standing(ParticipantId id);
     void tell_operators();
+    void tell_of_own_id(ParticipantId newcomer);
     void tell_playback(ParticipantId id);
     void audit(AuditEvent::What what, ParticipantId id, std::string by = "",
                std::string detail = "");

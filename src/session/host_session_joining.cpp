@@ -19,7 +19,8 @@ void HostSession::join(ParticipantId id, const wire::Join& hello, TimePoint now)
             return refuse(id, wire::as_written(problem));
 
     const Membership::Judged judged = membership_.judge(hello.person, verdict.role, hello.records);
-    if (judged.entry == Membership::Entry::was_removed)
+    if (judged.entry == Membership::Entry::was_removed ||
+        membership_.is_removed_by(hello.person, hello.token))
         return refuse(id, {TextCode::removed_by_operator});
     if (has_ended_ && !may(verdict.role, Right::manage))
         return refuse(id, {TextCode::session_has_ended});
@@ -39,12 +40,15 @@ void HostSession::join(ParticipantId id, const wire::Join& hello, TimePoint now)
     participant.admitted = judged.admitted;
     if (has_ended_)
         begin_again(participant.name);
-    if (!waits)
-        return enter(id, hello);
+    if (!waits) {
+        enter(id, hello);
+        return tell_of_own_id(id);
+    }
     participant.asked = hello;
     audit(AuditEvent::What::waits, id);
     send(id, wire::Waiting{config_.name});
     tell_operators();
+    tell_of_own_id(id);
 }
 
 void HostSession::make_way(const Admission::Replaced& replaced) {
@@ -85,9 +89,8 @@ void HostSession::enter(ParticipantId id, const wire::Join& hello) {
     if (!participant.has(wire::Feature::sends_only))
         room_.join(id, facts_of(participant), participant.has(wire::Feature::room),
                    participant.connected, participant.person);
-    cases_.tell(id);
     tell_playback(id);
-    cases_.tell_patient();
+    cases_.tell_changes();
     if (participant.may(Right::manage))
         tell_operators();
 }

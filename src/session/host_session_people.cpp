@@ -76,10 +76,13 @@ ManageRefusal HostSession::manage(const wire::Manage& decision, ParticipantId by
     if (id == by)
         return ManageRefusal::yourself;
     Participant& person = *found;
-    if (const Participant* decider = admission_.find(by);
-        decider && is_on_person(decision.action) && !person.person.empty() &&
-        person.person == decider->person)
-        return ManageRefusal::yourself;
+    // A stranger may have got hold of the operator's id. So a decision on another connection of
+    // one's own holds for that one alone, and does not shut out the operator at its next join.
+    const Participant* decider = admission_.find(by);
+    const bool is_of_own_id = decider && is_on_person(decision.action) && !person.person.empty() &&
+                              person.person == decider->person;
+    const std::vector<ParticipantId> concerned =
+        is_of_own_id ? std::vector{id} : connections_of(id);
     const bool for_visitors =
         decision.action == ManageAction::admit || decision.action == ManageAction::turn_away;
     if (for_visitors && !person.waits())
@@ -110,10 +113,11 @@ ManageRefusal HostSession::manage(const wire::Manage& decision, ParticipantId by
             break;
         case ManageAction::mute:
         case ManageAction::unmute:
-            for (const ParticipantId own : connections_of(id)) {
+            for (const ParticipantId own : concerned) {
                 Participant& here = *admission_.find(own);
                 here.muted = decision.action == ManageAction::mute;
-                membership_.set_muted(here.person, here.muted);
+                if (!is_of_own_id)
+                    membership_.set_muted(here.person, here.muted);
                 audit(here.muted ? What::muted : What::unmuted, own, by_name);
                 // A visitor gets nothing of the session, and is told on entering.
                 if (!here.waits())
@@ -123,19 +127,24 @@ ManageRefusal HostSession::manage(const wire::Manage& decision, ParticipantId by
         case ManageAction::set_role: {
             // By a link of another role somebody has another task, such as to publish.
             const Role of_link = person.of_link;
-            for (const ParticipantId own : connections_of(id)) {
+            for (const ParticipantId own : concerned) {
                 const Participant& here = *admission_.find(own);
                 if (here.of_link != of_link || here.waits())
                     continue;
+                if (!is_of_own_id)
+                    membership_.set_role(here.person, of_link, decision.role);
                 set_role(own, decision.role);
                 audit(What::role_changed, own, by_name);
             }
             break;
         }
         case ManageAction::remove:
-            for (const ParticipantId own : connections_of(id)) {
+            for (const ParticipantId own : concerned) {
                 const Participant& here = *admission_.find(own);
-                membership_.remove(here.person, here.token);
+                if (!is_of_own_id)
+                    membership_.remove(here.person, here.token);
+                else if (here.token != decider->token)
+                    membership_.remove_by(here.person, here.token);
                 audit(What::removed, own, by_name);
                 refuse(own, {TextCode::removed_by_operator});
             }
@@ -169,7 +178,7 @@ void HostSession::begin_again(const std::string& by) {
     membership_.forget_all();
     admission_.forget_those_who_left();
     room_.clear();
-    cases_.tell_patient();
+    cases_.tell_changes();
     look_back_.clear();
     actions_.push_back(action::Audit{{What::began, {}, "", {}, {}, "", by, config_.name}});
 }
@@ -179,7 +188,6 @@ void HostSession::set_role(ParticipantId id, Role role) {
     const bool could_publish = person.may(Right::publish);
     const bool could_manage = person.may(Right::manage);
     person.role = role;
-    membership_.set_role(person.person, person.of_link, role);
     if (person.records && !person.may(Right::record))
         return refuse(id, {TextCode::observer_records});
     if (!person.may(Right::publish)) {
@@ -197,7 +205,7 @@ void HostSession::set_role(ParticipantId id, Role role) {
         resynchronise(id);
     else
         tell_standing(id);
-    cases_.tell_patient();
+    cases_.tell_changes();
     if (could_manage != person.may(Right::manage))
         tell_operators();
 }
@@ -224,6 +232,20 @@ void HostSession::tell_standing(ParticipantId id) {
     const Participant& person = *admission_.find(id);
     send(id, wire::Standing{person.role, person.muted});
     room_.set_person(id, facts_of(person));
+}
+
+// Another program may have got hold of the id of an operator who is here.
+void HostSession::tell_of_own_id(ParticipantId newcomer) {
+    const Participant& came = *admission_.find(newcomer);
+    for (const auto& [id, there] : admission_.participants())
+        if (id != newcomer && there.may(Right::manage) && !came.person.empty() &&
+            there.person == came.person)
+            send(id, wire::Settings{
+                         {},
+                         wire::as_written("A further program has joined with your own id, as " +
+                                          came.name + " (number " +
+                                          std::to_string(std::uint32_t(newcomer)) +
+                                          "). If it is none of yours, mute or remove it.")});
 }
 
 std::vector<wire::Visitor> HostSession::visitors() const {

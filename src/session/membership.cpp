@@ -60,6 +60,17 @@ void Membership::remove(const Bytes& person, const std::string& token) {
     }
 }
 
+void Membership::remove_by(const Bytes& person, const std::string& token) {
+    Known* known = note(person);
+    if (known && known->removed_by.size() < max_links_kept_out)
+        known->removed_by.insert(token);
+}
+
+bool Membership::is_removed_by(const Bytes& person, const std::string& token) const {
+    const Known* known = find(person);
+    return known && known->removed_by.contains(token);
+}
+
 std::vector<std::string> Membership::tokens_of_removed() const {
     std::vector<std::string> tokens;
     for (const Known& known : known_)

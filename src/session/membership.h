@@ -10,6 +10,7 @@
 #include <deque>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,9 @@ class Membership {
 public:
     // People that are remembered; beyond that the oldest is forgotten.
     static constexpr std::size_t max_known_people = 1024;
+
+    // Links by which one person is kept out, see remove_by(); further ones are not.
+    static constexpr std::size_t max_links_kept_out = 16;
 
     // `asks`: experts and observers wait until an operator admits them.
     explicit Membership(bool asks) : asks_(asks) {}
@@ -46,6 +50,9 @@ public:
     void admit(const Bytes& person, bool records, TimePoint now);
     // `token`: of the link by which the person came.
     void remove(const Bytes& person, const std::string& token);
+    // Keeps out whoever comes as this person by this link, and nobody by another one.
+    void remove_by(const Bytes& person, const std::string& token);
+    bool is_removed_by(const Bytes& person, const std::string& token) const;
     void set_muted(const Bytes& person, bool muted);
     // Holds only if the person comes by a link of the same role again; by one of another role
     // somebody has another task, such as to publish, and another decision.
@@ -63,6 +70,7 @@ private:
         bool removed = false, muted = false;
         std::map<Role, Role> roles;  // by that of the link
         std::string token;           // of a removed one
+        std::set<std::string> removed_by;
     };
     const Known* find(const Bytes& person) const;
     // Null for a person without an id.

@@ -6,28 +6,55 @@
 
 namespace theatron::session {
 
-void OfferedCases::set(std::vector<CaseFacts> cases, std::vector<wire::Patient> patients) {
+void OfferedCases::set(std::vector<CaseFacts> cases, std::vector<wire::Patient> patients,
+                       Content content) {
     room_.set_cases(std::move(cases));
     patients_ = std::move(patients);
-    for (const auto& [id, participant] : admission_.participants())
-        if (participant.takes_part())
-            send(id);
+    content_ = std::move(content);
+    tell_changes();
+}
+
+void OfferedCases::tell_changes() {
+    tell_cases();
     tell_patient();
 }
 
-void OfferedCases::tell(ParticipantId id) {
-    if (!room_.cases().empty())
-        send(id);
+void OfferedCases::tell_cases() {
+    const std::set<ContentHash> shown = room_.shown_cases();
+    wire::OfferedCases of_all, of_shown;
+    for (const CaseFacts& facts : room_.cases()) {
+        const wire::OfferedCase offered{Bytes(facts.id.bytes.begin(), facts.id.bytes.end()),
+                                        facts.name, facts.bytes};
+        of_all.cases.push_back(offered);
+        if (shown.contains(facts.id))
+            of_shown.cases.push_back(offered);
+    }
+    for (const auto& [told, now] : {std::pair(&all_, &of_all), std::pair(&shown_, &of_shown)})
+        if (told->offer.cases != now->cases) {
+            told->offer = std::move(*now);
+            ++told->changes;
+        }
+    for (auto& [id, person] : admission_.participants()) {
+        if (!person.takes_part() || !person.has(wire::Feature::cases))
+            continue;
+        const bool may_open = person.may(Right::handle);
+        const Told& now = may_open ? all_ : shown_;
+        const std::pair newest(may_open, now.changes);
+        const bool knows_none = person.cases == Admission::Participant::no_cases;
+        if (person.cases == newest || (knows_none && now.offer.cases.empty()))
+            continue;
+        person.cases = newest;
+        actions_.push_back(action::Send{id, now.offer});
+    }
 }
 
-void OfferedCases::send(ParticipantId id) {
-    if (!admission_.find(id)->has(wire::Feature::cases))
-        return;
-    wire::OfferedCases offer;
-    for (const CaseFacts& facts : room_.cases())
-        offer.cases.push_back(
-            {Bytes(facts.id.bytes.begin(), facts.id.bytes.end()), facts.name, facts.bytes});
-    actions_.push_back(action::Send{id, std::move(offer)});
+bool OfferedCases::may_have(ParticipantId id, const ContentHash& content) const {
+    if (admission_.find(id)->may(Right::handle))
+        return true;
+    const std::set<ContentHash> shown = room_.shown_cases();
+    return std::any_of(content_.begin(), content_.end(), [&](const auto& of_case) {
+        return shown.contains(of_case.first) && of_case.second.contains(content);
+    });
 }
 
 void OfferedCases::tell_patient() {
@@ -49,9 +76,10 @@ void OfferedCases::tell_patient() {
     }
 }
 
-void OfferedCases::tell_patient_again(ParticipantId id) {
+void OfferedCases::tell_again(ParticipantId id) {
     admission_.find(id)->patient.reset();
-    tell_patient();
+    admission_.find(id)->cases.reset();
+    tell_changes();
 }
 
 }  // namespace theatron::session

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cases that can be opened in a session, and the patient of the open one, who is told to those
-// who may know it and to nobody else.
+// The cases that can be opened in a session, and the patient of the open one. Those who may open
+// cases are told of all and get the content of all; the others those of the case that the room
+// shows. The patient is told to those who may know it. Nobody else learns anything.
 //
 // A pure state machine; `admission`, `room` and `actions` must outlive it.
 #pragma once
 
+#include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -21,24 +24,34 @@ public:
                  std::vector<Action>& actions)
         : roles_(std::move(roles)), admission_(admission), room_(room), actions_(actions) {}
 
-    // The cases from now on, in this order, and their patients, as far as they are known; told to
-    // all.
-    void set(std::vector<CaseFacts> cases, std::vector<wire::Patient> patients);
-    // Tells the participant the cases, if there are any.
-    void tell(ParticipantId participant);
-    // Tells those who may know it what has changed for them, and withdraws it from the others.
-    void tell_patient();
-    // The participant may not have got the newest message.
-    void tell_patient_again(ParticipantId participant);
+    // The hashes of all content of each case, its description's, too; by case.
+    using Content = std::map<ContentHash, std::set<ContentHash>>;
+    // The cases from now on, in this order, and their patients, as far as they are known.
+    void set(std::vector<CaseFacts> cases, std::vector<wire::Patient> patients, Content content);
+    // Tells each participant what has changed for it: call it after each change of the room, of a
+    // role, or of those who are here.
+    void tell_changes();
+    // The participant may not have got the newest messages.
+    void tell_again(ParticipantId participant);
+    // The participant may have this content, as far as there is such content.
+    bool may_have(ParticipantId participant, const ContentHash& content) const;
 
 private:
-    void send(ParticipantId participant);
+    void tell_cases();
+    void tell_patient();
 
     const std::vector<Role> roles_;
     Admission& admission_;
     HostRoom& room_;
     std::vector<Action>& actions_;
     std::vector<wire::Patient> patients_;
+    Content content_;
+    // The lists for those who may open them and for the others, with the numbers of their changes.
+    struct Told {
+        wire::OfferedCases offer;
+        std::uint64_t changes = 0;
+    };
+    Told all_, shown_;
 };
 
 }  // namespace theatron::session

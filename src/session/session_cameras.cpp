@@ -42,7 +42,8 @@ int SessionCameras::free_slot() const {
 }
 
 CameraStreams& SessionCameras::add(ParticipantId publisher, wire::Camera camera,
-                                   const std::string& publisher_name) {
+                                   const std::string& publisher_name,
+                                   const std::string& given_name) {
     assert(has_numbers_for(1));
     camera.id = CameraId(next_camera_++);
     camera.depth_stream = depth_stream(camera.id);
@@ -56,8 +57,9 @@ CameraStreams& SessionCameras::add(ParticipantId publisher, wire::Camera camera,
             .first->second;
     added.slot = slot;
     added.publisher_name = publisher_name;
+    added.given_name = given_name;
     const CameraAdjustment* kept =
-        adjustments_.find(publisher_name, camera.name, added.registered());
+        adjustments_.find(publisher_name, given_name, added.registered());
     if (kept && can_be_adjusted(added, *kept))
         added.adjust(*kept);
     return added;
@@ -129,8 +131,8 @@ wire::ManageRefusal SessionCameras::adjust(CameraId id, const CameraAdjustment& 
     if (!can_be_adjusted(*camera, adjustment))
         return wire::ManageRefusal::beyond_limits;
     camera->adjust(adjustment);
-    adjustments_.keep({camera->publisher_name, camera->description().name, camera->registered(),
-                       camera->adjustment()});
+    adjustments_.keep(
+        {camera->publisher_name, camera->given_name, camera->registered(), camera->adjustment()});
     return wire::ManageRefusal::none;
 }
 

@@ -34,9 +34,9 @@ public:
 
     // Gives a camera its number and its streams; no number is used twice. A camera without a place
     // in the room is put beside the others. One that was adjusted before is so again.
-    // `publisher_name` is empty for the host. Needs has_numbers_for() it.
+    // `publisher_name` and `given_name`: see CameraStreams. Needs has_numbers_for() it.
     CameraStreams& add(ParticipantId publisher, wire::Camera camera,
-                       const std::string& publisher_name);
+                       const std::string& publisher_name, const std::string& given_name);
     // An unknown camera is skipped.
     void remove(CameraId camera) { cameras_.erase(camera); }
 

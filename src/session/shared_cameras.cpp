@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/shown_name.h"
 #include "geometry/calibration.h"
 #include "geometry/screen.h"
 #include "session/audit_action.h"
+#include "session/audit_event.h"
 #include "session/camera_offer.h"
+#include "wire/condition_text.h"
 
 namespace theatron::session {
 using wire::TextCode;
@@ -36,11 +39,39 @@ void SharedCameras::publish(ParticipantId id, const wire::Publish& offer) {
         actions_.push_back(audit_of(AuditEvent::What::shared, id, publisher, "", camera.name));
     const std::vector<PlacedScreen> screens =
         place_screens({id, publisher.name, publisher.person, {}, {}}, cameras, Placing::all);
-    streams_.add(id, std::move(cameras), publisher.given_name);
+    std::vector<std::string> given_names;
+    for (const wire::Camera& camera : cameras)
+        given_names.push_back(camera.name);
+    name_cameras(id, cameras);
+    streams_.add(id, std::move(cameras), publisher.given_name, given_names);
     for (const PlacedScreen& screen : screens)
         room_.add_screen(screen.camera, screen.offer, screen.chosen);
     take_media(id);
     set_budgets();
+}
+
+// As people's names are told apart. Not from those of the same person, whose earlier connection may
+// still be there.
+void SharedCameras::name_cameras(ParticipantId id, std::vector<wire::Camera>& cameras) const {
+    const Admission::Participant& publisher = *admission_.find(id);
+    std::vector<std::string> others{at_the_host};
+    for (const auto& [number, camera] : streams_.cameras()) {
+        const Admission::Participant* of = admission_.find(camera.publisher());
+        const bool is_own = camera.publisher() == id ||
+                            (of && !of->person.empty() && of->person == publisher.person);
+        if (!is_own && !camera.is_face())
+            others.push_back(camera.description().name);
+    }
+    std::vector<std::string> facts{"host", "recorded", "now", "Gastgeber", "jetzt"};
+    for (int i = 0; i <= int(wire::CameraCondition::failed); ++i)
+        facts.push_back(wire::text_of(wire::CameraCondition(i)));
+    for (wire::Camera& camera : cameras) {
+        // It is shown with the person.
+        if (camera.frame == wire::CameraFrame::face)
+            continue;
+        const std::string name = person_name(camera.name, facts, wire::max_name);
+        camera.name = told_apart(name.empty() ? "camera" : name, others, wire::max_name);
+    }
 }
 
 std::vector<SharedCameras::PlacedScreen> SharedCameras::place_screens(

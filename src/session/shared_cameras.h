@@ -73,6 +73,7 @@ private:
     std::vector<PlacedScreen> place_screens(const ScreenOffer& offer,
                                             std::vector<wire::Camera>& cameras,
                                             Placing which) const;
+    void name_cameras(ParticipantId publisher, std::vector<wire::Camera>& cameras) const;
     void take_media(ParticipantId publisher);
     bool lets_face_through(Admission::Participant& publisher, const CameraStreams& camera,
                            const wire::MediaHeader& header, std::size_t size, TimePoint now);

@@ -10,10 +10,12 @@ namespace theatron::session {
 // Cameras.
 
 void Streams::add(ParticipantId publisher, std::vector<wire::Camera> cameras,
-                  const std::string& publisher_name) {
+                  const std::string& publisher_name, const std::vector<std::string>& given_names) {
     std::vector<const CameraStreams*> added;
-    for (wire::Camera& description : cameras) {
-        CameraStreams& camera = cameras_.add(publisher, std::move(description), publisher_name);
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+        const std::string given_name = given_names.empty() ? cameras[i].name : given_names[i];
+        CameraStreams& camera =
+            cameras_.add(publisher, std::move(cameras[i]), publisher_name, given_name);
         added.push_back(&camera);
         for (auto& [id, receiver] : receivers_)
             if (receiver.gets(camera, id)) {

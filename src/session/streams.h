@@ -43,8 +43,10 @@ public:
     Streams& operator=(const Streams&) = delete;
 
     // Adds cameras (SessionCameras::add()) and tells those who see them.
+    // `given_names`: those that have another name now; empty: none have.
     void add(ParticipantId publisher, std::vector<wire::Camera> cameras,
-             const std::string& publisher_name = "");
+             const std::string& publisher_name = "",
+             const std::vector<std::string>& given_names = {});
     // Unknown cameras are skipped.
     void remove(const std::vector<CameraId>& cameras);
     const SessionCameras& cameras() const { return cameras_; }

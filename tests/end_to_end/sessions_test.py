@@ -5,6 +5,7 @@ import json
 import os
 import pathlib
 import shutil
+import socket
 import struct
 import tempfile
 import unittest
@@ -71,6 +72,16 @@ class Sessions(unittest.TestCase):
     def audited(self):
         with open(self.state / "audit.jsonl") as file:
             return [json.loads(line) for line in file]
+
+    def test_a_session_with_a_silent_camera_holds_up_no_other(self):
+        with socket.create_server(("127.0.0.1", 0)) as silent, self.start("--session", "OR 3", "--camera", self.table):
+            with Process("session", "create", "slow", "--state", self.state, "--camera",
+                         f"rtsp://127.0.0.1:{silent.getsockname()[1]}/live") as slow:
+                with silent.accept()[0]:
+                    self.command("session", "create", "quick", "--camera", self.lamp)
+                    told = {one["name"]: one["state"] for one in self.command("session", "list")}
+                    self.assertEqual((told["quick"], told["slow"]), ("open", "opening"))
+                    self.assertIsNone(slow.process.poll(), "its camera has not answered")
 
     def test_two_sessions_know_nothing_of_each_other(self):
         with contextlib.ExitStack() as stack:

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// When a receiver may connect to a publisher again. It belongs to the publisher, whatever grants
+// for it come and go: else each new one would be an attempt at once. Time is passed in.
+#pragma once
+
+#include <algorithm>
+
+#include "base/time.h"
+
+namespace theatron::session {
+
+class DirectPace {
+public:
+    static constexpr Duration first_pause = std::chrono::seconds(1);
+    static constexpr Duration longest_pause = std::chrono::seconds(30);
+
+    // The time until the next attempt.
+    Duration wait(TimePoint now) const { return std::max(next_ - now, Duration(0)); }
+    void on_attempt(TimePoint now) {
+        next_ = now + pause_;
+        last_ = pause_;
+        pause_ = std::min(2 * pause_, longest_pause);
+    }
+    // The attempt, or the connection that it led to, is over; `proven`: that one had lasted.
+    void on_end(TimePoint now, bool proven) {
+        if (proven) {
+            last_ = first_pause;
+            pause_ = 2 * first_pause;
+        }
+        next_ = now + last_;
+    }
+    // Nothing is lost with it any more.
+    bool is_over(TimePoint now) const { return now - next_ > longest_pause; }
+
+private:
+    TimePoint next_;
+    Duration pause_ = first_pause, last_ = first_pause;
+};
+
+}  // namespace theatron::session
