@@ -2,11 +2,13 @@
 #include "people_lines.h"
 
 #include <algorithm>
+#include <charconv>
 #include <sstream>
 
 #include "base/error.h"
 #include "base/log.h"
 #include "session/room_bytes.h"
+#include "wire/clear_objects.h"
 #include "wire/manage_text.h"
 
 namespace theatron::app {
@@ -17,10 +19,10 @@ using wire::ManageAction;
 constexpr struct {
     const char* word;
     ManageAction action;
-} commands[] = {{"admit", ManageAction::admit},       {"refuse", ManageAction::turn_away},
-                {"mute", ManageAction::mute},         {"unmute", ManageAction::unmute},
-                {"role", ManageAction::set_role},     {"remove", ManageAction::remove},
-                {"revoke", ManageAction::revoke_link}};
+} commands[] = {{"admit", ManageAction::admit},        {"refuse", ManageAction::turn_away},
+                {"mute", ManageAction::mute},          {"unmute", ManageAction::unmute},
+                {"role", ManageAction::set_role},      {"remove", ManageAction::remove},
+                {"revoke", ManageAction::revoke_link}, {"clear", wire::clear_objects}};
 
 std::string trimmed(const std::string& text) {
     const auto begin = text.find_first_not_of(' ');
@@ -68,12 +70,35 @@ ParticipantId find_person(const std::string& who, const std::vector<SomePerson>&
     return found.front()->id;
 }
 
+// Objects stay when their author has left. "earlier": of people before the host was started.
+std::optional<ParticipantId> number_of_author(const std::string& who) {
+    if (who == "earlier")
+        return ParticipantId{};
+    std::uint32_t number = 0;
+    const char* const end = who.data() + who.size();
+    if (who.size() < 2 || who[0] != '#')
+        return std::nullopt;
+    const auto [at, problem] = std::from_chars(who.data() + 1, end, number);
+    if (problem != std::errc() || at != end || number == 0)
+        return std::nullopt;
+    return ParticipantId(number);
+}
+
+// Removing a person leaves what it has made.
+void offer_to_clear(const PersonDecision& decision) {
+    if (decision.action == ManageAction::remove)
+        log::say("What that person has made in the room stays; 'clear #" +
+                 std::to_string(std::uint32_t(decision.person)) + "' removes it, too.");
+}
+
 template <class Carry>
 bool obey(const std::string& line, const std::vector<SomePerson>& people, const Carry& carry_out) {
     try {
         const auto decision = parse_people_line(line, people);
-        if (decision)
+        if (decision) {
             carry_out(*decision);
+            offer_to_clear(*decision);
+        }
         return decision.has_value();
     } catch (const Error& error) {
         log::say(error.what());
@@ -85,7 +110,9 @@ bool obey(const std::string& line, const std::vector<SomePerson>& people, const 
 
 const char* people_help() {
     return "'admit NAME', 'refuse NAME', 'mute NAME', 'unmute NAME', 'role NAME ROLE',\n"
-           "'remove NAME', 'revoke NAME' (the link by which that person came), 'end session'";
+           "'remove NAME', 'revoke NAME' (the link by which that person came), 'clear NAME' (what\n"
+           "that person has made in the room; 'clear #7' also of somebody who has left, 'clear\n"
+           "earlier' of people before the host was started), 'end session'";
 }
 
 std::optional<PersonDecision> parse_people_line(const std::string& line,
@@ -113,6 +140,11 @@ std::optional<PersonDecision> parse_people_line(const std::string& line,
     }
     if (who.empty())
         throw Error("Say '" + word + " NAME'.");
+    if (decision.action == wire::clear_objects)
+        if (const auto number = number_of_author(who)) {
+            decision.person = *number;
+            return decision;
+        }
     const bool at_the_door =
         decision.action == ManageAction::admit || decision.action == ManageAction::turn_away;
     decision.person = find_person(who, people, at_the_door);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "wire/clear_objects.h"
 
 namespace theatron::app {
 namespace {
@@ -45,6 +46,15 @@ TEST(PeopleLines, TakeTheOneAtTheDoorForAdmissionAndTheOneInsideForTheRest) {
     EXPECT_EQ(parsed("refuse Ben").action, ManageAction::turn_away);
     EXPECT_EQ(parsed("mute Ben").person, ParticipantId{2});
     EXPECT_EQ(parsed("remove #3").person, ParticipantId{3});
+}
+
+TEST(PeopleLines, ClearWhatSomebodyMadeWhoMayHaveLeft) {
+    EXPECT_EQ(parsed("clear Dr. Ada").action, wire::clear_objects);
+    EXPECT_EQ(parsed("clear Dr. Ada").person, ParticipantId{1});
+    EXPECT_EQ(parsed("clear #77").person, ParticipantId{77});
+    EXPECT_EQ(parsed("clear earlier").person, ParticipantId{});
+    EXPECT_THAT(problem_of("clear Zoe"), HasSubstr("no 'Zoe' here"));
+    EXPECT_THAT(problem_of("clear #0"), HasSubstr("no '#0' here"));
 }
 
 TEST(PeopleLines, SayWhoIsMeantWhereANameFitsTwoOrNobody) {

@@ -392,8 +392,9 @@ void Host::Impl::take_state(net::PeerId peer, const wire::State& state) {
 }
 
 void Host::Impl::end_flood(net::PeerId peer, const std::string& why) {
-    server->send_control(peer, wire::encode(wire::refused({wire::TextCode::too_many_requests})));
-    server->close(peer, why);
+    log::warning("host", "participant is cut off", {{"id", int(peer)}, {"why", why}});
+    session->end_flood(ParticipantId(std::uint32_t(peer)), steady_now());
+    carry_out();
 }
 
 // A grab does not wait for the tick of people's poses.

@@ -28,6 +28,7 @@
 #include "host/thumbnail.h"
 #include "send/color_watch.h"
 #include "send/media_queue.h"
+#include "session/audit_budget.h"
 #include "session/host_session.h"
 #include "session/pose_board.h"
 #include "session/voice_floor.h"
@@ -46,12 +47,11 @@ struct Host::Impl {
     std::atomic<std::uint64_t> links_applied = 0;  // the newest that the session knows
     std::string metrics_token;
     bool asks = false;
-    bool has_ended = false;                       // the session, before the host did
-    bool ends_by_host = false;                    // as in Host
-    std::string in_logs;                          // the session's name; empty: the first one
-    std::unique_ptr<SessionAudit> audit;          // may be null
-    session::TokenBucket audited{1, 500};         // events; server's thread
-    session::TokenBucket audited_knocks{1, 500};  // of people who wait; likewise
+    bool has_ended = false;               // the session, before the host did
+    bool ends_by_host = false;            // as in Host
+    std::string in_logs;                  // the session's name; empty: the first one
+    std::unique_ptr<SessionAudit> audit;  // may be null
+    session::AuditBudget audited;         // server's thread
     std::unique_ptr<session::HostSession> session;
     std::unique_ptr<SessionPort> server;
     capture::CameraPlaces places;  // does not change once lanes run

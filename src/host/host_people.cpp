@@ -127,8 +127,7 @@ void Host::Impl::carry_out(const session::action::Audit& a) {
     const std::string address = found == addresses.end() ? "" : found->second;
     const bool is_decision = !event.by.empty();
     const bool knocks = event.what == What::waits;
-    session::TokenBucket& budget = knocks ? audited_knocks : audited;
-    if (audit && (is_decision || budget.take(steady_now())))
+    if (audit && (is_decision || audited.take(event.link, event.person, steady_now())))
         audit->add(event, address);
     else if (audit)
         audit->leave_out(event.what);

@@ -222,12 +222,15 @@ void Connection::read() {
                 if (error)
                     return self->finish(self->only_reads_ ? self->closing_ : describe(error));
                 const auto data = self->incoming_.cdata();
-                if (self->only_reads_)
-                    self->discard(data.size());
-                else
+                if (!self->closing_.empty())
+                    self->late_bytes_ += data.size();
+                if (!self->only_reads_)
                     self->take({static_cast<const std::byte*>(data.data()), data.size()});
                 self->incoming_.consume(self->incoming_.size());
-                if (!self->finished_)
+                if (!self->only_reads_ && self->late_bytes_ > max_last_bytes)
+                    self->finish(self->closing_);
+                const bool is_flood = self->only_reads_ && self->late_bytes_ > max_discarded_bytes;
+                if (!self->finished_ && !is_flood)
                     self->read();
             });
         });
@@ -281,12 +284,6 @@ void Connection::bid_farewell() {
         if (!error)
             self->end(self->closing_);
     });
-}
-
-void Connection::discard(std::size_t bytes) {
-    discarded_ += bytes;
-    if (discarded_ > max_discarded_bytes)
-        finish(closing_);
 }
 
 void Connection::finish(const std::string& why) {

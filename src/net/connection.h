@@ -39,9 +39,12 @@ void configure(WebSocket& socket);
 
 class Connection : public std::enable_shared_from_this<Connection> {
 public:
-    // Waiting for a peer to close, and bytes from it that are discarded meanwhile.
+    // Waiting for a peer to close, and bytes from it that are discarded meanwhile; then nothing
+    // more is read of it.
     static constexpr Duration max_farewell = std::chrono::milliseconds(500);
-    static constexpr std::size_t max_discarded_bytes = std::size_t(4) << 20;
+    static constexpr std::size_t max_discarded_bytes = std::size_t(64) << 10;
+    // Bytes from a peer that does not take its last control messages; then the connection ends.
+    static constexpr std::size_t max_last_bytes = std::size_t(4) << 20;
 
     // Called on the io thread. After `closed` nothing is called any more. A call that throws
     // costs the connection. All but `control`, `closed` and `now` may be empty.
@@ -87,9 +90,8 @@ public:
     void look();
 
     // Sends the control messages that are queued, then closes as soon as the peer has closed too,
-    // or after a short time. Meanwhile its messages are discarded: if they stayed unread, the
-    // system would reset the connection and the peer could lose what was sent last. `closed` is
-    // called with `why`.
+    // or after a short time, in which the peer can read what was sent last. Meanwhile a few of its
+    // messages are discarded, and a flood of them is not read. `closed` is called with `why`.
     void close(const std::string& why);
     void end(const std::string& why);  // at once
     void abandon();                    // at once, without calling `closed`
@@ -103,7 +105,6 @@ private:
     void write();
     void write_later(TimePoint then);
     void bid_farewell();
-    void discard(std::size_t bytes);
     void finish(const std::string& why);
 
     // An exception from `work` ends this connection only.
@@ -127,9 +128,9 @@ private:
     Bytes outgoing_;
     bool writing_ = false;
     bool finished_ = false;
-    std::string closing_;      // not empty: close after the control that is queued
-    bool only_reads_ = false;  // that control has been sent
-    std::size_t discarded_ = 0;
+    std::string closing_;         // not empty: close after the control that is queued
+    bool only_reads_ = false;     // that control has been sent
+    std::size_t late_bytes_ = 0;  // from the peer since close()
 };
 
 }  // namespace theatron::net

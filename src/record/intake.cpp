@@ -130,7 +130,13 @@ bool Intake::take(const wire::MediaHeader& header, std::shared_ptr<const Bytes> 
     if (!problem_.empty() || found == entries_.end())
         return false;
     Entry& entry = found->second;
-    if (!change_ && begins_segment(entry, header)) {
+    if (must_wait(header, now.local)) {
+        if (!std::exchange(entry.is_left_out, true))
+            ++entry.stream.interruptions;
+        entry.heard = now.local;
+        return false;
+    }
+    if (!change_ && begins_segment(entry, header, now.local)) {
         const bool is_first = !recorder_ || (pending_ && pending_->new_connection);
         Description next = pending_ ? *std::exchange(pending_, std::nullopt) : present();
         if (!is_first)
@@ -161,12 +167,28 @@ Intake::Description Intake::present() const {
 }
 
 // True if this frame is the first of a new segment.
-bool Intake::begins_segment(const Entry& entry, const wire::MediaHeader& header) const {
+bool Intake::begins_segment(const Entry& entry, const wire::MediaHeader& header,
+                            TimePoint now) const {
     if (is_of(current_, header))
-        return (wants_segment_ || is_described_anew()) && header.key && can_begin_with(entry) &&
-               (!pending_ || is_of(*pending_, header));
+        return (wants_segment_ || is_described_anew() || lacks_voice_lanes()) && header.key &&
+               can_begin_with(entry) && (!pending_ || is_of(*pending_, header)) &&
+               may_begin_segment(now);
     // Frames of an older setting were in flight when it changed; they are not recorded.
     return header.key && pending_ && is_of(*pending_, header);
+}
+
+// A new connection has another clock, and what goes into a file that is not at its name may be
+// lost: these do not wait.
+bool Intake::may_begin_segment(TimePoint now) const {
+    return !recorder_ || wants_segment_ || (pending_ && pending_->new_connection) ||
+           pace_.may_begin(now);
+}
+
+// True if the frame belongs to a segment that must not begin yet: its camera may be another one
+// than that of the present segment with the same number.
+bool Intake::must_wait(const wire::MediaHeader& header, TimePoint now) const {
+    return !change_ && pending_ && !is_of(current_, header) && is_of(*pending_, header) &&
+           !may_begin_segment(now);
 }
 
 // Takes a message of the segment that has begun.
@@ -215,7 +237,7 @@ bool Intake::room_begins_segment(TimePoint now) const {
     if (!pending_)
         return false;
     if (pending_->cameras.empty())
-        return now - waits_since_ >= camera_patience;
+        return now - waits_since_ >= camera_patience && may_begin_segment(now);
     return now - waits_since_ >= picture_patience && (!recorder_ || pending_->new_connection);
 }
 
@@ -238,18 +260,23 @@ bool Intake::begin(Description description, TimePoint captured, const Now& now,
     if (age > Duration(0) && age < oldest_beginning)
         clock = {captured, clock.utc - age};
     try {
-        if (!recorder_)
+        if (!recorder_) {
             recorder_ = std::make_unique<Recorder>(file_, description.cameras, clock, options_,
                                                    voice_tracks());
-        else
+        } else {
             recorder_->begin_segment(description.cameras, clock, voice_tracks());
+            if (!description.new_connection && !wants_segment_)
+                pace_.begin(now.local);
+        }
     } catch (const std::exception& e) {
         problem_ = e.what();
         return false;
     }
     // Each segment must be readable alone, so all streams begin with a key frame.
-    for (auto& [id, entry] : entries_)
+    for (auto& [id, entry] : entries_) {
         entry.gate.close();
+        entry.is_left_out = entry.said_left_out = false;
+    }
     current_ = std::move(description);
     // Times of pictures may have any value.
     begin_voices(
@@ -342,6 +369,12 @@ std::vector<std::string> Intake::news(TimePoint now) {
     for (auto& [id, entry] : entries_) {
         if (held_up)
             entry.heard = now;
+        if (entry.is_left_out && !std::exchange(entry.said_left_out, true))
+            sentences.push_back("Pictures of " + name_of(entry.stream) +
+                                " are left out for up to " +
+                                std::to_string(SegmentPace::longest_wait / 1s) +
+                                " s: cameras come and go so often that the recording would get "
+                                "too many files.");
         const bool silent = !entry.ended && now - entry.heard > entry.patience;
         if (silent && !entry.silent)
             sentences.push_back(
@@ -364,6 +397,10 @@ std::vector<std::string> Intake::news(TimePoint now) {
     // Pictures that waited for the recorder meanwhile came all at once.
     if (held_up)
         disk_judged_from_ = now + late_disk;
+    if (recorder_ && recorder_->figures().is_in_last_file && !std::exchange(said_last_file_, true))
+        sentences.push_back(
+            "The recording has as many files as it can have and goes on in the "
+            "last one, without cameras that are not in it; begin another one.");
     if (recorder_ && now >= disk_judged_from_) {
         const Recorder::Figures figures = recorder_->figures();
         const bool late = figures.late > late_disk;

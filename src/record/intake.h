@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "record/recorder.h"
+#include "record/segment_pace.h"
 #include "record/stream_gate.h"
 #include "record/voice_track.h"
 
@@ -56,6 +57,9 @@ public:
     // one held_share of the recorder's buffer: no stream loses a frame because another changes.
     // With `new_connection` the session's clock and all numbers may be new, and nothing is held
     // back. From any thread, in order with take().
+    //
+    // Segments of one connection begin at SegmentPace: until the next one may, the streams that the
+    // present one does not have are left out, which counts as an interruption of each.
     static constexpr Duration change_patience = std::chrono::seconds(2);
     static constexpr std::size_t held_share = 4;
     void describe(std::vector<RecordedCamera> cameras, std::map<StreamId, SettingId> settings,
@@ -74,9 +78,12 @@ public:
     [[nodiscard]] bool take_room(ByteView part, bool key, TimePoint begin, const Now& now);
 
     // The people who agree that their voices are recorded, all of them. Each segment has a track
-    // for each of those of its beginning, and spare_voices for people who agree later. When these
-    // are used up, a segment begins with the next key frame. From any thread.
-    static constexpr std::size_t spare_voices = 4;
+    // for each of those of its beginning, and spare_voices for people who agree later; who agrees
+    // no longer, or has left, gives the track back, at best to somebody of the same name, since a
+    // person who comes back has another number. Only where more people agree at the same time than
+    // there are tracks, a segment begins with the next key frame. None has fewer tracks than the
+    // one before, so those who come and go make no segments. From any thread.
+    static constexpr std::size_t spare_voices = 8;
     void describe_voices(std::vector<RecordedVoice> voices);
     // The host withholds the packets of this person, who is muted or may not speak: they do not
     // count as missing.
@@ -147,6 +154,7 @@ private:
         TimePoint heard;                    // of it, or of its description
         std::optional<TimePoint> captured;  // the last one recorded, in session time
         bool ended = false, silent = false;
+        bool is_left_out = false, said_left_out = false;  // until the next segment
         bool has_left = false;   // it was not described once, after it had been
         std::uint64_t said = 0;  // pictures that were reported as missing
     };
@@ -188,7 +196,9 @@ private:
                           const std::vector<RecordedCamera>& all);
     static bool is_of(const Description& description, const wire::MediaHeader& header);
     Description present() const;
-    bool begins_segment(const Entry& entry, const wire::MediaHeader& header) const;
+    bool begins_segment(const Entry& entry, const wire::MediaHeader& header, TimePoint now) const;
+    bool may_begin_segment(TimePoint now) const;
+    bool must_wait(const wire::MediaHeader& header, TimePoint now) const;
     void begin_change(Description next, TimePoint now);
     bool belongs_to_next(const Entry& entry, const wire::MediaHeader& header);
     bool is_awaited(StreamId stream) const;
@@ -200,11 +210,13 @@ private:
              const std::string& filters, const Now& now);
 
     std::vector<VoiceTrack> voice_tracks() const;
+    bool is_free(const VoiceLane& lane) const;
+    bool lacks_voice_lanes() const;
+    void keep_figures(const VoiceLane& lane);
     void begin_voices(TimePoint begin);
     VoiceLane* voice_lane_of(ParticipantId person);
     void add_voice(std::size_t lane, const VoiceSequence::Block& block, TimePoint now);
     void fill_voices(TimePoint until, TimePoint now);
-    void keep_voice_figures();
     bool begin(Description description, TimePoint captured, const Now& now,
                std::optional<TimePoint> voices_begin = {});
     bool keeps() const;
@@ -229,7 +241,9 @@ private:
     // Parts of the room and voices since session time kept_from_, for the segment of pending_.
     std::vector<std::function<void()>> kept_;
     TimePoint kept_from_;
-    bool wants_segment_ = false;
+    bool wants_segment_ = false;  // since the last file is not at its name
+    SegmentPace pace_;
+    bool said_last_file_ = false;
     TimePoint looked_, said_;
     TimePoint disk_judged_from_;
     bool disk_is_late_ = false;

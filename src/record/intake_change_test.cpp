@@ -333,6 +333,75 @@ TEST_F(IntakeChange, CamerasThatComeAndGoOneAfterTheOtherCostNoFrame) {
         EXPECT_EQ(numbers(recording->cameras().at(std::size_t(id)).depth), count_to(2)) << id;
 }
 
+TEST_F(IntakeChange, CamerasThatComeAndGoAllTheTimeMakeFewSegments) {
+    begin_with_left();
+    for (int i = 0; i < 600; ++i) {
+        const int id = 1 + i % 6;
+        senders_[depth_stream(CameraId{std::uint8_t(id)})] = {};
+        describe({camera(0, "left"), camera(id, "guest " + std::to_string(i))});
+        run(3, {left_, depth_stream(CameraId{std::uint8_t(id)})});
+        right_leaves();
+        run(1, {left_});
+    }
+    run(20, {left_});
+    for (const Intake::Stream& stream : intake_.streams(local_))
+        if (stream.id == left_)
+            EXPECT_TRUE(stream.complete());
+        else
+            EXPECT_FALSE(stream.complete()) << "what is left out is told";
+    const auto news = intake_.news(local_);
+    EXPECT_TRUE(std::any_of(news.begin(), news.end(), [](const std::string& sentence) {
+        return sentence.find("too many files") != std::string::npos;
+    }));
+    const auto recording = recorded();
+    EXPECT_LE(recording->segments().size(), 1u + SegmentPace::at_once + 4);
+    EXPECT_EQ(numbers(recording->cameras().at(0).depth), count_to(20 + 600 * 4 + 20));
+}
+
+// The number of the recording that the left out camera has was that of another one.
+TEST_F(IntakeChange, ACameraThatWaitsForItsSegmentIsNotTakenForTheOneBefore) {
+    begin_with_left();
+    for (int i = 0; i <= SegmentPace::at_once; ++i) {
+        senders_[right_] = {};
+        RecordedCamera guest = camera(1, "guest");
+        guest.calibration = Bytes(std::size_t(i + 1));
+        describe({camera(0, "left"), guest});
+        run(10, {left_, right_});
+    }
+    const auto frames = [&](const RecordingFile& recording) {
+        return recording.cameras().at(1).depth.frames.size();
+    };
+    EXPECT_EQ(frames(*recorded()), std::size_t(SegmentPace::at_once) * 10);
+}
+
+TEST_F(IntakeChange, ACameraThatWaitedIsRecordedFromTheNextSegmentOn) {
+    begin_with_left();
+    for (int i = 0; i <= SegmentPace::at_once; ++i) {
+        senders_[right_] = {};
+        RecordedCamera guest = camera(1, "guest");
+        guest.calibration = Bytes(std::size_t(i + 1));
+        describe({camera(0, "left"), guest});
+        run(10, {left_, right_});
+    }
+    run(int(SegmentPace::first_wait / spacing) + 60, {left_, right_});
+    const auto recording = recorded();
+    EXPECT_EQ(recording->segments().size(), 2u + SegmentPace::at_once);
+    EXPECT_GT(recording->cameras().at(1).depth.frames.size(),
+              std::size_t(SegmentPace::at_once) * 10 + 20);
+    EXPECT_EQ(recording->cameras().at(1).parts.back().calibration,
+              Bytes(std::size_t(SegmentPace::at_once + 1)));
+}
+
+TEST_F(IntakeChange, ALostConnectionBeginsItsSegmentHoweverMany) {
+    begin_with_left();
+    for (int i = 0; i < 3 * SegmentPace::at_once; ++i) {
+        senders_[left_] = {};
+        describe({camera(0, "left")}, true);
+        run(5, {left_});
+    }
+    EXPECT_EQ(recorded()->segments().size(), 1u + 3 * SegmentPace::at_once);
+}
+
 TEST_F(IntakeChange, ARecorderThatStoodStillTakesWhatWaitsFirst) {
     begin_with_left();
     right_joins();

@@ -19,19 +19,30 @@ bool names(const std::vector<RecordedVoice>& voices, ParticipantId person) {
 void Intake::describe_voices(std::vector<RecordedVoice> voices) {
     const std::lock_guard lock(mutex_);
     agreed_ = std::move(voices);
-    if (agreed_.size() > max_voice_tracks - spare_voices)
-        agreed_.resize(max_voice_tracks - spare_voices);
+    if (agreed_.size() > max_voice_tracks)
+        agreed_.resize(max_voice_tracks);
     for (VoiceLane& lane : voices_)
-        if (lane.person && !names(agreed_, *lane.person))
+        if (lane.person && is_free(lane))
             lane.sequence.interrupt();
-    if (!recorder_ || !problem_.empty() || wants_segment_)
+    if (!recorder_ || !problem_.empty())
         return;
-    const auto has_lane = [&](const RecordedVoice& voice) { return voice_lane_of(voice.person); };
-    if (std::all_of(agreed_.begin(), agreed_.end(), has_lane))
+    const bool lacked = lacks_voice_lanes();
+    for (const RecordedVoice& voice : agreed_)
+        (void)voice_lane_of(voice.person);
+    if (!lacked)
         return;
-    wants_segment_ = true;
     for (auto& [id, entry] : entries_)
         entry.gate.want_key();
+}
+
+bool Intake::is_free(const VoiceLane& lane) const {
+    return !lane.person || !names(agreed_, *lane.person);
+}
+
+// More people agree than the segment has tracks.
+bool Intake::lacks_voice_lanes() const {
+    return recorder_ && agreed_.size() > voices_.size() && voices_.size() < max_voice_tracks &&
+           options_.has_room;
 }
 
 void Intake::interrupt_voice(ParticipantId person) {
@@ -45,31 +56,33 @@ std::vector<VoiceTrack> Intake::voice_tracks() const {
     std::vector<VoiceTrack> tracks;
     if (!options_.has_room)
         return tracks;  // no session, nobody speaks
-    for (std::size_t i = 0; i < agreed_.size() + spare_voices; ++i)
+    const std::size_t count =
+        std::min(std::max(agreed_.size() + spare_voices, voices_.size()), max_voice_tracks);
+    for (std::size_t i = 0; i < count; ++i)
         tracks.push_back({track_number(voice_stream(i)),
                           i < agreed_.size() ? agreed_[i].name : "voice " + std::to_string(i + 1)});
     return tracks;
 }
 
-// The figures of the segment that ends.
-void Intake::keep_voice_figures() {
-    for (const VoiceLane& lane : voices_) {
-        const VoiceSequence::Figures& figures = lane.sequence.figures();
-        if (!lane.person || figures.packets + figures.left_out == 0)
-            continue;
-        Voice& voice = spoken_[*lane.person];
-        voice.who = {*lane.person, name_in(lane.note)};
-        voice.figures.packets += figures.packets;
-        voice.figures.missing += figures.missing;
-        voice.figures.left_out += figures.left_out;
-    }
+// Those of the person who has the lane until now.
+void Intake::keep_figures(const VoiceLane& lane) {
+    const VoiceSequence::Figures& figures = lane.sequence.figures();
+    if (!lane.person || figures.packets + figures.left_out == 0)
+        return;
+    Voice& voice = spoken_[*lane.person];
+    voice.who = {*lane.person, name_in(lane.note)};
+    voice.figures.packets += figures.packets;
+    voice.figures.missing += figures.missing;
+    voice.figures.left_out += figures.left_out;
 }
 
 void Intake::begin_voices(TimePoint begin) {
-    keep_voice_figures();
+    for (const VoiceLane& lane : voices_)
+        keep_figures(lane);
+    const std::size_t tracks = voice_tracks().size();
     voices_.clear();
     filled_until_ = begin;
-    for (std::size_t i = 0; i < voice_tracks().size(); ++i) {
+    for (std::size_t i = 0; i < tracks; ++i) {
         voices_.push_back({std::nullopt, "", VoiceSequence(begin)});
         if (i < agreed_.size()) {
             voices_[i].person = agreed_[i].person;
@@ -78,20 +91,33 @@ void Intake::begin_voices(TimePoint begin) {
     }
 }
 
-// The lane of a person who agreed, a spare one if there is none yet; null if all are given out.
+// The lane of a person who agreed; null if there are more such people than lanes. A new person gets
+// the lane of somebody of the same name who has left, else one that nobody had, else a free one.
 Intake::VoiceLane* Intake::voice_lane_of(ParticipantId person) {
     for (VoiceLane& lane : voices_)
         if (lane.person == person)
             return &lane;
     const auto who = std::find_if(agreed_.begin(), agreed_.end(),
                                   [&](const RecordedVoice& v) { return v.person == person; });
-    const auto free = std::find_if(voices_.begin(), voices_.end(),
-                                   [](const VoiceLane& lane) { return !lane.person; });
-    if (who == agreed_.end() || free == voices_.end())
+    if (who == agreed_.end())
         return nullptr;
-    free->person = person;
-    free->note = speaker_note(*who);
-    return &*free;
+    const auto of_name = [&](const VoiceLane& lane) {
+        return lane.person && is_free(lane) && name_in(lane.note) == who->name;
+    };
+    const auto of_nobody = [](const VoiceLane& lane) { return !lane.person; };
+    auto found = std::find_if(voices_.begin(), voices_.end(), of_name);
+    if (found == voices_.end())
+        found = std::find_if(voices_.begin(), voices_.end(), of_nobody);
+    if (found == voices_.end())
+        found = std::find_if(voices_.begin(), voices_.end(),
+                             [&](const VoiceLane& lane) { return is_free(lane); });
+    if (found == voices_.end())
+        return nullptr;
+    keep_figures(*found);
+    found->sequence.begin_speaker();
+    found->person = person;
+    found->note = speaker_note(*who);
+    return &*found;
 }
 
 void Intake::take_voice(ParticipantId person, const VoicePacket& packet, TimePoint now) {

@@ -146,6 +146,63 @@ TEST_F(RecordedVoices, PeopleWhoAgreeLaterGetSpareTracksThenASegmentBegins) {
     EXPECT_TRUE(recording->complete());
 }
 
+// One guest after the other comes, agrees, says something and goes.
+TEST_F(RecordedVoices, PeopleWhoComeAndGoMakeNoSegments) {
+    intake_.describe_voices({people[0]});
+    pictures(0, 10);
+    constexpr int guests = 60;
+    for (int i = 0; i < guests; ++i) {
+        const ParticipantId guest{std::uint32_t(100 + i)};
+        intake_.describe_voices({people[0], {guest, "guest " + std::to_string(i)}});
+        pictures(10 + 2 * i, 12 + 2 * i);
+        say(guest, i, 33ms * (12 + 2 * i));
+    }
+    say(anna, 1, 33ms * (14 + 2 * guests));
+    pictures(12 + 2 * guests, 60 + 2 * guests);
+    const auto recording = finish();
+    EXPECT_EQ(recording->segments().size(), 1u);
+    EXPECT_EQ(recording->voices().size(), 1 + Intake::spare_voices);
+    EXPECT_TRUE(recording->complete());
+    std::map<std::string, int> packets;
+    Bytes payload;
+    for (const VoiceContent& voice : recording->voices())
+        for (std::size_t at = 0; at < voice.content.frames.size(); ++at) {
+            const RecordedFrame& frame = voice.content.frames[at];
+            if (recording->read_header(frame)->codec != voice_codec)
+                continue;
+            ASSERT_EQ(recording->read_payload(frame, payload), Status::ok);
+            std::string note;
+            for (const FilterChange& change : voice.content.filters)
+                if (change.frame <= at)
+                    note = change.filters;
+            const auto who = parse_speaker_note(note);
+            ASSERT_TRUE(who);
+            ++packets[who->name];
+            if (who->person != anna)
+                EXPECT_EQ(who->name,
+                          "guest " + std::to_string(std::to_integer<int>(payload.at(0))));
+        }
+    EXPECT_EQ(packets.size(), std::size_t(guests) + 1);
+    EXPECT_EQ(packets["Anna"], 1);
+    EXPECT_EQ(intake_.voices().size(), std::size_t(guests) + 1);
+}
+
+TEST_F(RecordedVoices, SomebodyWhoComesBackSpeaksInTheSameTrack) {
+    intake_.describe_voices(people);
+    pictures(0, 20);
+    say(ben, 1, 700ms);
+    intake_.describe_voices({people[0]});
+    const ParticipantId again{77};
+    intake_.describe_voices({people[0], {again, people[1].name}, {cleo, "Cleo"}});
+    say(cleo, 3, 900ms);
+    say(again, 1, 900ms);
+    pictures(20, 60);
+    const auto recording = finish();
+    using Said = std::vector<std::pair<int, Duration>>;
+    EXPECT_EQ(speech(*recording, 1), (Said{{1, 700ms}, {1, 900ms}}));
+    EXPECT_EQ(speech(*recording, 2), (Said{{3, 900ms}}));
+}
+
 TEST_F(RecordedVoices, DamageOfAPacketCostsOnlyItAndTheRestIsRecovered) {
     intake_.describe_voices(people);
     pictures(0, 20);

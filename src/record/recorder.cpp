@@ -98,6 +98,7 @@ Recorder::Recorder(const std::filesystem::path& path, const std::vector<Recorded
     const auto replaced = options.replace ? later_segments_of(path_) : std::vector<fs::path>{};
     const SegmentWriter::Content content{cameras, voices, has_room_};
     writer_ = std::make_unique<SegmentWriter>(path_, content, info_, options.replace);
+    content_ = content;
     // Later segments of the replaced recording must not remain beside the new one.
     for (const fs::path& later : replaced) {
         std::error_code problem;
@@ -267,6 +268,7 @@ std::string Recorder::write_messages(std::vector<RecordedMessage>& messages) {
     if (next_)
         if (std::string problem = begin_next(); !problem.empty())
             return problem;
+    leave_out(messages);
     std::string problem = writer_->write(messages);
     std::size_t bytes = 0, room_bytes = 0, voice_bytes = 0, pictures = 0;
     for (const RecordedMessage& one : messages) {
@@ -296,23 +298,66 @@ std::string Recorder::write_messages(std::vector<RecordedMessage>& messages) {
     return problem;
 }
 
-// Closes the current segment and makes the file of `next_`. Existing names are skipped: they may
-// belong to another recording.
+// Existing names are skipped: they may belong to another recording.
+std::optional<std::filesystem::path> Recorder::next_path() {
+    std::error_code ignored;
+    while (file_number_ < max_segments) {
+        std::filesystem::path file = segment_path(path_, ++file_number_);
+        if (!std::filesystem::exists(file, ignored))
+            return file;
+    }
+    return std::nullopt;
+}
+
+// The present file goes on in place of a segment with this content.
+void Recorder::go_on_without(const SegmentWriter::Content& content) {
+    without_track_ = streams_of(content);
+    std::erase_if(without_track_, [&](StreamId stream) {
+        if (is_voice(stream))
+            return std::ranges::any_of(content_.voices, [&](const VoiceTrack& voice) {
+                return stream_of_track(voice.number) == stream;
+            });
+        return std::ranges::any_of(content.cameras, [&](const RecordedCamera& camera) {
+            return camera.id == camera_of(stream) &&
+                   std::ranges::find(content_.cameras, camera) != content_.cameras.end();
+        });
+    });
+    const std::lock_guard lock(mutex_);
+    figures_.is_in_last_file = true;
+}
+
+void Recorder::leave_out(std::vector<RecordedMessage>& messages) {
+    if (without_track_.empty())
+        return;
+    const std::lock_guard lock(mutex_);
+    std::erase_if(messages, [&](const RecordedMessage& one) {
+        const StreamId stream = one.header.stream;
+        if (std::ranges::find(without_track_, stream) == without_track_.end())
+            return false;
+        waiting_bytes_ -= cost_of(one.message);
+        if (!is_voice(stream)) {
+            ++figures_.dropped;
+            ++figures_.dropped_of[stream];
+        }
+        return true;
+    });
+}
+
+// Closes the current segment and makes the file of `next_`.
 std::string Recorder::begin_next() {
-    if (std::string problem = writer_->finish(); !problem.empty())
-        return problem;
     const Waiting next = std::move(*next_);
     next_.reset();
-    info_.clock = next.clock;
-    std::filesystem::path file;
+    const auto path = next_path();
+    if (!path) {
+        go_on_without(*next.segment);
+        return "";
+    }
+    const std::filesystem::path& file = *path;
     std::error_code ignored;
+    if (std::string problem = writer_->finish(); !problem.empty())
+        return problem;
+    info_.clock = next.clock;
     ++info_.number;
-    do {
-        if (file_number_ == max_segments)
-            return "The recording '" + path_.string() + "' has " + std::to_string(max_segments) +
-                   " segments and ends here; " + writer_->fate() + ".";
-        file = segment_path(path_, ++file_number_);
-    } while (std::filesystem::exists(file, ignored));
     // If it was deleted. Above it none is made: a disk that is gone leaves its place without one.
     std::filesystem::create_directory(file.parent_path(), ignored);
     try {
@@ -322,6 +367,7 @@ std::string Recorder::begin_next() {
         cut_before_ += writer_->cut_bytes();
         writer_->name_next(info_.number);
         writer_ = std::move(writer);
+        content_ = *next.segment;
         const std::lock_guard lock(mutex_);
         files_.push_back(file);
     } catch (const Error& problem) {

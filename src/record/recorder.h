@@ -60,6 +60,9 @@ public:
         Duration late{};                               // waiting time of the oldest of them
         std::uint64_t cut_bytes = 0;                   // that another program cut off its files
         std::uint32_t segments = 1;
+        // There is no name for a further file: the last one goes on, without what it has no track
+        // for, which counts as dropped.
+        bool is_in_last_file = false;
         std::string problem;  // one sentence if it has ended by itself; else empty
     };
 
@@ -77,8 +80,9 @@ public:
 
     // Messages that are added from now on belong to a new segment: cameras, settings or
     // calibrations have changed, or the session's clock has restarted. Never waits. The file is
-    // made when the segment's first message is written, and its folder if that was deleted. From
-    // any thread, in order with add().
+    // made when the segment's first message is written, and its folder if that was deleted. After
+    // max_segments files the last one goes on with the streams that it has. From any thread, in
+    // order with add().
     void begin_segment(const std::vector<RecordedCamera>& cameras, const ClockPair& clock,
                        const std::vector<VoiceTrack>& voices = {});
 
@@ -115,6 +119,9 @@ private:
     std::string write(std::deque<Waiting>& batch);
     std::string write_messages(std::vector<RecordedMessage>& messages);
     std::string begin_next();
+    std::optional<std::filesystem::path> next_path();
+    void go_on_without(const SegmentWriter::Content& content);
+    void leave_out(std::vector<RecordedMessage>& messages);
 
     const std::filesystem::path path_;
     const std::size_t buffer_bytes_;
@@ -123,8 +130,10 @@ private:
     SegmentInfo info_;
     std::uint32_t file_number_ = 1;  // of the newest file's name
     std::unique_ptr<SegmentWriter> writer_;
-    std::optional<Waiting> next_;  // the segment that begins with the next message
-    Duration duration_before_{};   // of the segments before this one
+    SegmentWriter::Content content_;       // of its file
+    std::vector<StreamId> without_track_;  // in it, since no further file can be made
+    std::optional<Waiting> next_;          // the segment that begins with the next message
+    Duration duration_before_{};           // of the segments before this one
     std::uint64_t bytes_before_ = 0, cut_before_ = 0;
 
     mutable std::mutex mutex_;  // guards all below

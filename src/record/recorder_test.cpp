@@ -37,6 +37,31 @@ TEST(Recorder, ASegmentBeginsWithTheNextMessageInAFileOfItsOwn) {
     EXPECT_EQ(RecordingFile::open(folder.path() / "chain.003.mkv")->cameras().size(), 1u);
 }
 
+TEST(Recorder, WithoutANameForAnotherFileGoesOnInTheLastOne) {
+    const testing::TemporaryFolder folder;
+    const fs::path path = folder.path() / "long.mkv";
+    for (std::uint32_t number = 2; number <= max_segments; ++number)
+        std::ofstream(segment_path(path, number)) << "";
+    const auto messages = generated(2, 8, 100);
+    Recorder recorder(path, cameras(1), session_begin);
+    EXPECT_EQ(add(recorder, messages[0]), Recorder::Added::taken);
+    recorder.begin_segment(cameras(2), session_begin);
+    std::size_t of_first = 1, of_second = 0;
+    for (const Message& m : messages) {
+        const bool is_first = camera_of(m.header.stream) == CameraId{0};
+        (is_first ? of_first : of_second) += 1;
+        EXPECT_EQ(add(recorder, m), Recorder::Added::taken);
+    }
+    recorder.finish();
+    const Recorder::Figures figures = recorder.figures();
+    EXPECT_EQ(figures.problem, "");
+    EXPECT_TRUE(figures.is_in_last_file);
+    EXPECT_EQ(figures.segments, 1u);
+    EXPECT_EQ(figures.frames, of_first);
+    EXPECT_EQ(figures.dropped, of_second);
+    EXPECT_EQ(RecordingFile::open(path)->cameras().size(), 1u);
+}
+
 TEST(Recorder, TellsWhatItHadToDropOfWhichStream) {
     const testing::TemporaryFolder folder;
     const auto messages = generated(1, 8, 10'000);

@@ -36,6 +36,12 @@ public:
     void put(const VoicePacket& packet, const Write& write);
     // Packets may have been withheld on purpose from here on: they do not count as missing.
     void interrupt() { speaks_ = false; }
+    // Another person speaks from here on, with numbers and figures of their own.
+    void begin_speaker() {
+        speaks_ = false;
+        newest_.reset();
+        figures_ = {};
+    }
     // Everything before session time `until` has come or will not come: fills with silence up to
     // there, in whole blocks of 120 ms. Before the first packet, too.
     void fill(TimePoint until, const Write& write);

@@ -12,7 +12,7 @@ namespace {
 
 // If no frame comes in this time, a requested key frame is made of the last one:
 // a participant joined a camera that is stale or has ended.
-constexpr Duration key_patience = 100ms;
+constexpr Duration least_key_patience = 100ms, most_key_patience = 1s;
 
 // As the lines of filters (docs/filters.md), with the region that operators have drawn.
 std::string spelling_of(const filter::ChainSettings& filter,
@@ -191,6 +191,12 @@ void CameraLane::on_frame(FramePtr frame) {
     begin_work();
 }
 
+Duration CameraLane::key_patience() const {
+    const double fps = info_.frames_per_second;
+    return std::clamp(fps > 0 ? seconds_to_duration(2 / fps) : Duration(0), least_key_patience,
+                      most_key_patience);
+}
+
 // Every 20 ms, on the workers' thread for periodic calls.
 void CameraLane::look() {
     const capture::WatchedCamera::Status status = capture_->look();
@@ -209,7 +215,8 @@ void CameraLane::look() {
     {
         const std::lock_guard lock(mutex_);
         // Where every frame is wanted once, keys wait for the next one.
-        if (waits_ || orders_.keys.empty() || now() - frame_came_ < key_patience)
+        const bool is_wanted = !waits_ && (!orders_.keys.empty() || repeat_waits_);
+        if (!is_wanted || now() - frame_came_ < key_patience())
             return;
         wanted_ = true;
     }
@@ -276,8 +283,10 @@ void CameraLane::end_work() {
 
 bool CameraLane::prepare(std::optional<Captured> next, TimePoint begin) {
     take_orders();
+    LaneEncoders::For meant = LaneEncoders::For::all;
     if (next) {
         last_ = std::move(next);
+        last_has_number_ = false;
         if (encoders_.empty()) {
             filtered_at_ = {};
             return false;
@@ -285,20 +294,43 @@ bool CameraLane::prepare(std::optional<Captured> next, TimePoint begin) {
         meter_.on_stage(Stage::queue, begin - last_->frame->times.delivered);
         filter_frame();
     } else {
-        if (waits_ || !last_ || keys_.empty() || encoders_.empty())
+        const auto again = waits_ ? std::nullopt : repeats(begin);
+        if (!again)
             return false;
+        meant = *again;
         // The frame came without a receiver, or before the filters changed.
         if (filtered_at_ == TimePoint{})
             filter_frame();
     }
-    prepare_frame(begin);
+    prepare_frame(begin, meant);
     return true;
+}
+
+// The settings for which the last frame is to be encoded again now; none: it is not. Keys that are
+// wanted wait for a frame, or for look().
+std::optional<LaneEncoders::For> CameraLane::repeats(TimePoint begin) {
+    if (!last_ || (keys_.empty() && !encoders_.has_new()))
+        return std::nullopt;
+    const std::lock_guard lock(mutex_);
+    const bool is_early = repeated_ != TimePoint{} && begin - repeated_ < repeat_interval;
+    const bool stands = begin - frame_came_ >= key_patience();
+    repeat_waits_ = is_early;
+    if (!is_early && stands && !keys_.empty()) {
+        repeated_ = begin;
+        return LaneEncoders::For::all;
+    }
+    orders_.keys.merge(keys_);
+    keys_.clear();
+    if (is_early || !encoders_.has_new())
+        return std::nullopt;
+    repeated_ = begin;
+    return LaneEncoders::For::new_ones;
 }
 
 void CameraLane::take_orders() {
     const std::lock_guard lock(mutex_);
     if (std::exchange(orders_.settings_changed, false)) {
-        encoders_.set_settings(orders_.depth_settings, orders_.color_settings, keys_);
+        encoders_.set_settings(orders_.depth_settings, orders_.color_settings);
         encoders_.set_region(orders_.region);
     }
     if (std::exchange(orders_.filter_changed, false)) {
@@ -338,11 +370,15 @@ void CameraLane::filter_frame() {
     meter_.on_stage(Stage::filter, filtered_at_ - begin);
 }
 
-void CameraLane::prepare_frame(TimePoint begin) {
+void CameraLane::prepare_frame(TimePoint begin, LaneEncoders::For meant) {
     const Frame& frame = *last_->frame;
     const bool filtered = filtered_at_ != TimePoint{};
     picture_ = {};
-    picture_.header.frame = next_number_++;
+    // A new setting has the number that the others had, so that none of them misses one.
+    const bool has_number = meant == LaneEncoders::For::new_ones && last_has_number_;
+    picture_.header.frame = has_number ? next_number_ - 1 : next_number_++;
+    last_has_number_ = true;
+    picture_.meant = meant;
     picture_.header.moment = last_->moment;
     picture_.header.captured = frame.times.captured;
     picture_.header.delivered = frame.times.delivered;
@@ -379,7 +415,7 @@ void CameraLane::end_part() {
 
 void CameraLane::encode_depth() {
     const TimePoint start = now();
-    encoders_.encode_depth(picture_.depth, picture_.header, keys_);
+    encoders_.encode_depth(picture_.depth, picture_.header, keys_, picture_.meant);
     meter_.on_stage(Stage::depth_encode, now() - start);
 }
 
@@ -388,7 +424,7 @@ void CameraLane::encode_color() {
         return;
     const bool done = contain("encode", [this] {
         const TimePoint start = now();
-        if (encoders_.encode_color(last_->frame, picture_.header, keys_) > 0)
+        if (encoders_.encode_color(last_->frame, picture_.header, keys_, picture_.meant) > 0)
             meter_.on_damaged_color();
         color_took_ = now() - start;
         meter_.on_stage(Stage::color_encode, color_took_);

@@ -79,8 +79,10 @@ public:
 
     // All below from any thread.
 
-    // With no settings nothing is filtered or encoded. Each new setting begins with
-    // a key frame.
+    // With no settings nothing is filtered or encoded. Each new setting begins with a key frame:
+    // the last frame, under its number, at most once in repeat_interval, else the next one. The
+    // other settings get nothing of it.
+    static constexpr Duration repeat_interval = std::chrono::milliseconds(500);
     void set_settings(std::vector<LaneSetting> depth, std::vector<LaneSetting> color);
 
     // From the next frame on. `background` may be empty.
@@ -104,7 +106,9 @@ public:
     // number of those that are not after this time.
     std::size_t wait_until_encoded(Duration patience);
 
-    // The next frame becomes a key frame. If none comes within 100 ms, the last one is sent again.
+    // The next frame becomes a key frame. If none comes within 100 ms and two periods of the
+    // camera, the last one is sent again in all settings, under a new number, at most once in
+    // repeat_interval: streams of one camera count their frames together.
     void request_key(StreamId stream, SettingId setting);
 
     LaneFigures figures() const;
@@ -131,6 +135,9 @@ private:
         WantedKeys keys;
     };
 
+    // Without a frame for this time a camera stands: it is stale, or has ended.
+    Duration key_patience() const;
+
     // Encoding that takes longer than this, by the clock, is worth waking another thread for.
     static constexpr Duration worth_a_thread = 200us;
 
@@ -143,9 +150,10 @@ private:
     void work();
     // True if a frame is now in `picture_`, to be encoded.
     bool prepare(std::optional<Captured> next, TimePoint begin);
+    std::optional<LaneEncoders::For> repeats(TimePoint begin);
     void take_orders();
     void filter_frame();
-    void prepare_frame(TimePoint begin);
+    void prepare_frame(TimePoint begin, LaneEncoders::For meant);
     void encode_frame();
     void encode_depth();
     // Does nothing if the other thread has begun it.
@@ -167,7 +175,8 @@ private:
     std::condition_variable idle_, room_;
     Orders orders_;
     TimePoint frame_came_;
-    bool wanted_ = false;  // there is something to do although no frame has come
+    bool wanted_ = false;        // there is something to do although no frame has come
+    bool repeat_waits_ = false;  // of the last frame, until repeat_interval is over
     bool held_ = false;
     bool closed_ = false;
     bool has_frame_in_work_ = false;
@@ -185,12 +194,15 @@ private:
         wire::MediaHeader header;  // its fields that all settings share
         DepthView depth;           // of last_, or filtered
         TimePoint begun;
+        LaneEncoders::For meant = LaneEncoders::For::all;
     };
     Picture picture_;
     Duration color_took_ = worth_a_thread;  // encoding the last picture's colour
     WantedKeys keys_;
     std::optional<Captured> last_;
     FrameNumber next_number_ = 0;
+    bool last_has_number_ = false;
+    TimePoint repeated_;  // when a frame was encoded again
     std::unique_ptr<filter::Chain> chain_;
     filter::ChainSettings filter_;
     std::shared_ptr<const filter::Background> background_;

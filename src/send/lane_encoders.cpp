@@ -14,8 +14,7 @@ namespace {
 // Encoders by their settings: those that stay are taken over, new ones are made.
 template <class Encoder, class Make>
 std::vector<std::shared_ptr<Encoder>> updated(const std::vector<std::shared_ptr<Encoder>>& old,
-                                              const std::vector<LaneSetting>& settings,
-                                              StreamId stream, WantedKeys& keys, Make make) {
+                                              const std::vector<LaneSetting>& settings, Make make) {
     std::vector<std::shared_ptr<Encoder>> result;
     for (const LaneSetting& s : settings) {
         const auto same = std::find_if(old.begin(), old.end(),
@@ -29,7 +28,6 @@ std::vector<std::shared_ptr<Encoder>> updated(const std::vector<std::shared_ptr<
         encoder->cost = EncoderCost(expected_cost(s.codec));
         make(*encoder, s.codec);
         result.push_back(encoder);
-        keys.insert({stream, s.id});
     }
     return result;
 }
@@ -75,27 +73,25 @@ void LaneEncoders::wait_behind() {
 }
 
 void LaneEncoders::set_settings(const std::vector<LaneSetting>& depth,
-                                const std::vector<LaneSetting>& color, WantedKeys& keys) {
+                                const std::vector<LaneSetting>& color) {
     const std::lock_guard lock(list_mutex_);
-    depth_ = updated(depth_, depth, depth_stream(camera_), keys,
-                     [](Depth& encoder, const std::string& codec) {
-                         const auto parsed = video::parse_depth_setting(codec);
-                         assert(parsed.problem.empty());
-                         encoder.parsed = parsed.setting;
-                         encoder.codec = std::uint8_t(parsed.setting.id);
-                     });
-    color_ = updated(color_, color, color_stream(camera_), keys,
-                     [](Color& encoder, const std::string& codec) {
-                         if (codec == video::auto_color) {
-                             // Each picture's header names its codec.
-                             encoder.parsed.text = codec;
-                             return;
-                         }
-                         const auto parsed = video::parse_color_setting(codec);
-                         assert(parsed.problem.empty());
-                         encoder.parsed = parsed.setting;
-                         encoder.codec = std::uint8_t(parsed.setting.id);
-                     });
+    depth_ = updated(depth_, depth, [](Depth& encoder, const std::string& codec) {
+        const auto parsed = video::parse_depth_setting(codec);
+        assert(parsed.problem.empty());
+        encoder.parsed = parsed.setting;
+        encoder.codec = std::uint8_t(parsed.setting.id);
+    });
+    color_ = updated(color_, color, [](Color& encoder, const std::string& codec) {
+        if (codec == video::auto_color) {
+            // Each picture's header names its codec.
+            encoder.parsed.text = codec;
+            return;
+        }
+        const auto parsed = video::parse_color_setting(codec);
+        assert(parsed.problem.empty());
+        encoder.parsed = parsed.setting;
+        encoder.codec = std::uint8_t(parsed.setting.id);
+    });
 }
 
 void LaneEncoders::set_region(const codec::strata::Region& region) {
@@ -299,10 +295,20 @@ void LaneEncoders::go_behind(std::function<void()> work) {
     environment_.behind(std::move(work));
 }
 
-void LaneEncoders::encode_depth(DepthView depth, wire::MediaHeader header, const WantedKeys& keys) {
+bool LaneEncoders::has_new() const {
+    const auto is_new = [](const auto& encoder) { return encoder->is_new; };
+    return std::any_of(depth_.begin(), depth_.end(), is_new) ||
+           std::any_of(color_.begin(), color_.end(), is_new);
+}
+
+void LaneEncoders::encode_depth(DepthView depth, wire::MediaHeader header, const WantedKeys& keys,
+                                For settings) {
     header.stream = depth_stream(camera_);
     std::shared_ptr<DepthImage> copy;
     const auto encode_with = [&](const std::shared_ptr<Depth>& encoder) {
+        if (!is_meant(*encoder, settings))
+            return;
+        encoder->is_new = false;
         header.setting = encoder->setting.id;
         header.codec = encoder->codec;
         const bool key = keys.contains({header.stream, header.setting});
@@ -331,10 +337,13 @@ void LaneEncoders::encode_depth(DepthView depth, wire::MediaHeader header, const
 }
 
 int LaneEncoders::encode_color(const FramePtr& frame, wire::MediaHeader header,
-                               const WantedKeys& keys) {
+                               const WantedKeys& keys, For settings) {
     header.stream = color_stream(camera_);
     int damaged = 0;
     const auto encode_with = [&](const std::shared_ptr<Color>& encoder) {
+        if (!is_meant(*encoder, settings))
+            return;
+        encoder->is_new = false;
         header.setting = encoder->setting.id;
         header.codec = encoder->codec;
         const bool key = keys.contains({header.stream, header.setting});

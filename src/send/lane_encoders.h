@@ -80,20 +80,27 @@ public:
     ~LaneEncoders();
 
     // Encoders of settings that stay are kept; they know their reference frames. A new
-    // one begins with a key frame, which is added to `keys`.
-    void set_settings(const std::vector<LaneSetting>& depth, const std::vector<LaneSetting>& color,
-                      WantedKeys& keys);
+    // one begins with a key frame.
+    void set_settings(const std::vector<LaneSetting>& depth, const std::vector<LaneSetting>& color);
     // Sets the region of all depth encoders from the next frame on.
     void set_region(const codec::strata::Region& region);
     bool empty() const { return depth_.empty() && color_.empty(); }
     bool has_depth() const { return !depth_.empty(); }
     bool has_color() const { return !color_.empty(); }
+    // Some setting was given no picture yet.
+    bool has_new() const;
 
+    enum class For : std::uint8_t {
+        all,       // settings
+        new_ones,  // that were given no picture yet
+    };
     // `header` holds the fields that all settings of the frame share.
-    void encode_depth(DepthView depth, wire::MediaHeader header, const WantedKeys& keys);
+    void encode_depth(DepthView depth, wire::MediaHeader header, const WantedKeys& keys,
+                      For settings = For::all);
     // Encodes frame->color, which is not empty. Returns the number of settings that could not
     // encode it at once because it is damaged.
-    int encode_color(const FramePtr& frame, wire::MediaHeader header, const WantedKeys& keys);
+    int encode_color(const FramePtr& frame, wire::MediaHeader header, const WantedKeys& keys,
+                     For settings = For::all);
 
     // Returns when the background threads have no work of this object left.
     void wait_behind();
@@ -107,6 +114,7 @@ private:
         LaneSetting setting;
         std::uint8_t codec = 0;
         bool at_once = true;  // only on the lane's thread
+        bool is_new = true;   // likewise: no picture was given to it
 
         mutable std::mutex mutex;
         bool busy = false;
@@ -134,6 +142,10 @@ private:
     // Writes the encoders that encode the picture at once into `at_once`.
     template <class E>
     void choose(const std::vector<std::shared_ptr<E>>& encoders, std::vector<std::size_t>& at_once);
+    template <class E>
+    static bool is_meant(const E& encoder, For settings) {
+        return settings == For::all || encoder.is_new;
+    }
     enum class Turn : std::uint8_t {
         now,       // the picture is its next one; end() must follow
         waits,     // encode_behind() adds it to those that wait

@@ -102,7 +102,7 @@ protected:
         return image;
     }
     void set(std::vector<LaneSetting> depth, std::vector<LaneSetting> color = {}) {
-        encoders->set_settings(depth, color, keys);
+        encoders->set_settings(depth, color);
     }
     void give_depth() {
         wire::MediaHeader header;

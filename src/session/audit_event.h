@@ -33,6 +33,7 @@ struct AuditEvent {
         voice_not_agreed,  // no longer
         adjusted,          // a camera; `detail` says how
         deleted,           // the session, with its links and its room
+        cleared,           // what somebody made in the room; `detail` says how many objects
     };
     What what{};
     ParticipantId participant{};  // 0: none; the host itself
@@ -45,10 +46,11 @@ struct AuditEvent {
 };
 
 constexpr const char* text_of(AuditEvent::What what) {
-    constexpr const char* texts[] = {
-        "began",  "ended",    "waits",        "admitted",         "turned_away",  "joined",
-        "left",   "removed",  "muted",        "unmuted",          "role_changed", "link_revoked",
-        "shared", "unshared", "voice_agreed", "voice_not_agreed", "adjusted",     "deleted"};
+    constexpr const char* texts[] = {"began",       "ended",    "waits",        "admitted",
+                                     "turned_away", "joined",   "left",         "removed",
+                                     "muted",       "unmuted",  "role_changed", "link_revoked",
+                                     "shared",      "unshared", "voice_agreed", "voice_not_agreed",
+                                     "adjusted",    "deleted",  "cleared"};
     return texts[std::size_t(what)];
 }
 

@@ -77,6 +77,10 @@ public:
     std::string publisher_name, given_name;
     int slot = 0;  // unique in the session; the position of a camera without a place
 
+    // The active settings are others than at the last take_change().
+    bool has_change() const {
+        return known_depth_ != depth_.active() || known_color_ != color_.active();
+    }
     // Settings that were active at the last call and are not any more; empty if the active settings
     // have not changed.
     std::optional<std::vector<SettingId>> take_change();

@@ -21,20 +21,22 @@ bool names_recorded(const Request& request) {
 }  // namespace
 
 void HostRoom::join(ParticipantId id, const PersonFacts& facts, bool keeps_room, TimePoint now,
-                    const Bytes& person) {
+                    const Bytes& person, const std::string& link) {
     tell(state_.on_joined(id, encode_person(facts), now));
     Member& member = members_[id];
     member.keeps_room = keeps_room;
     member.role = facts.role;
     member.name = facts.name;
     member.person = person;
+    member.link = link;
     const auto is_gone = [&](const auto& one) { return !state_.objects().contains(one.first); };
     std::erase_if(authors_, is_gone);
     std::erase_if(sharers_, is_gone);
+    std::erase_if(links_, is_gone);
     std::vector<ObjectId> own;
-    for (const auto& [mark, author] : authors_)
-        if (author == person)
-            own.push_back(mark);
+    for (const auto& [object, author] : authors_)
+        if (author == person && state_.objects().at(object).kind == ObjectKind::mark)
+            own.push_back(object);
     for (const RoomChange& change : state_.set_creator(own, id))
         tell(change);
     take_own_screens(id);
@@ -99,6 +101,9 @@ std::optional<CameraId> HostRoom::on_request(ParticipantId id, const wire::RoomR
         decision.refusal = Refusal::recorded;
     else if (request && (gives_to_observer(*request) || !may(member->second.role, Right::handle)))
         decision.refusal = Refusal::role;
+    else if (const Refusal full = request ? judge_place_for(id, *request) : Refusal::none;
+             full != Refusal::none)
+        decision.refusal = full;
     else if (auto on_screen = request ? decide_on_screen(id, *request) : std::nullopt)
         decision = std::move(*on_screen);
     else if (auto on_case = request ? decide_on_case(id, message.number, *request) : std::nullopt)
@@ -107,6 +112,8 @@ std::optional<CameraId> HostRoom::on_request(ParticipantId id, const wire::RoomR
         decision = std::move(*on_mark);
     else if (request)
         decision = state_.on_request(id, message.number, *request, true);
+    if (request)
+        note_author(id, *request, decision);
     for (const RoomChange& change : decision.changes)
         tell(change);
     member->second.decided = message.number;

@@ -37,10 +37,17 @@ public:
     // The latest time of a pose, after the host's present time.
     static constexpr Duration max_pose_lead = std::chrono::seconds(1);
 
+    // Objects that one person or one link may have made in the room, on whichever connections.
+    static constexpr std::size_t max_objects_of_person = RoomState::max_objects_of_one;
+    static constexpr std::size_t max_objects_by_one_link = 1024;
+    // Places among RoomState::max_objects for cases, shared screens and operators: what others make
+    // takes none of them.
+    static constexpr std::size_t kept_objects = 256;
+
     // Screens whose source is away; the oldest gives way.
     static constexpr std::size_t max_kept_screens = 32;
 
-    // The persons (wire::Join) who made these marks, or share these screens.
+    // The persons (wire::Join) who made these objects, or share these screens.
     using Authors = std::map<ObjectId, Bytes>;
 
     // Continues from `restored`. `actions` must outlive this object.
@@ -53,13 +60,18 @@ public:
 
     // Adds the person object of a participant. With `keeps_room` it gets the room and its changes.
     // `person`: as in wire::Join; somebody who comes back is the author of their marks again.
+    // `link`: by which it came.
     void join(ParticipantId id, const PersonFacts& facts, bool keeps_room, TimePoint now = {},
-              const Bytes& person = {});
+              const Bytes& person = {}, const std::string& link = "");
     // Its role or another fact has changed.
     void set_person(ParticipantId id, const PersonFacts& facts);
     void leave(ParticipantId id);
     // See RoomState.
     void clear();
+    // Removes what this participant, who may have left, and its person have made: bricks, marks and
+    // shared screens whose source is away. {}: those of whom nobody knows who made them. Returns
+    // how many.
+    std::size_t clear_of(ParticipantId id);
     // Returns the camera of a shared screen that the request has ended for all.
     std::optional<CameraId> on_request(ParticipantId id, const wire::RoomRequest& message);
     // Refuses a request unread, for this reason.
@@ -110,8 +122,8 @@ public:
 
     // Without a replayed recording.
     RoomSnapshot snapshot() const { return state_.snapshot(); }
-    // Those of the marks and shared screens of snapshot(), at least. A person's id proves who
-    // somebody is, so it stays at the host.
+    // Those of the objects of snapshot(), at least. A person's id proves who somebody is, so it
+    // stays at the host.
     Authors authors() const;
     std::uint64_t revision() const { return state_.revision(); }
     // Grows with each change of snapshot().
@@ -124,11 +136,15 @@ private:
         Role role{};
         std::string name;
         Bytes person;               // as in wire::Join
+        std::string link;           // by which it came
         std::uint32_t decided = 0;  // its newest request
         TokenBucket poses{pose_limit.per_second, pose_limit.at_once};
     };
     // True if the request gives an object to a participant whose role does not allow to hold it.
     bool gives_to_observer(const Request& request) const;
+    // Why the participant may not make a brick or a mark; none: it may.
+    Refusal judge_place_for(ParticipantId id, const Request& request) const;
+    void note_author(ParticipantId id, const Request& request, const RoomState::Decision& decision);
     // The decision on a request that concerns the objects of a case; nullopt: it is an ordinary
     // one.
     std::optional<RoomState::Decision> decide_on_case(ParticipantId id, std::uint32_t number,
@@ -164,7 +180,8 @@ private:
     std::uint64_t replayed_changes_ = 0;
     std::vector<CaseFacts> cases_;
     Authors authors_;
-    Authors sharers_;  // of screens, also of those whose source is away
+    std::map<ObjectId, std::string> links_;  // by which the authors came, in this run of the host
+    Authors sharers_;                        // of screens, also of those whose source is away
     std::map<ParticipantId, Member> members_;
     std::vector<Action>& actions_;
 };

@@ -9,6 +9,77 @@
 
 namespace theatron::session {
 
+// Objects that people make.
+
+namespace {
+
+bool is_made_by_hand(ObjectKind kind) {
+    return kind == ObjectKind::brick || kind == ObjectKind::mark;
+}
+
+}  // namespace
+
+Refusal HostRoom::judge_place_for(ParticipantId id, const Request& request) const {
+    const auto* create = std::get_if<request::Create>(&request);
+    if (!create || !is_made_by_hand(create->kind))
+        return Refusal::none;
+    const Member& member = members_.at(id);
+    const bool manages = may(member.role, Right::manage);
+    const auto of_person = std::count_if(authors_.begin(), authors_.end(), [&](const auto& one) {
+        return one.second == member.person && state_.objects().contains(one.first);
+    });
+    const auto by_link = std::count_if(links_.begin(), links_.end(), [&](const auto& one) {
+        return !one.second.empty() && one.second == member.link &&
+               state_.objects().contains(one.first);
+    });
+    const std::size_t places = RoomState::max_objects - (manages ? 0 : kept_objects);
+    const bool is_full = state_.objects().size() >= places ||
+                         std::size_t(of_person) >= max_objects_of_person ||
+                         (!manages && std::size_t(by_link) >= max_objects_by_one_link);
+    return is_full ? Refusal::too_many : Refusal::none;
+}
+
+void HostRoom::note_author(ParticipantId id, const Request& request,
+                           const RoomState::Decision& decision) {
+    const auto* create = std::get_if<request::Create>(&request);
+    if (!create || !is_made_by_hand(create->kind) || decision.refusal != Refusal::none)
+        return;
+    const Member& member = members_.at(id);
+    const ObjectId made = decision.changes.front().object;
+    links_[made] = member.link;
+    if (!member.person.empty())
+        authors_[made] = member.person;
+}
+
+std::size_t HostRoom::clear_of(ParticipantId id) {
+    const auto person_in = [](const Authors& authors, ObjectId object) {
+        const auto found = authors.find(object);
+        return found == authors.end() ? Bytes() : found->second;
+    };
+    const auto author_of = [&](ObjectId object) {
+        const Bytes author = person_in(authors_, object);
+        return author.empty() ? person_in(sharers_, object) : author;
+    };
+    // Somebody who has left is known by what stayed here.
+    Bytes person;
+    if (const auto member = members_.find(id); member != members_.end())
+        person = member->second.person;
+    for (const auto& [object, facts] : state_.objects())
+        if (person.empty() && id != ParticipantId{} && facts.creator == id)
+            person = author_of(object);
+    std::vector<ObjectId> made;
+    for (const auto& [object, facts] : state_.objects()) {
+        const auto screen = decode_shared_screen(facts.kind, facts.properties);
+        const bool may_go = is_made_by_hand(facts.kind) || (screen && !screen->camera);
+        const Bytes author = author_of(object);
+        if (may_go && (facts.creator == id || (!person.empty() && author == person)))
+            made.push_back(object);
+    }
+    for (const RoomChange& change : state_.remove(made))
+        tell(change);
+    return made.size();
+}
+
 // Cases.
 
 std::optional<ContentHash> HostRoom::open_case() const {
@@ -108,10 +179,7 @@ std::optional<RoomState::Decision> HostRoom::decide_on_mark(ParticipantId id, st
         const Refusal refusal = judge_new_mark(state_.objects(), id, member.name, mark);
         if (refusal != Refusal::none)
             return RoomState::Decision{refusal, {}};
-        RoomState::Decision decision = state_.on_request(id, number, mark, true);
-        if (decision.refusal == Refusal::none && !member.person.empty())
-            authors_[decision.changes.front().object] = member.person;
-        return decision;
+        return state_.on_request(id, number, mark, true);
     }
     if (const auto* clear = std::get_if<request::ClearMarks>(&request))
         return clear->of_all && !decides_on_others

@@ -10,6 +10,7 @@ namespace theatron::session {
 namespace {
 
 constexpr Duration renderer_interval = std::chrono::seconds(1);
+constexpr Duration note_interval = std::chrono::seconds(1);
 using Kind = RequestBudget::Kind;
 using wire::TextCode;
 
@@ -54,8 +55,7 @@ void HostSession::on_control(ParticipantId id, ByteView bytes, TimePoint now) {
             // By the answer those who wait know that the connection has not frozen.
             if (message && kind == Kind::ping && participant->waits())
                 carry_out(id, std::get<wire::Ping>(*message), now);
-            else if (message && !participant->may(std::visit(
-                                    [](const auto& m) { return needed_right(m); }, *message)))
+            else if (message && !participant->may(right_needed_for(*message)))
                 deny(id, *message);
             else if (message)
                 std::visit([&](const auto& m) { carry_out(id, m, now); }, *message);
@@ -73,9 +73,17 @@ void HostSession::on_control(ParticipantId id, ByteView bytes, TimePoint now) {
                 Admission::keep_for_later(*participant, std::move(*message));
             break;
         case RequestBudget::Answer::flood:
-            refuse(id, {TextCode::too_many_requests});
+            end_flood(id, now);
             break;
     }
+}
+
+void HostSession::end_flood(ParticipantId id, TimePoint now) {
+    const Participant* participant = admission_.find(id);
+    if (!participant || participant->closing)
+        return;
+    link_budgets_.note_flood(participant->link, participant->person, now);
+    refuse(id, {TextCode::too_many_requests});
 }
 
 void HostSession::carry_out(ParticipantId, const wire::Join&, TimePoint) {}
@@ -155,23 +163,34 @@ void HostSession::on_closed(ParticipantId id) {
         const bool has_waited = participant->waits();
         if (participant->joined || has_waited)
             audit(AuditEvent::What::left, id);
-        shared_.remove_all(id);
         if (!participant->refused_for_good && !has_ended_)
             admission_.remember(*participant);
+        leave_everything(id);
         admission_.remove(id);
         if (has_waited)
             tell_operators();
     }
+}
+
+// The participant has no part in the session any more: its connection has ended or is about to.
+// Every way of leaving comes by here.
+void HostSession::leave_everything(ParticipantId id) {
+    admission_.find(id)->closing = true;
+    shared_.remove_all(id);
     renderers_.forget(id);
     look_back_.leave(id);
     direct_.leave(id);
     streams_.leave(id);
     room_.leave(id);
-    shared_.set_budgets();
 }
 
 void HostSession::on_tick(TimePoint now) {
+    const bool notes = now - noted_here_ >= note_interval;
+    if (notes)
+        noted_here_ = now;
     for (auto& [id, participant] : admission_.participants()) {
+        if (notes && (participant.takes_part() || participant.waits()))
+            link_budgets_.note_here(participant.link, participant.person, now);
         if (!participant.joined && !participant.asked && !participant.closing &&
             now - participant.connected > Admission::join_deadline)
             refuse(id, {TextCode::joined_too_late});
@@ -206,9 +225,7 @@ void HostSession::end(wire::TextCode reason) {
             continue;
         if (participant.waits())
             audit(AuditEvent::What::left, id);
-        shared_.remove_all(id);
-        participant.closing = true;
-        room_.leave(id);
+        leave_everything(id);
         actions_.push_back(action::End{id, {{reason}}});
     }
     has_ended_ = true;
@@ -234,20 +251,10 @@ void HostSession::refuse(ParticipantId id, wire::Text reason) {
     wire::Refused refusal = wire::refused(std::move(reason));
     std::string why = refusal.in_english;
     send(id, std::move(refusal));
-    take_out(id);
+    leave_everything(id);
     actions_.push_back(action::Close{id, std::move(why)});
     if (has_waited)
         tell_operators();
-}
-
-// The participant gets no more messages and sends nothing that counts.
-void HostSession::take_out(ParticipantId id) {
-    shared_.remove_all(id);
-    admission_.find(id)->closing = true;
-    look_back_.leave(id);
-    direct_.leave(id);
-    streams_.leave(id);
-    room_.leave(id);
 }
 
 void HostSession::send(ParticipantId id, wire::ToParticipant message) {

@@ -17,6 +17,7 @@
 #include "session/direct_paths.h"
 #include "session/host_actions.h"
 #include "session/host_room.h"
+#include "session/link_budgets.h"
 #include "session/look_back.h"
 #include "session/membership.h"
 #include "session/offered_cases.h"
@@ -118,6 +119,8 @@ public:
                    OfferedCases::Content content = {}) {
         cases_.set(std::move(cases), std::move(patients), std::move(content));
     }
+    // The participant has sent far more poses or voice than a host sends on: its connection ends.
+    void end_flood(ParticipantId participant, TimePoint now);
     // False, and counted, if its role does not allow this.
     bool allow(ParticipantId participant, Right right);
 
@@ -211,6 +214,7 @@ private:
     void carry_out_late(ParticipantId id, Participant& participant, TimePoint now);
     // `by`: the operator; 0: the person at the host's machine.
     wire::ManageRefusal manage(const wire::Manage& decision, ParticipantId by, TimePoint now);
+    wire::ManageRefusal clear_objects(ParticipantId id, const std::string& by);
     void set_role(ParticipantId id, Role role);
     // This connection and the others of the same person.
     std::vector<ParticipantId> connections_of(ParticipantId id);
@@ -223,14 +227,16 @@ private:
     void audit(AuditEvent::What what, ParticipantId id, std::string by = "",
                std::string detail = "");
     void describe_session(ParticipantId id);
+    void leave_everything(ParticipantId id);
     void refuse(ParticipantId id, wire::Text reason);
-    void take_out(ParticipantId id);
     void make_way(const Admission::Replaced& replaced);
     void send(ParticipantId id, wire::ToParticipant message);
 
     const Config config_;
     std::vector<Action> actions_;
     Admission admission_;
+    LinkBudgets link_budgets_;
+    TimePoint noted_here_;  // for the budgets
     Membership membership_;
     Streams streams_;
     LookBack look_back_;

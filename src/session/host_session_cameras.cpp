@@ -45,7 +45,10 @@ void HostSession::carry_out_late(ParticipantId id, Participant& participant, Tim
         carry_out(id, *std::exchange(participant.late_goal, std::nullopt), now);
 }
 
-void HostSession::carry_out(ParticipantId id, const wire::Publish& offer, TimePoint) {
+void HostSession::carry_out(ParticipantId id, const wire::Publish& offer, TimePoint now) {
+    const Participant& publisher = *admission_.find(id);
+    if (!link_budgets_.offer(publisher.link, publisher.person, offer.cameras.size(), now))
+        return send(id, wire::Published{{}, {wire::TextCode::offered_too_often}});
     shared_.publish(id, offer);
 }
 

@@ -17,6 +17,16 @@ void HostSession::join(ParticipantId id, const wire::Join& hello, TimePoint now)
     for (const std::string& problem : {depth.problem, color.problem})
         if (!problem.empty())
             return refuse(id, wire::as_written(problem));
+    switch (link_budgets_.join(verdict.link, hello.person, now)) {
+        case LinkBudgets::Answer::granted:
+            break;
+        case LinkBudgets::Answer::too_often:
+            return refuse(id,
+                          wire::as_written("Too many join by this link within a short time; try "
+                                           "again in some seconds."));
+        case LinkBudgets::Answer::after_flood:
+            return refuse(id, {TextCode::too_many_requests});
+    }
 
     const Membership::Judged judged = membership_.judge(hello.person, verdict.role, hello.records);
     if (judged.entry == Membership::Entry::was_removed ||
@@ -55,7 +65,7 @@ void HostSession::make_way(const Admission::Replaced& replaced) {
     if (!replaced.told.empty())
         return refuse(replaced.id, replaced.told);
     const bool has_waited = admission_.find(replaced.id)->waits();
-    take_out(replaced.id);
+    leave_everything(replaced.id);
     actions_.push_back(action::Drop{replaced.id, "its program has come back"});
     if (has_waited)
         tell_operators();
@@ -88,7 +98,7 @@ void HostSession::enter(ParticipantId id, const wire::Join& hello) {
     // A program that only sends cameras is nobody in the room.
     if (!participant.has(wire::Feature::sends_only))
         room_.join(id, facts_of(participant), participant.has(wire::Feature::room),
-                   participant.connected, participant.person);
+                   participant.connected, participant.person, participant.link);
     tell_playback(id);
     cases_.tell_changes();
     if (participant.may(Right::manage))

@@ -5,6 +5,7 @@
 
 #include "session/audit_action.h"
 #include "session/host_session.h"
+#include "wire/clear_objects.h"
 
 namespace theatron::session {
 namespace {
@@ -70,6 +71,8 @@ ManageRefusal HostSession::manage(const wire::Manage& decision, ParticipantId by
         return ManageRefusal::none;
     }
     const ParticipantId id = decision.participant;
+    if (decision.action == wire::clear_objects)
+        return clear_objects(id, by_name);
     Participant* found = admission_.find(id);
     if (!found || (!found->takes_part() && !found->waits()))
         return ManageRefusal::no_such_participant;
@@ -160,6 +163,20 @@ ManageRefusal HostSession::manage(const wire::Manage& decision, ParticipantId by
         case ManageAction::end_session:
             break;
     }
+    return ManageRefusal::none;
+}
+
+// Also of somebody who has left, whose objects have stayed.
+ManageRefusal HostSession::clear_objects(ParticipantId id, const std::string& by) {
+    const Participant* person = admission_.find(id);
+    const std::size_t count = room_.clear_of(id);
+    if (count == 0 && !person)
+        return ManageRefusal::no_such_participant;
+    const std::string detail = std::to_string(count) + (count == 1 ? " object" : " objects");
+    if (person)
+        audit(What::cleared, id, by, detail);
+    else
+        actions_.push_back(action::Audit{{What::cleared, id, "", {}, {}, "", by, detail}});
     return ManageRefusal::none;
 }
 

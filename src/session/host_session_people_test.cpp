@@ -6,6 +6,7 @@
 
 #include "session/host_session_testing.h"
 #include "session/room_bytes.h"
+#include "wire/clear_objects.h"
 
 namespace theatron::session {
 namespace {
@@ -585,6 +586,22 @@ TEST(Membership, ForgetsTheOldestOfTooManyAndNotesNobodyWithoutAnId) {
     EXPECT_EQ(membership.tokens_of_removed().front(), "token 1");
     membership.forget_all();
     EXPECT_TRUE(membership.tokens_of_removed().empty());
+}
+
+TEST_F(People, AnOperatorRemovesWhatSomebodyMadeWhoWasRemoved) {
+    come(alice, "or");
+    come(bob, "secret");
+    come(carol, "other");
+    for (const ParticipantId id : {bob, bob, carol})
+        EXPECT_EQ(create_brick(id), 0);
+    EXPECT_EQ(manage(carol, wire::clear_objects, bob), ManageRefusal::role);
+    EXPECT_EQ(manage(alice, ManageAction::remove, bob), ManageRefusal::none);
+    session_->on_closed(bob);
+    EXPECT_EQ(manage(alice, wire::clear_objects, bob), ManageRefusal::none);
+    EXPECT_EQ(audited().back(), What::cleared);
+    EXPECT_EQ(session_->room().snapshot().objects.size(), 3u) << "two people and a brick";
+    EXPECT_EQ(manage(alice, wire::clear_objects, bob), ManageRefusal::no_such_participant);
+    EXPECT_EQ(manage(alice, wire::clear_objects, carol), ManageRefusal::none);
 }
 
 }  // namespace

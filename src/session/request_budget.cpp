@@ -20,14 +20,23 @@ std::array<TokenBucket, RequestBudget::kinds> full_buckets(double streams,
 
 }  // namespace
 
-bool TokenBucket::take(TimePoint now) {
+void TokenBucket::fill(TimePoint now) {
     if (std::exchange(began_, true) && now > filled_)
         tokens_ = std::min(most_, tokens_ + to_seconds(now - filled_) * per_second_);
     filled_ = std::max(filled_, now);
-    if (tokens_ < 1)
+}
+
+bool TokenBucket::take(TimePoint now, double tokens) {
+    fill(now);
+    if (tokens_ < tokens)
         return false;
-    tokens_ -= 1;
+    tokens_ -= tokens;
     return true;
+}
+
+void TokenBucket::owe(double tokens, TimePoint now) {
+    fill(now);
+    tokens_ = std::max(tokens_ - tokens, -most_);
 }
 
 void TokenBucket::set_limit(double per_second, double most) {

@@ -19,12 +19,17 @@ public:
     constexpr TokenBucket(double per_second, double most)
         : per_second_(per_second), most_(most), tokens_(most) {}
 
-    // Takes a token if there is a whole one. Time that runs backwards adds none.
-    bool take(TimePoint now);
+    // Takes a token, or so many, if they are there. Time that runs backwards adds none.
+    bool take(TimePoint now, double tokens = 1);
+    // Takes so many in any case: those that are missing must fill first. At most one bucket of them
+    // is missing.
+    void owe(double tokens, TimePoint now);
     // Sets another limit. A larger bucket gets its additional tokens at once.
     void set_limit(double per_second, double most);
 
 private:
+    void fill(TimePoint now);
+
     double per_second_, most_, tokens_;
     TimePoint filled_;
     bool began_ = false;

@@ -30,6 +30,30 @@ struct KindOf {
     Kind operator()(const wire::OfferDirect&) const { return Kind::publish; }
 };
 
+// One for each kind of message and no default: a forgotten one does not compile.
+struct RightOf {
+    // Participants who have joined send no further Join.
+    Right operator()(const wire::Join&) const { return Right::see; }
+    Right operator()(const wire::ChooseCodecs&) const { return Right::see; }
+    Right operator()(const wire::ChooseDelivery&) const { return Right::see; }
+    Right operator()(const wire::RequestKey&) const { return Right::see; }
+    Right operator()(const wire::Ping&) const { return Right::see; }
+    Right operator()(const wire::Report&) const { return Right::see; }
+    Right operator()(const wire::Publish& offer) const { return needed_right(offer); }
+    // These two concern the sender's own cameras only.
+    Right operator()(const wire::Unpublish&) const { return Right::be_seen; }
+    Right operator()(const wire::CameraState&) const { return Right::be_seen; }
+    Right operator()(const wire::RoomRequest& request) const { return needed_right(request); }
+    Right operator()(const wire::Manage&) const { return Right::manage; }
+    Right operator()(const wire::RequestContent&) const { return Right::see; }
+    // Everybody may be silent.
+    Right operator()(const wire::VoiceConsent&) const { return Right::see; }
+    Right operator()(const wire::AdjustCamera&) const { return Right::adjust; }
+    Right operator()(const wire::Play&) const { return Right::play; }
+    Right operator()(const wire::LookBack&) const { return Right::see; }
+    Right operator()(const wire::OfferDirect&) const { return Right::publish; }
+};
+
 template <class Message>
 concept Decision =
     std::is_same_v<Message, wire::Manage> || std::is_same_v<Message, wire::AdjustCamera> ||
@@ -39,6 +63,10 @@ concept Decision =
 
 RequestBudget::Kind kind_of(const wire::ToHost& message) {
     return std::visit(KindOf{}, message);
+}
+
+Right right_needed_for(const wire::ToHost& message) {
+    return std::visit(RightOf{}, message);
 }
 
 std::uint32_t decision_number(const wire::ToHost& message) {

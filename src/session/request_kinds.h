@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "session/permissions.h"
 #include "session/request_budget.h"
 #include "wire/control.h"
 
@@ -11,6 +12,9 @@ namespace theatron::session {
 
 // The limit (request_budget.h) that a message counts for.
 RequestBudget::Kind kind_of(const wire::ToHost& message);
+
+// The right that the sender needs.
+Right right_needed_for(const wire::ToHost& message);
 
 // The number of a decision that is answered with Managed; 0: it is none.
 std::uint32_t decision_number(const wire::ToHost& message);

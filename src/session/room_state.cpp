@@ -47,7 +47,7 @@ RoomState::RoomState(const RoomSnapshot& snapshot)
                   [](const auto& entry) { return entry.second.kind == ObjectKind::person; });
     for (auto& [id, object] : objects_) {
         object.grip = {};
-        if (object.kind == ObjectKind::mark)
+        if (object.kind == ObjectKind::mark || object.kind == ObjectKind::brick)
             object.creator = {};
         newest_id_ = std::max(newest_id_, std::uint32_t(id));
     }

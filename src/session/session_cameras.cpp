@@ -45,7 +45,7 @@ CameraStreams& SessionCameras::add(ParticipantId publisher, wire::Camera camera,
                                    const std::string& publisher_name,
                                    const std::string& given_name) {
     assert(has_numbers_for(1));
-    camera.id = CameraId(next_camera_++);
+    camera.id = camera_numbers_.take();
     camera.depth_stream = depth_stream(camera.id);
     camera.color_stream = color_stream(camera.id);
     camera.publisher = publisher;
@@ -63,10 +63,6 @@ CameraStreams& SessionCameras::add(ParticipantId publisher, wire::Camera camera,
     if (kept && can_be_adjusted(added, *kept))
         added.adjust(*kept);
     return added;
-}
-
-bool SessionCameras::has_numbers_for(std::size_t cameras) const {
-    return next_camera_ + int(cameras) <= max_camera_number + 1;
 }
 
 std::size_t SessionCameras::faces() const {

@@ -9,6 +9,7 @@
 
 #include "base/ids.h"
 #include "session/camera_adjustment.h"
+#include "session/camera_numbers.h"
 #include "session/camera_streams.h"
 #include "session/kept_adjustments.h"
 
@@ -32,17 +33,25 @@ public:
     // another's picture.
     static constexpr double unregistered_distance_m = 12;
 
-    // Gives a camera its number and its streams; no number is used twice. A camera without a place
+    // Gives a camera its number and its streams. A camera without a place
     // in the room is put beside the others. One that was adjusted before is so again.
     // `publisher_name` and `given_name`: see CameraStreams. Needs has_numbers_for() it.
     CameraStreams& add(ParticipantId publisher, wire::Camera camera,
                        const std::string& publisher_name, const std::string& given_name);
     // An unknown camera is skipped.
-    void remove(CameraId camera) { cameras_.erase(camera); }
+    void remove(CameraId camera) {
+        if (cameras_.erase(camera) > 0)
+            camera_numbers_.give_back(camera);
+    }
+    // Numbers of cameras that left are used again after a while.
+    void on_time(TimePoint now) { camera_numbers_.on_time(now); }
 
-    // The number of the next camera, or of the one `further` behind it.
-    CameraId next_id(std::size_t further) const { return CameraId(next_camera_ + int(further)); }
-    bool has_numbers_for(std::size_t cameras) const;
+    // The number of the next camera, or of the one `further` behind it. Needs has_numbers_for()
+    // them.
+    CameraId next_id(std::size_t further) const { return camera_numbers_.next(further); }
+    bool has_numbers_for(std::size_t cameras) const { return camera_numbers_.has(cameras); }
+    // A camera has or had this number.
+    bool was_given(CameraId camera) const { return camera_numbers_.was_given(camera); }
     std::size_t size() const { return cameras_.size(); }
     // The pictures of faces among the cameras.
     std::size_t faces() const;
@@ -75,7 +84,7 @@ private:
 
     const Config config_;
     SettingNumbers& numbers_;
-    int next_camera_ = 0;
+    CameraNumbers camera_numbers_;
     std::map<CameraId, CameraStreams> cameras_;
     KeptAdjustments adjustments_;
 };

@@ -161,8 +161,9 @@ SharedCameras::Received SharedCameras::on_media(ParticipantId id, ByteView messa
     if (!header)
         return {{}, {TextCode::damaged_picture, {std::string(to_text(header.error()))}}};
     const CameraStreams* camera = streams_.cameras().find(camera_of(header->stream));
-    // A camera that has just left may still have pictures in flight; its number is not used again.
-    if (!camera && camera_of(header->stream) < streams_.cameras().next_id(0))
+    // A camera that has just left may still have pictures in flight; its number is not used again
+    // for a while.
+    if (!camera && streams_.cameras().was_given(camera_of(header->stream)))
         return {};
     if (!camera || camera->publisher() != id ||
         (!is_depth(header->stream) && !camera->description().has_color))

@@ -154,6 +154,17 @@ Duration Streams::made_in(ParticipantId id) const {
 
 void Streams::apply() {
     ++changes_;
+    change_encodings();
+    for (auto& [id, receiver] : receivers_)
+        tell_receiver(id, receiver);
+}
+
+void Streams::change_encodings() {
+    const bool is_change = std::any_of(cameras_.begin(), cameras_.end(),
+                                       [](const auto& entry) { return entry.second.has_change(); });
+    encodings_wait_ = is_change && !encoding_changes_.take(now_);
+    if (!is_change || encodings_wait_)
+        return;
     std::set<ParticipantId> publishers;
     for (auto& [id, camera] : cameras_) {
         const auto gone = camera.take_change();
@@ -170,8 +181,6 @@ void Streams::apply() {
     }
     for (const ParticipantId publisher : publishers)
         tell_publisher(publisher);
-    for (auto& [id, receiver] : receivers_)
-        tell_receiver(id, receiver);
 }
 
 void Streams::tell_publisher(ParticipantId publisher) {

@@ -228,6 +228,10 @@ void Streams::request_key(ParticipantId receiver, StreamId stream, SettingId set
 }
 
 void Streams::on_tick(TimePoint now) {
+    now_ = now;
+    cameras_.on_time(now);
+    if (encodings_wait_)
+        change_encodings();
     for (const KeyRequests::Key& key : key_requests_.take(now)) {
         const CameraStreams* camera = cameras_.find(camera_of(key.stream));
         if (camera && camera->publisher() != host_publisher)

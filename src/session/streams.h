@@ -15,6 +15,7 @@
 #include "base/time.h"
 #include "session/host_actions.h"
 #include "session/key_requests.h"
+#include "session/request_budget.h"
 #include "session/session_cameras.h"
 #include "session/stream_rates.h"
 #include "session/stream_receiver.h"
@@ -36,6 +37,11 @@ struct StreamUse {
 
 class Streams {
 public:
+    // Changes of encodings in a session. Those beyond this limit wait for a tick, and what has
+    // become of them by then is one change: whoever joins in other codecs again and again makes
+    // little work for the encoders.
+    static constexpr RequestBudget::Limit encoding_changes{2, 40};
+
     // `actions` must outlive the streams.
     Streams(const SessionCameras::Config& config, std::vector<Action>& actions)
         : codecs_(config.codecs), actions_(actions), cameras_(config, numbers_) {}
@@ -118,6 +124,7 @@ private:
     void take_step(ParticipantId id, StreamReceiver& receiver);
     // Brings encoders and receivers in line with the tables.
     void apply();
+    void change_encodings();
     void tell_publisher(ParticipantId publisher);
     void tell_receiver(ParticipantId id, StreamReceiver& receiver);
     Duration made_in(ParticipantId id) const;
@@ -131,6 +138,9 @@ private:
     StreamRates rates_;
     bool region_is_drawn_ = false;
     std::uint64_t changes_ = 0;
+    TokenBucket encoding_changes_{encoding_changes.per_second, encoding_changes.at_once};
+    bool encodings_wait_ = false;
+    TimePoint now_;  // at the last tick
 };
 
 }  // namespace theatron::session

@@ -48,10 +48,9 @@ TEST_F(Host, EverybodyIsToldOnceThatTheSessionIsOver) {
     session.take_actions();
     session.end();
     session.end();
-    const auto actions = session.take_actions();
-    ASSERT_EQ(actions.size(), 1u);
-    const auto* end = std::get_if<action::End>(&actions[0]);
-    ASSERT_TRUE(end);
+    const auto ends = all<action::End>(session.take_actions());
+    ASSERT_EQ(ends.size(), 1u);
+    const action::End* end = ends.data();
     EXPECT_EQ(end->participant, alice);
 
     ViewerSession viewer({});

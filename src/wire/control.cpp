@@ -8,6 +8,7 @@
 
 #include "base/outside_text.h"
 #include "control_generated.h"
+#include "wire/clear_objects.h"
 #include "wire/sentence.h"
 
 namespace theatron::wire {
@@ -162,7 +163,7 @@ bool is_sound(const Camera& camera) {
     return camera.frame <= CameraFrame::face;
 }
 bool is_sound(const Manage& decision) {
-    return decision.action >= ManageAction::admit && decision.action <= ManageAction::end_session &&
+    return decision.action >= ManageAction::admit && decision.action <= clear_objects &&
            is_known(decision.role);
 }
 bool is_sound(const Play& play) {

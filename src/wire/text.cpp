@@ -210,10 +210,10 @@ constexpr Row rows[] = {
      {"The session has {0} cameras, which is the most it allows.",
       "Die Sitzung hat {0} Kameras; mehr sind nicht erlaubt."}},
     {TextCode::no_camera_numbers,
-     {"The session has had so many cameras that there are no numbers left; the host has to be "
-      "started anew.",
-      "Die Sitzung hatte so viele Kameras, dass keine Nummern mehr frei sind; der Gastgeber muss "
-      "neu gestartet werden."}},
+     {"Cameras have come and gone so often that no number is free at the moment; try again in some "
+      "minutes.",
+      "Kameras kamen und gingen so oft, dass im Moment keine Nummer frei ist; versuchen Sie es in "
+      "einigen Minuten noch einmal."}},
     {TextCode::offered_too_often,
      {"Cameras were offered too often; wait a little.",
       "Kameras wurden zu oft angeboten; warten Sie ein wenig."}},
