@@ -22,6 +22,9 @@
 namespace theatron::app {
 namespace {
 
+// From Ctrl-C until nothing of a patient is left in a half-made folder.
+constexpr Duration folder_patience = std::chrono::seconds(30);
+
 void check(const std::string& folder) {
     const cases::CheckReport report = cases::check_case(folder);
     for (const std::string& problem : report.problems)
@@ -101,6 +104,7 @@ void import(ImportArguments& arguments) {
         options.deidentified = true;
     // A signal that ended the program at once would leave a part of the patient's data behind.
     cli::catch_stop_signals();
+    const cli::Saving saving(folder_patience);
     const cases::ImportReport report = import_until_stopped(arguments);
     for (const std::string& remark : report.remarks)
         std::printf("remark: %s\n", remark.c_str());
@@ -273,6 +277,7 @@ void synth(const SynthArguments& arguments) {
             throw Error("--dicom names a folder in the case; name one beside it.");
     }
     cli::catch_stop_signals();
+    const cli::Saving saving(folder_patience);
     const cases::Progress progress = cli::show_progress();
     const cases::SynthCase made = cases::make_synth_case(arguments.options, progress);
     cases::write_synth_case(made, arguments.folder, arguments.dicom, progress);

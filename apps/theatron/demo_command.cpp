@@ -120,6 +120,7 @@ void show_pictures(const Flags& flags, const std::filesystem::path& folder, cons
             next_line = now + (isatty(STDOUT_FILENO) ? Duration(500ms) : Duration(2s));
         }
     }
+    cli::begin_end(announced ? 0 : 1);
     if (!announced)
         throw Error("The demo ended before the first picture; give it more time with --seconds.");
 }

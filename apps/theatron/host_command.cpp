@@ -5,6 +5,7 @@
 #include <chrono>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 #include <thread>
 
@@ -34,6 +35,10 @@
 
 namespace theatron::app {
 namespace {
+
+constexpr Duration room_patience = std::chrono::seconds(5);
+// A room that is being generated is taken away again.
+constexpr Duration opening_patience = std::chrono::seconds(60);
 
 // The roles whose links are printed after that of experts.
 constexpr std::pair<wire::Role, const char*> others[] = {
@@ -224,7 +229,11 @@ void run(Flags& flags) {
         files::require_own_kind(flags.summary, "{", "a summary");
     }
     cli::catch_stop_signals();
+    // The last changes of the room are written.
+    const cli::Saving saving(room_patience);
+    auto opening = std::make_optional<cli::Saving>(opening_patience);
     HostSessions sessions(options, flags.first, further);
+    opening.reset();
 
     if (flags.json) {
         output::result(files::json_text(greeting(sessions)) + "\n");
@@ -255,6 +264,7 @@ void run(Flags& flags) {
             next_line = steady_now() + 500ms;
         }
     }
+    cli::begin_end();
     output::end_status_line();
     const std::string room_problem = sessions.room_problem();
     if (!flags.summary.empty()) {

@@ -51,6 +51,9 @@
 namespace theatron::app {
 namespace {
 
+// A picture is drawn when the command ends, which takes long where no graphics card draws.
+constexpr Duration picture_patience = std::chrono::seconds(60);
+
 ViewPicture view_picture(const JoinFlags& flags) {
     ViewPicture picture;
     picture.size = parse_size(flags.size);
@@ -227,6 +230,9 @@ void run(const JoinFlags& flags) {
         picture = std::make_unique<OffscreenPicture>(view_picture(flags));
 
     cli::catch_stop_signals();
+    std::optional<cli::Saving> saving;
+    if (picture)
+        saving.emplace(picture_patience);
     client::Participant participant(options);
     std::optional<publish::Publishing> publishing;
     if (publisher)
@@ -303,6 +309,8 @@ void run(const JoinFlags& flags) {
     const nlohmann::json figures = json_of(participant, voice, face, picture.get());
     if (picture)
         picture->write();
+    saving.reset();
+    cli::begin_end();
     if (flags.json)
         output::result(files::json_text(figures) + "\n");
     else if (!live_line)

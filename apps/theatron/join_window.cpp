@@ -19,19 +19,6 @@
 namespace theatron::app {
 namespace {
 
-// The kept choice, or the usual device while that is not plugged in.
-std::string usable(const std::string& kept, const char* kind,
-                   std::vector<std::string> sound::DeviceList::*list) {
-    if (kept == "default" || sound::is_file(kept))
-        return kept;
-    const std::vector<std::string> names = sound::devices().*list;
-    if (std::find(names.begin(), names.end(), kept) != names.end())
-        return kept;
-    log::say("The " + std::string(kind) + " '" + kept +
-             "' is not plugged in: the usual one is used (choose another one with P).");
-    return "default";
-}
-
 // Those that the last windows have entered. A problem is said.
 client::RecentLinks recent_links() {
     std::string problem;
@@ -92,14 +79,15 @@ void join_in_window(const JoinFlags& flags) {
         }
         std::string microphone = flags.microphone, speaker = flags.speaker;
         const client::Settings& kept = shown.settings;
+        const bool are_kept = microphone.empty() && speaker.empty();
         if (microphone.empty() && kept.speaks)
-            microphone = usable(kept.microphone, "microphone", &sound::DeviceList::microphones);
+            microphone = kept.microphone;
         if (speaker.empty() && kept.hears)
-            speaker = usable(kept.loudspeaker, "loudspeaker", &sound::DeviceList::loudspeakers);
+            speaker = kept.loudspeaker;
         VoiceLine voice({microphone, speaker, flags.voice_frame_ms,
                          flags.push_to_talk || shown.settings.push_to_talk,
                          parse_cleaning(flags.echo_cancellation),
-                         parse_spatial(flags.spatial_voices)});
+                         parse_spatial(flags.spatial_voices), are_kept});
         ViewerWindow now = shown;
         now.join.voice_may_record = flags.voice_may_record || shown.settings.voice_may_record;
         now.keep = [&shown](const client::Settings& settings) {
@@ -110,6 +98,7 @@ void join_in_window(const JoinFlags& flags) {
         };
         voice.hear_by(now.join);
         now.voice = &voice;
+        now.is_last = !asks;
         const auto publisher = open_own_cameras(flags, now.join);
         now.publisher = publisher.get();
         // Off unless the person wants it now: this choice is not kept.

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lobby_watch.h"
 
+#include <condition_variable>
 #include <exception>
+#include <mutex>
+#include <thread>
 #include <utility>
 
 #include "files/file_bytes.h"
@@ -10,31 +13,41 @@
 
 namespace theatron::app {
 
-LobbyWatch::LobbyWatch(std::function<void()> news)
-    : news_(std::move(news)), thread_([this] { run(); }) {}
+struct LobbyWatch::Shared {
+    std::mutex mutex;
+    std::condition_variable changed;
+    std::function<void()> news;  // none once the owner has gone
+    std::optional<net::Link> link;
+    std::uint64_t version = 0;  // of link
+    std::optional<Answer> answer;
+};
+
+LobbyWatch::LobbyWatch(std::function<void()> news) : shared_(std::make_shared<Shared>()) {
+    shared_->news = std::move(news);
+    std::thread([shared = shared_] { run(*shared); }).detach();
+}
 
 LobbyWatch::~LobbyWatch() {
     {
-        const std::lock_guard lock(mutex_);
-        ends_ = true;
+        const std::lock_guard lock(shared_->mutex);
+        shared_->news = nullptr;
     }
-    changed_.notify_all();
-    thread_.join();
+    shared_->changed.notify_all();
 }
 
 void LobbyWatch::set_link(const std::optional<net::Link>& link) {
     {
-        const std::lock_guard lock(mutex_);
-        link_ = link;
-        ++version_;
-        answer_.reset();
+        const std::lock_guard lock(shared_->mutex);
+        shared_->link = link;
+        ++shared_->version;
+        shared_->answer.reset();
     }
-    changed_.notify_all();
+    shared_->changed.notify_all();
 }
 
 std::optional<LobbyWatch::Answer> LobbyWatch::take() {
-    const std::lock_guard lock(mutex_);
-    return std::exchange(answer_, std::nullopt);
+    const std::lock_guard lock(shared_->mutex);
+    return std::exchange(shared_->answer, std::nullopt);
 }
 
 LobbyWatch::Answer LobbyWatch::ask(const net::Link& link) {
@@ -51,22 +64,21 @@ LobbyWatch::Answer LobbyWatch::ask(const net::Link& link) {
     return answer;
 }
 
-void LobbyWatch::run() {
-    std::unique_lock lock(mutex_);
-    while (!ends_) {
-        const std::uint64_t version = version_;
-        if (const auto link = link_) {
+void LobbyWatch::run(Shared& shared) {
+    std::unique_lock lock(shared.mutex);
+    while (shared.news) {
+        const std::uint64_t version = shared.version;
+        if (const auto link = shared.link) {
             lock.unlock();
             Answer answer = ask(*link);
             lock.lock();
-            if (version == version_) {
-                answer_ = std::move(answer);
-                lock.unlock();
-                news_();
-                lock.lock();
+            if (version == shared.version && shared.news) {
+                shared.answer = std::move(answer);
+                shared.news();
             }
         }
-        changed_.wait_for(lock, interval, [&] { return ends_ || version != version_; });
+        shared.changed.wait_for(lock, interval,
+                                [&] { return !shared.news || version != shared.version; });
     }
 }
 

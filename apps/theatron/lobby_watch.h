@@ -2,13 +2,11 @@
 // Asks a host's lobby again and again, on a thread of its own.
 #pragma once
 
-#include <condition_variable>
 #include <functional>
-#include <mutex>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
-#include <thread>
 
 #include "base/time.h"
 #include "image/image.h"
@@ -30,7 +28,7 @@ public:
 
     // `news` is called from the thread after each answer.
     explicit LobbyWatch(std::function<void()> news);
-    // Waits for the answer that is under way, at most twice as long as `patience`.
+    // Does not wait for an answer that is under way; `news` is not called any more.
     ~LobbyWatch();
 
     // Asks this host from now on, at once; none: no host. Forgets the answer of another one.
@@ -39,17 +37,12 @@ public:
     std::optional<Answer> take();
 
 private:
-    void run();
+    // What a question that is under way needs, too.
+    struct Shared;
+    static void run(Shared& shared);
     static Answer ask(const net::Link& link);
 
-    const std::function<void()> news_;
-    std::mutex mutex_;
-    std::condition_variable changed_;
-    std::optional<net::Link> link_;
-    std::uint64_t version_ = 0;  // of link_
-    std::optional<Answer> answer_;
-    bool ends_ = false;
-    std::thread thread_;
+    const std::shared_ptr<Shared> shared_;
 };
 
 }  // namespace theatron::app

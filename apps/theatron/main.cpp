@@ -2,6 +2,7 @@
 // theatron: the command-line program.
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <iterator>
@@ -30,6 +31,7 @@ int with_output_written(int code) {
     theatron::output::print(
         "theatron: The output could not be written: its disk is full or its reader gone.\n",
         theatron::output::Stream::error);
+    (void)theatron::cli::finish_output();
     return code != 0 ? code : 1;
 }
 
@@ -132,5 +134,8 @@ int main(int argc, char** argv) {
     theatron::sandbox::run_as_child(argc, argv, readers);
     theatron::cli::outlive_readers();
     theatron::log::flush_before_abort();
-    return with_output_written(run_and_tell(argc, argv));
+    const int code = with_output_written(run_and_tell(argc, argv));
+    // Without what exit() runs: threads that nobody waits for may still be in a library or the
+    // system.
+    std::_Exit(code);
 }

@@ -66,6 +66,7 @@ public:
             const TimePoint shown = steady_now();
             screen.on_drawn(shown - now, shown);
         }
+        cli::begin_end();
     }
 
     // For a while.

@@ -123,6 +123,7 @@ void run(const Flags& flags) {
             output::status_line(status_line(*publisher, status));
         next_line = steady_now() + (flags.every > 0 ? seconds_to_duration(flags.every) : 500ms);
     }
+    cli::begin_end();
     output::end_status_line();
 }
 

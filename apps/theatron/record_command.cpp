@@ -263,8 +263,12 @@ bool fetch_rest(record::RecordSource& source, const Say& say) {
     return false;
 }
 
+// From the wish to end until the file has its end: fetch_rest(), and a slow disk.
+constexpr Duration file_patience = std::chrono::seconds(30);
+
 void run(const Flags& flags) {
     cli::catch_stop_signals();
+    std::optional<cli::Saving> saving(file_patience);
     const std::string& file = flags.names.back();
     const std::unique_ptr<record::RecordSource> source = open_source(flags);
     record::Intake& intake = source->intake();
@@ -361,6 +365,8 @@ void run(const Flags& flags) {
         lacks.insert(*end->lack);
     recorder->note_lacks(lacks);
     const bool complete = lacks.empty();
+    saving.reset();
+    cli::begin_end(!f.problem.empty() ? 1 : complete ? 0 : exit_incomplete);
     if (flags.json)
         output::result(nlohmann::json{{"file", file},
                                       {"utc", utc_text(utc_now())},

@@ -268,6 +268,8 @@ void run(const Flags& flags) {
     const Cameras& cameras = source->cameras();
     BoardSession session = make_session(cameras, target);
     cli::catch_stop_signals();
+    // Ctrl-C ends the looking, and what was seen is solved then.
+    const cli::Saving saving(std::chrono::minutes(2));
     if (!flags.refine.empty())
         return save(rig_of_surfaces(cameras, earlier, still_images(*source, flags)), flags.output);
     if (!flags.output.json)

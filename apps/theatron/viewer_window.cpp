@@ -130,8 +130,8 @@ void follow_face(publish::OwnFace& face, const client::Participant& participant,
 }
 
 // Carries out the choice in the panel, and gives the panel the devices while it is open.
-void follow_sound(VoiceLine& voice, std::optional<sound::DeviceWatch>& devices,
-                  viewer::Viewer& viewer, ViewerWindow& options) {
+void follow_sound(VoiceLine& voice, sound::DeviceWatch& devices, viewer::Viewer& viewer,
+                  ViewerWindow& options, TimePoint now) {
     if (const auto wish = viewer.take_sound_wish()) {
         client::Settings& settings = options.settings;
         if (wish->kind == viewer::UseSound::Kind::microphone) {
@@ -146,10 +146,7 @@ void follow_sound(VoiceLine& voice, std::optional<sound::DeviceWatch>& devices,
     }
     if (!viewer.shows_panels())
         return;
-    if (!devices)
-        devices.emplace();
-    else
-        viewer.set_sound_choices(voice.sound_choices(devices->devices_now()));
+    viewer.set_sound_choices(voice.sound_choices(devices.devices_at(now)));
 }
 
 void print_end(viewer::Viewer& viewer, const client::Participant& participant,
@@ -242,7 +239,7 @@ WindowEnd show(xr::DesktopWindow& window, ViewerWindow options) {
     SourceRemarks sources;
     TimePoint next_picture{}, next_texts{}, next_voices{};
     std::optional<xr::Overlay::Slider> slider;  // held with the mouse
-    std::optional<sound::DeviceWatch> sound_devices;
+    sound::DeviceWatch sound_devices;
     WindowEnd end = WindowEnd::closed;
     while (!cli::stop_requested()) {
         const TimePoint before = steady_now();
@@ -318,7 +315,7 @@ WindowEnd show(xr::DesktopWindow& window, ViewerWindow options) {
             if (participant.asks_voice_consent())
                 voices.may_record = participant.voice_may_record();
             viewer.set_voices(std::move(voices));
-            follow_sound(*options.voice, sound_devices, viewer, options);
+            follow_sound(*options.voice, sound_devices, viewer, options, now);
             next_voices = now + voices_every;
         }
         viewer.on_input(input, input.grabbed ? picture.distance_at(*input.grabbed) : std::nullopt,
@@ -367,6 +364,8 @@ WindowEnd show(xr::DesktopWindow& window, ViewerWindow options) {
             viewer.on_presented(now, (is_software ? steady_now() : submitted) - now, steady_now());
     }
     print_end(viewer, participant, window);
+    if (options.is_last || end == WindowEnd::closed)
+        cli::begin_end();
     return end;
 }
 

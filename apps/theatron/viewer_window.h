@@ -29,6 +29,7 @@ struct ViewerWindow {
     std::string greeting;                 // shown for some seconds after the first picture
     std::filesystem::path save_to = ".";  // the folder of saved pictures and points
     double seconds = 0;                   // end this long after the first picture; 0: never
+    bool is_last = true;                  // the program ends with this session
 };
 
 // True where a desktop is named by the environment; a window may still fail to open there.

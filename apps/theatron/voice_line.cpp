@@ -36,7 +36,7 @@ VoiceLine::VoiceLine(const Options& options) : options_(options), is_pushed_(opt
 
 void VoiceLine::use_speaker(const std::string& name) {
     if (speaker_) {
-        (void)speaker_->change(name);
+        speaker_->change(name);
         return;
     }
     const auto open = [this](const std::string& wanted) {
@@ -54,8 +54,9 @@ void VoiceLine::use_speaker(const std::string& name) {
         return sound::open_speaker(
             wanted, [this](std::span<float> out) { play_in_space(out); }, ears);
     };
-    speaker_ = std::make_unique<sound::KeptDevice>("loudspeaker", name, open,
-                                                   [](const std::string& text) { log::say(text); });
+    speaker_ = std::make_unique<sound::KeptDevice>(
+        "loudspeaker", name, open, [](const std::string& text) { log::say(text); },
+        sound::KeptDevice::usual_interval, options_.usual_instead);
     plays_ = true;
 }
 
@@ -143,7 +144,7 @@ VoiceLine::Talking::~Talking() {
 
 void VoiceLine::use_microphone(const std::string& name) {
     if (microphone_) {
-        (void)microphone_->change(name);
+        microphone_->change(name);
         return;
     }
     const auto open = [this](const std::string& wanted) {
@@ -153,7 +154,8 @@ void VoiceLine::use_microphone(const std::string& name) {
                                       [this](std::span<const float> samples) { take(samples); });
     };
     microphone_ = std::make_unique<sound::KeptDevice>(
-        "microphone", name, open, [](const std::string& text) { log::say(text); });
+        "microphone", name, open, [](const std::string& text) { log::say(text); },
+        sound::KeptDevice::usual_interval, options_.usual_instead);
 }
 
 // The microphone has delivered these samples just now.

@@ -37,6 +37,8 @@ public:
         // The voices are heard from where people stand (sound/spatial_voices.h), once place() has
         // said where. automatic: by devices, not in files.
         enum class Spatial { automatic, on, off } spatial = Spatial::automatic;
+        // The usual device takes the place of one that cannot be opened at the beginning.
+        bool usual_instead = false;
     };
 
     // Opens the loudspeaker.

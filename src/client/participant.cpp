@@ -53,8 +53,8 @@ std::vector<wire::Feature> features_of(const Participant::Options& options) {
 Participant::Participant(Options options)
     : options_(std::move(options)),
       session_({options_.link.token, options_.name, options_.depth_codec, options_.color_codec,
-                 options_.delivery, options_.records, features_of(options_),
-                 person_for_host(options_.person, options_.link), random_run()}),
+                options_.delivery, options_.records, features_of(options_),
+                person_for_host(options_.person, options_.link), random_run()}),
       shared_(std::make_unique<Shared>()),
       direct_reception_(options_.direct ? std::make_unique<DirectReception>(direct_events())
                                         : nullptr),

@@ -20,8 +20,7 @@ constexpr Duration longest_pause = 1s;
 
 CaptureThread::CaptureThread(std::unique_ptr<capture::Camera> camera,
                              capture::WatchedCamera::Open open_again,
-                             std::function<void(FramePtr)> sink, capture::Clock clock,
-                             bool patient)
+                             std::function<void(FramePtr)> sink, capture::Clock clock, bool patient)
     : now_(clock.now),
       looked_(now_()),
       shared_(new Shared{capture::WatchedCamera(std::move(camera), std::move(open_again),

@@ -1,40 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sound/device_watch.h"
 
-#include <optional>
+#include <mutex>
 #include <utility>
-
-#include "base/fault.h"
 
 namespace theatron::sound {
 
-DeviceWatch::DeviceWatch(std::function<DeviceList()> ask, Duration interval)
-    : ask_(std::move(ask)), interval_(interval), thread_([this] { look(); }) {}
+// Kept by a question that is not answered, too.
+struct DeviceWatch::Answers {
+    std::mutex mutex;
+    DeviceList newest;
+    bool is_asked = false;
+};
 
-DeviceWatch::~DeviceWatch() {
-    {
-        const std::lock_guard lock(mutex_);
-        ends_ = true;
+DeviceWatch::DeviceWatch(Ask ask, Duration interval)
+    : ask_(std::move(ask)), interval_(interval), answers_(std::make_shared<Answers>()) {}
+
+DeviceList DeviceWatch::devices_at(TimePoint now) {
+    std::unique_lock lock(answers_->mutex);
+    if (now >= next_ && !std::exchange(answers_->is_asked, true)) {
+        next_ = now + interval_;
+        lock.unlock();
+        ask_([answers = answers_](DeviceList found) {
+            const std::lock_guard answer_lock(answers->mutex);
+            answers->newest = std::move(found);
+            answers->is_asked = false;
+        });
+        lock.lock();
     }
-    ends_changed_.notify_all();
-    thread_.join();
-}
-
-DeviceList DeviceWatch::devices_now() const {
-    const std::lock_guard lock(mutex_);
-    return devices_;
-}
-
-void DeviceWatch::look() {
-    for (;;) {
-        std::optional<DeviceList> devices;
-        (void)contain("devices", [&] { devices = ask_(); });
-        std::unique_lock lock(mutex_);
-        if (devices)
-            devices_ = std::move(*devices);
-        if (ends_changed_.wait_for(lock, interval_, [this] { return ends_; }))
-            return;
-    }
+    return answers_->newest;
 }
 
 }  // namespace theatron::sound

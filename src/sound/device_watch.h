@@ -1,39 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sound devices of this machine, asked for on a thread of its own: the system may take long
-// to answer.
+// The sound devices of this machine, asked for again and again without waiting: the system may take
+// long to answer.
 #pragma once
 
-#include <condition_variable>
 #include <functional>
-#include <mutex>
-#include <thread>
+#include <memory>
 
 #include "sound/sound_device.h"
 
 namespace theatron::sound {
 
+// From one thread.
 class DeviceWatch {
 public:
     static constexpr Duration usual_interval = std::chrono::seconds(2);
 
-    // `ask` is called at once and then again and again, until this object is destroyed.
-    explicit DeviceWatch(std::function<DeviceList()> ask = devices,
-                         Duration interval = usual_interval);
-    ~DeviceWatch();
+    // `ask` calls its argument with the answer, once, at any time and on any thread.
+    using Ask = std::function<void(std::function<void(DeviceList)>)>;
+    explicit DeviceWatch(Ask ask = ask_devices, Duration interval = usual_interval);
 
-    // The newest answer; empty before the first one. From any thread.
-    DeviceList devices_now() const;
+    // The newest answer; empty before the first one. Asks again where the last answer was asked
+    // for this interval ago.
+    DeviceList devices_at(TimePoint now);
 
 private:
-    void look();
-
-    const std::function<DeviceList()> ask_;
+    struct Answers;
+    const Ask ask_;
     const Duration interval_;
-    mutable std::mutex mutex_;
-    std::condition_variable ends_changed_;
-    DeviceList devices_;
-    bool ends_ = false;
-    std::thread thread_;
+    TimePoint next_{};
+    std::shared_ptr<Answers> answers_;
 };
 
 }  // namespace theatron::sound

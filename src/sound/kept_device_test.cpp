@@ -125,14 +125,63 @@ TEST_F(Kept, IsExchangedWhileItRuns) {
     machine_.plug("headset", true);
     machine_.plug("desk", true);
     const auto device = keep("headset");
-    EXPECT_TRUE(device->change("desk"));
+    device->change("desk");
     EXPECT_EQ(device->name(), "desk");
     machine_.plug("headset", false);
     EXPECT_TRUE(time_passes("desk"));
     EXPECT_TRUE(device->works());
-    EXPECT_FALSE(device->change("headset"));
+    device->change("headset");
     EXPECT_FALSE(device->works());
     EXPECT_EQ(machine_.said(), "There is no 'headset'.|");
+}
+
+// One whose system answers later.
+struct Slow : SoundDevice {
+    explicit Slow(std::atomic<int>& the_answer) : answer(the_answer) {}
+    bool is_opening() const override { return answer == 0; }
+    bool works() const override { return answer == 1; }
+    std::string problem() const override { return answer == 2 ? "It is broken." : ""; }
+    std::atomic<int>& answer;
+};
+
+TEST_F(Kept, NobodyWaitsForASystemThatDoesNotAnswer) {
+    std::atomic<int> answer = 0, tries = 0;
+    const auto say = [&](const std::string& text) {
+        const std::lock_guard lock(machine_.mutex);
+        machine_.sentences.push_back(text);
+    };
+    KeptDevice device(
+        "loudspeaker", "desk",
+        [&](const std::string&) {
+            ++tries;
+            return std::make_unique<Slow>(answer);
+        },
+        say, Duration(1ms));
+    EXPECT_FALSE(device.works());
+    EXPECT_EQ(tries, 1) << "a second question would wait behind the first";
+    answer = 2;
+    EXPECT_TRUE(wait_for([&] { return tries > 3; }));
+    EXPECT_EQ(machine_.said(), "It is broken.|");
+    answer = 1;
+    EXPECT_TRUE(wait_for([&] { return device.works(); }));
+    EXPECT_EQ(machine_.said(), "It is broken.|The loudspeaker 'desk' is there.|");
+}
+
+TEST_F(Kept, TheUsualOneTakesThePlaceOfAKeptOne) {
+    machine_.plug("default", true);
+    const KeptDevice device(
+        "microphone", "headset",
+        [this](const std::string& wanted) { return std::make_unique<Plugged>(machine_, wanted); },
+        [this](const std::string& text) {
+            const std::lock_guard lock(machine_.mutex);
+            machine_.sentences.push_back(text);
+        },
+        Duration(1ms), true);
+    EXPECT_TRUE(wait_for([&] { return device.works(); }));
+    EXPECT_EQ(device.name(), "default");
+    EXPECT_EQ(machine_.said(),
+              "The microphone 'headset' is not plugged in: the usual one is used (choose another "
+              "one with P).|");
 }
 
 TEST_F(Kept, AFileIsNotTriedAgain) {

@@ -21,8 +21,12 @@ inline constexpr int block_samples = 480;
 class SoundDevice {
 public:
     virtual ~SoundDevice() = default;
-    // False once it has been unplugged: no more samples come or go.
+    // The system has not answered yet whether it can be used.
+    virtual bool is_opening() const { return false; }
+    // False before, where it cannot be used, and once it has been unplugged: no samples come or go.
     virtual bool works() const { return true; }
+    // A sentence, where it cannot be used.
+    virtual std::string problem() const { return ""; }
     // The time at which the first sample was spoken or is heard, if it is known: of a file, as if
     // it were a sound card with two blocks.
     virtual std::optional<TimePoint> began() const { return std::nullopt; }
@@ -37,14 +41,17 @@ struct DeviceList {
     std::vector<std::string> microphones, loudspeakers;
     std::string problem;
 };
-DeviceList devices();
+// Waits for the system's answer, which may take long; for commands.
+DeviceList devices(Duration patience = std::chrono::seconds(5));
+// Does not wait for it. `answer` is called on another thread, once, unless the system hangs.
+void ask_devices(std::function<void(DeviceList)> answer);
 
 using Deliver = std::function<void(std::span<const float>)>;
 using Fill = std::function<void(std::span<float>)>;
 
 // `name`: "default", the name of a device, or a file that ends in .wav; behind the file's
-// end comes silence. Throws Error with a sentence that names the devices of
-// this machine.
+// end comes silence. A device of this machine is opened behind the caller's back: see
+// SoundDevice::is_opening(). Throws Error where a file cannot be used.
 std::unique_ptr<SoundDevice> open_microphone(const std::string& name, Deliver deliver);
 
 // The same for a loudspeaker; a file is written, of 16 bits, and complete when the device is

@@ -23,7 +23,8 @@ constexpr const char* instead =
     throw Error(what + " (" + SDL_GetError() + ")." + instead);
 }
 
-// SDL as a whole, for as long as the window.
+// SDL's video, for as long as the window. Its events stay until the program's end, since sounds
+// add some from threads of their own, and SDL as a whole does for their sake.
 struct Library {
     Library() {
         SDL_SetMainReady();
@@ -37,6 +38,7 @@ struct Library {
         // screen elsewhere. Without that folder Wayland's library prints warnings.
         const bool wayland = std::getenv("XDG_RUNTIME_DIR") || std::getenv("WAYLAND_DISPLAY");
         SDL_SetHint(SDL_HINT_VIDEODRIVER, wayland ? "x11,wayland" : "x11");
+        [[maybe_unused]] static const int events = SDL_InitSubSystem(SDL_INIT_EVENTS);
         if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0)
             throw Error(std::string("There is no display to open a window on.") + instead);
         const std::string driver = SDL_GetCurrentVideoDriver();
@@ -45,10 +47,7 @@ struct Library {
             throw Error(std::string("There is no display to open a window on.") + instead);
         }
     }
-    ~Library() {
-        SDL_QuitSubSystem(SDL_INIT_VIDEO);
-        SDL_Quit();
-    }
+    ~Library() { SDL_QuitSubSystem(SDL_INIT_VIDEO); }
 };
 
 std::optional<KeyPress> pressed(const SDL_Keysym& key) {
