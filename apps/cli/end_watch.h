@@ -25,7 +25,7 @@ public:
     }
     // Something must be saved, for which the program has this long once it was told to end.
     void begin_saving(Duration patience) { saving_.insert(patience); }
-    // Of what was begun with this patience.
+    // Something that was begun with this patience is saved.
     void end_saving(Duration patience, TimePoint now) {
         saving_.erase(saving_.find(patience));
         saved_at_ = now;

@@ -37,7 +37,7 @@ public:
     std::optional<Answer> take();
 
 private:
-    // What a question that is under way needs, too.
+    // The data that a question under way needs, too.
     struct Shared;
     static void run(Shared& shared);
     static Answer ask(const net::Link& link);

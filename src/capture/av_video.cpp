@@ -253,7 +253,7 @@ Duration AvVideo::time() {
     return time;
 }
 
-// Of the track, or of a picture that has its own.
+// The shape of the track, or of a picture that has its own.
 PictureShape AvVideo::shape(AVFrame* frame) const {
     AVStream* const track = file_->streams[track_];
     const std::uint8_t* matrix = nullptr;

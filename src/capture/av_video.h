@@ -60,7 +60,7 @@ public:
     void write(const Source& source);
 
 private:
-    // What a scaler is made for.
+    // The conversion that a scaler is made for.
     struct Scaling {
         Size from, to;
         AVPixelFormat format = AV_PIX_FMT_NONE;

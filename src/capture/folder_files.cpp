@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of the time stamps of depth and colour in folders, as those who publish them pair them.
+// Largest difference of time stamps of depth and colour in folders, as their publishers pair them.
 constexpr Duration most_apart = std::chrono::milliseconds(20);
 
 constexpr std::string_view digits = "0123456789";

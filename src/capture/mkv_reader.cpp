@@ -143,7 +143,7 @@ std::optional<MkvReader::Picture> MkvReader::read() {
         const bool is_color = packet.stream_index == library_->color;
         if (!is_depth && !is_color)
             continue;
-        // What is damaged has no bytes.
+        // A damaged picture has no bytes.
         if (packet.flags & AV_PKT_FLAG_CORRUPT || packet.size <= 0 || packet.pts == AV_NOPTS_VALUE)
             return Picture{is_depth ? Kind::depth : Kind::color, {}, {}};
         const AVRational unit = library_->stream(packet.stream_index).time_base;

@@ -122,7 +122,7 @@ public:
     std::optional<VideoAnswer> next();
 
 private:
-    // What comes next in the connection, at the beginning of its buffer.
+    // The kind of data at the beginning of the connection's buffer.
     enum class Next : std::uint8_t { packet, response, request, end };
     template <class Idle>
     Next find_next(const Idle& idle);
@@ -228,7 +228,7 @@ std::string_view Rtsp::read_head(const Idle& idle) {
     return {};
 }
 
-// What is no request after all is stray.
+// Bytes that are no request after all are stray.
 template <class Idle>
 bool Rtsp::answer_request(const Idle& idle) {
     const std::string_view head = read_head(idle);
@@ -297,7 +297,7 @@ bool Rtsp::send_between(Outstanding request) {
     return is_sent;
 }
 
-// Of a request between packets. False ends the stream.
+// The response to a request, between packets. False ends the stream.
 bool Rtsp::take_response(const RtspResponse& response) {
     if (!outstanding_ || (response.sequence != 0 && response.sequence != outstanding_->sequence))
         return true;

@@ -38,7 +38,7 @@ public:
     SoftSides(const LabelMap& map, const LabelCount& label, const VolumeGrid& grid)
         : map_(map), label_(label), grid_(grid) {}
 
-    // Of the layer `slice` of the grid.
+    // Writes the layer `slice` of the grid.
     void write(int slice, std::span<float> out) {
         const Layer &below = layer(slice - 1), &here = layer(slice), &above = layer(slice + 1);
         constexpr float least = 0.1f;

@@ -24,7 +24,7 @@ std::vector<LabelCount> labels_in(const LabelMap& map);
 // The volume of one sample.
 double sample_volume_mm3(const medical::VolumeGrid& grid);
 
-// What the surfaces of one import may take together: samples of the labels' blocks, and triangles
+// Bounds for the surfaces of one import together: samples of the labels' blocks, and triangles
 // before they are simplified. Each takes some nanoseconds, or microseconds; a small packed file can
 // hold many labels that are everywhere, or one whose surface is.
 struct SurfaceBudget {

@@ -20,7 +20,7 @@ namespace {
 
 constexpr Duration look_interval = std::chrono::milliseconds(200);
 
-// What a device's owner, the audio thread and the system's threads share.
+// Data that a device's owner, the audio thread and the system's threads share.
 struct Link {
     enum class State { opening, works, failed, gone };
     std::atomic<State> state = State::opening;

@@ -51,7 +51,7 @@ TEST(JpegFile, ReadsProgressivePictures) {
 }
 
 TEST(JpegFile, ReadsPicturesInFourInks) {
-    // What is left of the paper: 200 x 128 / 255 of red, and so on.
+    // The share of the paper that is left: 200 x 128 / 255 of red, and so on.
     Bytes jpeg = encoded({200, 60, 255, 128}, TJPF_CMYK, 0);
     ASSERT_EQ(read_jpeg_size(jpeg).error(), Status::unsupported);
     ColorImage image;
