@@ -12,6 +12,7 @@
     X(av_frame_alloc)                \
     X(av_frame_free)                 \
     X(av_frame_get_buffer)           \
+    X(av_frame_get_side_data)        \
     X(av_frame_make_writable)        \
     X(av_frame_unref)                \
     X(av_freep)                      \
