@@ -163,20 +163,24 @@ def end_of(process, what="its end"):
             wait.check()
 
 
+def finish(process):
+    """Output and errors of a subprocess.Popen, once it has ended by itself; kills one for which there is no patience."""
+    wait = Wait(f"the end of: {process.args}")
+    while True:
+        try:
+            return process.communicate(timeout=0.5)
+        except subprocess.TimeoutExpired:
+            try:
+                wait.check()
+            except WaitedInVain:
+                process.kill()
+                print(*process.communicate(), file=sys.stderr)
+                raise
+
+
 def run(command, *, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options):
     """A command that ends by itself, as subprocess.run() gives it."""
     command = [str(word) for word in command]
     with subprocess.Popen(command, stdin=stdin, stdout=stdout, stderr=stderr, text=text, **options) as process:
-        wait = Wait(f"the end of: {' '.join(command)}")
-        while True:
-            try:
-                out, errors = process.communicate(timeout=0.5)
-                return subprocess.CompletedProcess(command, process.returncode, out, errors)
-            except subprocess.TimeoutExpired:
-                try:
-                    wait.check()
-                except WaitedInVain:
-                    process.kill()
-                    out, errors = process.communicate()
-                    print(out, errors, file=sys.stderr)
-                    raise
+        out, errors = finish(process)
+        return subprocess.CompletedProcess(command, process.returncode, out, errors)

@@ -5,6 +5,7 @@ import io
 import subprocess
 import sys
 import unittest
+import unittest.mock
 
 import patience
 from patience import Counters, Patience, Wait, WaitedInVain
@@ -141,6 +142,14 @@ class RealProcesses(unittest.TestCase):
     def test_a_command_runs_to_its_end(self):
         done = patience.run([sys.executable, "-c", "import sys; print('out'); sys.exit('err')"])
         self.assertEqual((done.returncode, done.stdout, done.stderr), (1, "out\n", "err\n"))
+
+    def test_a_command_that_stands_still_is_ended_and_what_it_said_is_told(self):
+        said, process = io.StringIO(), self.start("import time; print('so far', flush=True); time.sleep(1000)")
+        with unittest.mock.patch.object(patience, "QUIET_S", 2), contextlib.redirect_stderr(said), \
+                self.assertRaisesRegex(WaitedInVain, "time.sleep"):
+            patience.finish(process)
+        self.assertIn("so far", said.getvalue())
+        self.assertIsNotNone(process.returncode)
 
     def test_the_end_of_a_process_is_waited_for(self):
         self.assertEqual(patience.end_of(self.start("raise SystemExit(3)")), 3)

@@ -3,7 +3,6 @@
 import pathlib
 import shutil
 import tempfile
-import time
 import unittest
 
 from theatron_process import Process, host, make_recording, wait_until
@@ -32,24 +31,17 @@ class SoundPanel(unittest.TestCase):
                 self.assertEqual(before, [])
                 screen.do("mousemove", 600, 850, "key", "p")
                 # Both kinds have two devices: the usual one and the dummy; none is in use yet.
-                self.click_until(screen, -4, lambda: "speaks yes" in kept())
+                screen.click_until(lambda: self.button(screen, -4), ada, lambda _: "speaks yes" in kept())
                 self.assertIn("\nmicrophone default\n", kept())
                 # The device in use has no button any more.
-                self.click_until(screen, -1, lambda: "hears yes" in kept())
+                screen.click_until(lambda: self.button(screen, -1), ada, lambda _: "hears yes" in kept())
                 self.assertNotIn("\nloudspeaker default\n", kept())
                 screen.do("key", "Escape", "sleep", 0.3, "key", "Escape")
                 self.assertEqual(window.end(), 0, "".join(window.errors))
 
-    def click_until(self, screen, number, holds):
-        """Clicks on this button; rows that come meanwhile may have moved it."""
-        for _ in range(8):
-            wait_until(lambda: len(self.alone(screen)) >= abs(number))
-            screen.do("mousemove", *self.alone(screen)[number], "click", 1)
-            for _ in range(20):
-                if holds():
-                    return
-                time.sleep(0.1)
-        self.fail(f"button {number} does nothing")
+    def button(self, screen, number):
+        """The middle of this one of the buttons that stand alone, once there are so many."""
+        return wait_until(lambda: len(alone := self.alone(screen)) >= abs(number) and alone)[number]
 
     def alone(self, screen):
         """Buttons that stand alone in their row."""

@@ -71,7 +71,7 @@ class Process:
         return self.process.poll() in CRASHES
 
     def last_words(self):
-        words = " ".join(self.process.args[:4])
+        words = " ".join(map(str, self.process.args[:4]))
         state = f"ended with {self.process.returncode}" if self.has_ended() else "runs"
         return f"{words} ({state}): {self.last_line.strip()[:2000]} {''.join(self.errors[-5:])}"
 

@@ -4,7 +4,6 @@ import pathlib
 import shutil
 import signal
 import tempfile
-import time
 import unittest
 
 from theatron_process import Process, host, make_recording, read_png, run, wait_until
@@ -73,7 +72,9 @@ class Webcam(unittest.TestCase):
                 ada.wait_for(lambda f: faces(f) and faces(f)[0]["frames"] > 5)
                 # One who joins later is sent the last picture. It is too old to be shown.
                 ben.send(signal.SIGSTOP)
-                time.sleep(3)
+                lamp = lambda f: next(c["frames"] for c in f["cameras"] if c["name"] == "lamp")
+                before = lamp(ada.newest_json())
+                ada.wait_for(lambda f: lamp(f) > before + 100)  # 30 a second at most
                 rows = self.seen(link, "stopped")
                 self.assertLess(len(places(rows, RED)) + len(places(rows, BLUE)), 50)
 
