@@ -14,8 +14,6 @@ from theatron_process import Process, host, make_recording, run, wait_until
 from virtual_screen import VirtualScreen
 
 HANG = os.environ.get("THEATRON_HANG_STANDIN", "build/release/tests/hang_standin/libhang_standin.so")
-# A program has 2 s; the rest is for this machine, which may be busy.
-ENDS_WITHIN = 6
 LATE = "did not end in time"
 
 
@@ -38,7 +36,7 @@ class Leaving(unittest.TestCase):
     def ended(self, process):
         """The exit code of a program that was told to end."""
         process.send(signal.SIGTERM)
-        return process.end(ENDS_WITHIN)
+        return process.end()
 
     def window(self, link, *options, environment=None):
         home = tempfile.mkdtemp(dir=self.folder)
@@ -54,12 +52,12 @@ class Leaving(unittest.TestCase):
         with host(state, self.camera) as h:
             link = h.greeting["link"]
             with Process("join", link, "--no-window", "--every", "0.1", env=environment) as viewer:
-                viewer.wait_for(lambda f: f["cameras"] and f["cameras"][0]["frames"] > 0, 30)
+                viewer.wait_for(lambda f: f["cameras"] and f["cameras"][0]["frames"] > 0)
                 self.assertEqual(self.ended(viewer), 0)
                 self.assertIn(LATE, "".join(viewer.errors))
             with Process("publish", h.greeting["links"]["publisher"], "--camera", self.camera, "--every", "0.1",
                          env=environment) as publisher:
-                publisher.wait_for(lambda f: f["phase"] == "joined", 30)
+                publisher.wait_for(lambda f: f["phase"] == "joined")
                 self.assertEqual(self.ended(publisher), 0)
                 self.assertIn(LATE, "".join(publisher.errors))
             for options in [(), ("--or-screen",)]:
@@ -72,7 +70,7 @@ class Leaving(unittest.TestCase):
             other.read_json()
             other.send(signal.SIGTERM)
             # It has 5 s for the room.
-            other.end(5 + ENDS_WITHIN)
+            other.end()
 
     @unittest.skipUnless("LEAVING_WINDOWS" in os.environ, "it takes half a minute: set LEAVING_WINDOWS")
     def test_a_recording_whose_source_does_not_end_keeps_what_it_has(self):
@@ -81,7 +79,7 @@ class Leaving(unittest.TestCase):
             with Process("record", h.greeting["link"], file, "--json", env=preloaded("join")) as recorder:
                 recorder.wait_until(lambda: file.exists() and file.stat().st_size > 100_000)
                 recorder.send(signal.SIGTERM)
-                self.assertEqual(recorder.end(30 + ENDS_WITHIN), 1)
+                self.assertEqual(recorder.end(), 1)
                 self.assertIn("could not be saved in time", "".join(recorder.errors))
         code, output, errors = run("inspect", file, "--verify")
         self.assertEqual(code, 3, errors)
@@ -93,7 +91,7 @@ class Leaving(unittest.TestCase):
             link = h.greeting["link"]
             with Process("join", link, "--no-window", "--every", "0.1", "--speaker", "default", "--microphone", "default",
                          env=environment) as viewer:
-                viewer.wait_for(lambda f: f["cameras"] and f["cameras"][0]["frames"] > 5, 30)
+                viewer.wait_for(lambda f: f["cameras"] and f["cameras"][0]["frames"] > 5)
                 self.assertEqual(viewer.newest_json()["voice"]["speaker"], False)
                 self.assertEqual(self.ended(viewer), 0)
                 self.assertNotIn(LATE, "".join(viewer.errors))
@@ -114,12 +112,10 @@ class Leaving(unittest.TestCase):
                                  environment=environment) as window:
                     lasts = chance.uniform(0.3, float(os.environ.get("LEAVING_SECONDS", "5")))
                     time.sleep(lasts)
-                    began = time.monotonic()
                     window.send(signal.SIGTERM)
-                    code = window.end(ENDS_WITHIN)
+                    code = window.end()
                     late = LATE in "".join(window.errors)
-                    print(f"window {number}: {lasts:.1f} s, ended in {time.monotonic() - began:.2f} s{', late' if late else ''}",
-                          file=sys.stderr)
+                    print(f"window {number}: {lasts:.1f} s{', ended late' if late else ''}", file=sys.stderr)
                     # Before the program catches signals they end it.
                     self.assertIn(code, (0, -signal.SIGTERM), "".join(window.errors))
 

@@ -55,7 +55,7 @@ class Sources(unittest.TestCase):
         """So many pictures, for longer than two keep-alives, from one connection."""
         before = server.connections
         with Process("publish", h.greeting["publish_link"], "--share", url + ",name=tower", "--every", "0.2") as cart:
-            cart.wait_for(shown("tower", frames), WAIT)
+            cart.wait_for(shown("tower", frames))
             self.assertEqual(server.connections, before + 1, "".join(cart.errors))
 
     def test_servers_with_habits_of_their_own_play(self):

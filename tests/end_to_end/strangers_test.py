@@ -199,7 +199,7 @@ class Strangers(StrangersCase):
         with self.session() as (h, _):
             link = Link.parse(h.greeting["link"])
             self.assertEqual(https_get(link, "/", headers=cookies(24))[0], https_get(link, "/")[0])
-            seconds_to_join(link, headers=cookies(24))
+            join(link, headers=cookies(24))
             for kib in (40, 80):
                 with self.subTest(kib=kib):
                     status, body = https_get(link, "/", headers=cookies(kib))
