@@ -10,7 +10,7 @@ namespace {
 
 using std::chrono::seconds;
 
-Bytes person(int number) {
+Bytes audited_person(int number) {
     Bytes id(wire::person_id_size);
     store_le(id.data(), std::uint32_t(number));
     return id;
@@ -21,7 +21,7 @@ protected:
     int taken(const std::string& link, int number, int lines) {
         int count = 0;
         for (int i = 0; i < lines; ++i)
-            count += budget.take(link, person(number), now);
+            count += budget.take(link, audited_person(number), now);
         return count;
     }
     AuditBudget budget;

@@ -11,7 +11,7 @@ namespace {
 
 class RoomAuthors : public ::testing::Test {
 protected:
-    static Bytes person(int number) { return Bytes(wire::person_id_size, std::byte(number)); }
+    static Bytes author(int number) { return Bytes(wire::person_id_size, std::byte(number)); }
     // Each time on another connection.
     ParticipantId come(const Bytes& person, const std::string& link, Role role = Role::expert) {
         const ParticipantId id{next_participant_++};
@@ -60,7 +60,7 @@ protected:
     }
     void fill() {
         for (int i = 1; i <= 10; ++i)
-            make_bricks(person(i), "link " + std::to_string(i));
+            make_bricks(author(i), "link " + std::to_string(i));
     }
 
     std::vector<Action> actions_;
@@ -70,16 +70,16 @@ protected:
 
 TEST_F(RoomAuthors, OnePersonMakesSoMuchOnHoweverManyConnections) {
     for (int again = 0; again < 5; ++again)
-        make_bricks(person(1), "expert");
+        make_bricks(author(1), "expert");
     EXPECT_EQ(count(ObjectKind::brick), int(HostRoom::max_objects_of_person));
-    EXPECT_GT(make_bricks(person(2), "expert"), 0) << "somebody else";
+    EXPECT_GT(make_bricks(author(2), "expert"), 0) << "somebody else";
 }
 
 TEST_F(RoomAuthors, OneLinkBringsNoMoreHoweverManyPeopleComeByIt) {
     for (int i = 1; i <= 20; ++i)
-        make_bricks(person(i), "expert");
+        make_bricks(author(i), "expert");
     EXPECT_EQ(count(ObjectKind::brick), int(HostRoom::max_objects_by_one_link));
-    EXPECT_GT(make_bricks(person(50), "other"), 0);
+    EXPECT_GT(make_bricks(author(50), "other"), 0);
 }
 
 TEST_F(RoomAuthors, PlacesAreKeptForCasesAndOperators) {
@@ -88,8 +88,8 @@ TEST_F(RoomAuthors, PlacesAreKeptForCasesAndOperators) {
     liver.screen = CaseScreen{};
     host_.set_cases({liver});
     fill();
-    const ParticipantId guest = come(person(70), "new"),
-                        chief = come(person(71), "or", Role::operator_);
+    const ParticipantId guest = come(author(70), "new"),
+                        chief = come(author(71), "or", Role::operator_);
     EXPECT_EQ(make_brick(guest), Refusal::too_many);
     EXPECT_EQ(make_mark(guest), Refusal::too_many);
     EXPECT_EQ(make_brick(chief), Refusal::none);
@@ -99,11 +99,11 @@ TEST_F(RoomAuthors, PlacesAreKeptForCasesAndOperators) {
 }
 
 TEST_F(RoomAuthors, AnOperatorRemovesWhatAPersonMadeAlsoOnEarlierConnections) {
-    const ParticipantId other = come(person(2), "expert");
+    const ParticipantId other = come(author(2), "expert");
     ASSERT_EQ(make_brick(other), Refusal::none);
     ASSERT_EQ(make_mark(other), Refusal::none);
-    make_bricks(person(1), "expert");
-    const ParticipantId eve = come(person(1), "expert");
+    make_bricks(author(1), "expert");
+    const ParticipantId eve = come(author(1), "expert");
     ASSERT_EQ(make_mark(eve), Refusal::none);
     EXPECT_GT(host_.clear_of(eve), 500u);
     EXPECT_EQ(count(ObjectKind::brick), 1);
@@ -112,10 +112,10 @@ TEST_F(RoomAuthors, AnOperatorRemovesWhatAPersonMadeAlsoOnEarlierConnections) {
 }
 
 TEST_F(RoomAuthors, AlsoOfOneWhoHasLeft) {
-    const ParticipantId other = come(person(2), "expert");
+    const ParticipantId other = come(author(2), "expert");
     ASSERT_EQ(make_brick(other), Refusal::none);
-    make_bricks(person(1), "expert");
-    const ParticipantId eve = come(person(1), "expert");
+    make_bricks(author(1), "expert");
+    const ParticipantId eve = come(author(1), "expert");
     ASSERT_EQ(make_mark(eve), Refusal::none);
     host_.leave(eve);
     EXPECT_GT(host_.clear_of(eve), 500u);
@@ -130,15 +130,15 @@ TEST_F(RoomAuthors, AlsoOfOneWhoHasLeft) {
 
 TEST_F(RoomAuthors, AfterARestartTheLimitHoldsAndTheObjectsCanBeRemoved) {
     for (int again = 0; again < 2; ++again)
-        make_bricks(person(1), "expert");
+        make_bricks(author(1), "expert");
     const ParticipantId nobody = come({}, "expert");
     ASSERT_EQ(make_brick(nobody), Refusal::none);
     const int before = count(ObjectKind::brick);
     std::vector<Action> actions;
     HostRoom again(host_.snapshot(), actions, host_.authors());
     const ParticipantId eve{1}, chief{2};
-    again.join(eve, {Role::expert, false, "Eve"}, true, {}, person(1), "expert");
-    again.join(chief, {Role::operator_, false, "Dora"}, true, {}, person(9), "or");
+    again.join(eve, {Role::expert, false, "Eve"}, true, {}, author(1), "expert");
+    again.join(chief, {Role::operator_, false, "Dora"}, true, {}, author(9), "or");
     actions.clear();
     again.on_request(eve, {1, encode_request(request::Create{ObjectKind::brick, {}, 1, {}})});
     const auto& sent = std::get<action::Send>(actions.back());
