@@ -9,6 +9,8 @@
     X(av_dict_free)                  \
     X(av_dict_get)                   \
     X(av_dict_set)                   \
+    X(av_display_matrix_flip)        \
+    X(av_display_rotation_set)       \
     X(av_frame_alloc)                \
     X(av_frame_free)                 \
     X(av_frame_get_buffer)           \

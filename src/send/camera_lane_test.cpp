@@ -103,7 +103,7 @@ public:
     using Gate = std::shared_ptr<std::counting_semaphore<>>;
     explicit GatedColor(Gate gate) : gate_(std::move(gate)) {}
     Result<video::EncodedColor> encode(const ColorData&, bool) override {
-        (void)gate_->try_acquire_for(patience);
+        gate_->acquire();
         return video::EncodedColor{bytes_};
     }
 
@@ -417,7 +417,7 @@ TEST_F(Lane, AClosedLaneEncodesTheFramesThatItHasTakenAndNoFurther) {
     gate->release(2);
     wait_for(5);  // the third depth, too, if another thread encodes it
     gate->release();
-    EXPECT_EQ(lane->wait_until_encoded(patience), 0u);
+    EXPECT_EQ(lane->wait_until_encoded(std::chrono::hours(1)), 0u);
     const std::lock_guard lock(mutex);
     EXPECT_EQ(std::count_if(published.begin(), published.end(),
                             [](const auto& media) { return is_depth(media.header.stream); }),
