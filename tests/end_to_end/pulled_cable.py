@@ -28,7 +28,11 @@ class PulledCable:
                 participant, _ = self.listener.accept()
             except OSError:
                 return
-            host = socket.create_connection(("127.0.0.1", self.port))
+            try:
+                host = socket.create_connection(("127.0.0.1", self.port))
+            except OSError:  # the host is away
+                participant.close()
+                continue
             with self.guard:
                 self.ends.append(participant)
                 self.kept.append(host)
