@@ -67,7 +67,7 @@ class Output(unittest.TestCase):
 
     def start(self, make_output, *words, env=None, stdin=subprocess.DEVNULL):
         output = make_output()
-        process = subprocess.Popen([PROGRAM, *map(str, words)], stdin=stdin, stdout=output, stderr=output,
+        process = subprocess.Popen([PROGRAM, *map(str, words)], bufsize=0, stdin=stdin, stdout=output, stderr=output,
                                    env={**(env or os.environ), "XDG_STATE_HOME": str(self.folder / "home")})
         os.close(output)
 
@@ -100,7 +100,7 @@ class Output(unittest.TestCase):
 
     def status(self):
         code, output, _ = run("status", self.operator, "--json")
-        return json.loads(output)["sessions"][0] if code == 0 else None
+        return json.loads(output) if code == 0 else None
 
     def refusal(self, link):
         with RawPeer(link) as peer:
@@ -112,7 +112,7 @@ class Output(unittest.TestCase):
         programs = {
             "recorder": self.start(make_output, "record", link, self.folder / "session.mkv", "--name", "recorder"),
             "sender": self.start(make_output, "publish", publish_link, "--name", "sender", "--camera",
-                                 f"{self.camera},name=sent", "--every", "0.05"),
+                                 self.camera, "--every", "0.05", "--direct", "off"),
             "listener": self.start(make_output, "join", link, "--no-window", "--name", "listener", "--every", "0.05"),
         }
         if shutil.which("Xvfb"):
@@ -149,12 +149,13 @@ class Output(unittest.TestCase):
                 return sum(camera["bytes"] for camera in self.status()["published"])
             if name == "recorder":
                 return sum(file.stat().st_size for file in self.folder.glob("session*.mkv"))
+            # Each report of pictures that were decoded has another age.
             participant = figures(name)
-            return participant and sum(stream["frames"] for stream in participant["sent"])
+            return participant and participant["age_ms"]
 
         wait_until(self.status)
-        for name in programs:
-            wait_until(lambda name=name: pictures(name))
+        for name, process in programs.items():
+            wait_until(lambda name=name: pictures(name), f"pictures of the {name}", of=process)
         flooder = threading.Thread(target=served.stdin.write, args=(FLOOD,), daemon=True)
         flooder.start()
         self.flood(publish_link)
@@ -163,8 +164,8 @@ class Output(unittest.TestCase):
         # Pictures go on.
         for name, process in programs.items():
             before = pictures(name)
-            wait_until(lambda name=name, before=before: pictures(name) > before)
-            self.assertIsNone(process.poll(), name)
+            wait_until(lambda name=name, before=before: pictures(name) not in (None, before),
+                       f"further pictures of the {name}", of=process)
         # Decisions, too.
         made = self.link("--role", "expert")
         wait_until(lambda: self.refusal(made["link"]) == "Welcome")
