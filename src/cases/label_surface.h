@@ -24,12 +24,16 @@ std::vector<LabelCount> labels_in(const LabelMap& map);
 // The volume of one sample.
 double sample_volume_mm3(const medical::VolumeGrid& grid);
 
-// Bounds for the surfaces of one import together: samples of the labels' blocks, and triangles
-// before they are simplified. Each takes some nanoseconds, or microseconds; a small packed file can
-// hold many labels that are everywhere, or one whose surface is.
+// The most that the surfaces of one import take together: samples of the labels' blocks, and
+// triangles before they are simplified. Each takes some nanoseconds, or microseconds; a small
+// packed file can hold many labels that are everywhere, or one whose surface is.
+inline constexpr std::uint64_t max_surface_samples = std::uint64_t(1) << 32;
+inline constexpr std::size_t max_surface_triangles = std::size_t(1) << 25;
+
+// How much of it is left.
 struct SurfaceBudget {
-    std::uint64_t samples = std::uint64_t(1) << 32;
-    std::size_t triangles = std::size_t(1) << 25;
+    std::uint64_t samples = max_surface_samples;
+    std::size_t triangles = max_surface_triangles;
 };
 
 // The surface around all samples of one label: closed, manifold, smoothed (steps of thick slices

@@ -30,7 +30,8 @@ constexpr std::size_t frames_on_the_way = 4;
 // All links to one publisher share it.
 struct Pace {
     std::mutex mutex;
-    session::DirectPace pace;  // guarded by mutex
+    // Guarded by mutex.
+    session::DirectPace pace{DirectReception::first_pause, DirectReception::longest_pause};
 };
 
 }  // namespace

@@ -44,7 +44,7 @@ std::string host_identity(const net::Link& link) {
 Bytes person_for_host(ByteView secret, const net::Link& link) {
     if (secret.empty())
         return {};
-    const std::string text = "theatron person at " + host_identity(link);
+    const std::string text = "theatron-person/" + host_identity(link);
     Bytes id = keyed_digest(secret,
                             ByteView(reinterpret_cast<const std::byte*>(text.data()), text.size()));
     id.resize(wire::person_id_size);

@@ -82,7 +82,7 @@ TEST(DirectAddresses, OnTheHostsMachineItsNetworksAreThePublishers) {
 }
 
 TEST(DirectPace, BelongsToThePublisherWhateverGrantsComeAndGo) {
-    DirectPace pace;
+    DirectPace pace(1s, 30s);
     TimePoint now = from_us(1'000'000'000);
     EXPECT_EQ(pace.wait(now), 0s);
     // Each grant is withdrawn at once, and a new one comes five times a second.
@@ -97,20 +97,20 @@ TEST(DirectPace, BelongsToThePublisherWhateverGrantsComeAndGo) {
     pace.on_attempt(now);
     now += 1h;
     pace.on_end(now, true);
-    EXPECT_EQ(pace.wait(now), DirectPace::first_pause) << "a way that works is tried again soon";
+    EXPECT_EQ(pace.wait(now), 1s) << "a way that works is tried again soon";
 }
 
 TEST(DirectPace, WaitsLongerAfterEachFailure) {
-    DirectPace pace;
+    DirectPace pace(1s, 30s);
     TimePoint now = from_us(1'000'000'000);
-    Duration pause = DirectPace::first_pause;
+    Duration pause = 1s;
     for (int i = 0; i < 8; ++i) {
         pace.on_attempt(now);
         now += 2s;
         pace.on_end(now, false);
         EXPECT_EQ(pace.wait(now), pause);
         now += pause;
-        pause = std::min(2 * pause, DirectPace::longest_pause);
+        pause = std::min(2 * pause, Duration(30s));
     }
     EXPECT_FALSE(pace.is_over(now));
     EXPECT_TRUE(pace.is_over(now + 1min));

@@ -11,30 +11,32 @@ namespace theatron::session {
 
 class DirectPace {
 public:
-    static constexpr Duration first_pause = std::chrono::seconds(1);
-    static constexpr Duration longest_pause = std::chrono::seconds(30);
+    // The first pause between two attempts, which doubles up to the longest.
+    DirectPace(Duration first, Duration longest)
+        : first_(first), longest_(longest), pause_(first), last_(first) {}
 
     // The time until the next attempt.
     Duration wait(TimePoint now) const { return std::max(next_ - now, Duration(0)); }
     void on_attempt(TimePoint now) {
         next_ = now + pause_;
         last_ = pause_;
-        pause_ = std::min(2 * pause_, longest_pause);
+        pause_ = std::min(2 * pause_, longest_);
     }
     // The attempt, or the connection that it led to, is over; `proven`: that one had lasted.
     void on_end(TimePoint now, bool proven) {
         if (proven) {
-            last_ = first_pause;
-            pause_ = 2 * first_pause;
+            last_ = first_;
+            pause_ = 2 * first_;
         }
         next_ = now + last_;
     }
     // Nothing is lost with it any more.
-    bool is_over(TimePoint now) const { return now - next_ > longest_pause; }
+    bool is_over(TimePoint now) const { return now - next_ > longest_; }
 
 private:
+    const Duration first_, longest_;
     TimePoint next_;
-    Duration pause_ = first_pause, last_ = first_pause;
+    Duration pause_, last_;  // the next one, and that before the present attempt
 };
 
 }  // namespace theatron::session

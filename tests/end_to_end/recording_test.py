@@ -84,6 +84,14 @@ class Recording(unittest.TestCase):
         self.assertEqual(self.inspect("c.mkv")["cameras"][0]["calibration"],
                          self.inspect("a.mkv")["cameras"][0]["calibration"])
 
+    def test_the_last_depth_of_own_cameras_has_its_colour(self):
+        source = make_recording(self.folder / "coloured", 640, 480, FRAMES)
+        for n in range(6):
+            figures = self.record(f"end{n}.mkv", "--camera", f"folder:{source},loop=1", "--seconds", 0.2)
+            recorded = figures["cameras"][0]
+            pictures = recorded["depth"]["pictures"] - recorded["color"]["pictures"]
+            self.assertLessEqual(abs(pictures), recorded["not_encoded"], "named where it is missing")
+
     def board_before_a_wall(self):
         """A red board 1 m away before a green wall at 2.5 m; the colour camera is 60 mm further right."""
         width, height, f, baseline = 160, 120, 120.0, 0.06

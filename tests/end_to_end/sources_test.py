@@ -149,6 +149,8 @@ class Sources(unittest.TestCase):
     def test_what_is_not_there_is_said(self):
         with host(self.folder / "state4") as h:
             for shared, words in (("rtsp://127.0.0.1:1/x", "Cannot connect"),
+                                  ("rtsp://cart:kn1fe@127.0.0.1:1/x?password=kn1fe", "'rtsp://127.0.0.1:1/x...'"),
+                                  ("rtsp://127.0.0.1:1/x?password=kn1fe,width=kn", "is not a number"),
                                   ("rtsp://", "is written as rtsp://HOST/PATH"),
                                   ("v4l2:/dev/video99", "There is no video device"),
                                   ("v4l2:/dev/null", "is no video device"),
@@ -157,6 +159,7 @@ class Sources(unittest.TestCase):
                 code, _, errors = run("publish", h.greeting["publish_link"], "--share", shared)
                 self.assertEqual(code, 1)
                 self.assertIn(words, errors)
+                self.assertNotIn("kn1fe", errors)
                 self.assertEqual(errors.count("\n"), 1, errors)
 
 
