@@ -362,7 +362,7 @@ TEST_F(IntakeChange, CamerasThatComeAndGoAllTheTimeMakeFewSegments) {
 TEST_F(IntakeChange, ACameraThatWaitsForItsSegmentIsNotTakenForTheOneBefore) {
     begin_with_left();
     for (int i = 0; i <= SegmentPace::at_once; ++i) {
-        senders_[right_] = {};
+        senders_[right_] = {.setting = SettingId(std::uint16_t(i + 1))};
         RecordedCamera guest = camera(1, "guest");
         guest.calibration = Bytes(std::size_t(i + 1));
         describe({camera(0, "left"), guest});

@@ -142,7 +142,8 @@ TEST_F(RecordedVoices, PeopleWhoAgreeLaterGetSpareTracksThenASegmentBegins) {
     EXPECT_EQ(speech(*recording, 2).at(0).first, 5);
     EXPECT_EQ(recording->voices()[2].parts.at(0).name, "voice 3");
     EXPECT_EQ(recording->voices()[2].parts.at(1).name, "guest 1");
-    EXPECT_EQ(speech(*recording, 5).at(0), (std::pair<int, Duration>{6, 1400ms}));
+    EXPECT_EQ(speech(*recording, 1 + Intake::spare_voices).at(0),
+              (std::pair<int, Duration>{6, 1400ms}));
     EXPECT_TRUE(recording->complete());
 }
 

@@ -415,7 +415,7 @@ TEST(Control, EveryMessageRoundTrips) {
           ToHost(AdjustCamera{1, {}, Bytes(max_adjustment_size + 1)})})
         EXPECT_EQ(decode_to_host(encode(wrong)).error(), theatron::Status::malformed);
     for (const ToHost& wrong :
-         {ToHost(Manage{1, ManageAction{0}, {}, {}}), ToHost(Manage{1, ManageAction{9}, {}, {}}),
+         {ToHost(Manage{1, ManageAction{0}, {}, {}}), ToHost(Manage{1, ManageAction{10}, {}, {}}),
           ToHost(Manage{1, ManageAction::mute, {}, Role{4}})})
         EXPECT_FALSE(decoded_again(wrong));
     const Settings settings =
