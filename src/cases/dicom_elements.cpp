@@ -319,9 +319,8 @@ DicomFile parse_dicom(ByteView file, std::size_t most) {
     if (!begins_as_dicom(file))
         return parsed;
     parsed.kind = DicomFile::Kind::good;
-    ByteView rest = file;
-    if (file.size() >= 132 && std::memcmp(file.data() + 128, "DICM", 4) == 0)
-        rest = file.subspan(132);
+    const bool has_preamble = file.size() >= 132 && std::memcmp(file.data() + 128, "DICM", 4) == 0;
+    const ByteView rest = has_preamble ? file.subspan(132) : file;
     // Group 2 describes the file and is always little-endian.
     std::size_t end = 0;
     Elements meta(rest, {}, 0);
@@ -348,6 +347,11 @@ DicomFile parse_dicom(ByteView file, std::size_t most) {
         set = parsed.unpacked;
     }
     parsed.set = DicomSet(set, encoding_of(set));
+    // Any bytes may begin as a DICOM file without a preamble does; its class, modality or size
+    // follows in one.
+    if (!has_preamble && !parsed.set.has(0x00080016) && !parsed.set.has(0x00080060) &&
+        !parsed.set.has(0x00280010))
+        parsed.kind = DicomFile::Kind::no_dicom;
     return parsed;
 }
 

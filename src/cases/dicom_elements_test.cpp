@@ -94,7 +94,7 @@ TEST(DicomElements, DecimalsAreWholeOrNone) {
 
 TEST(DicomElements, AFieldThatIsNoNumberIsNamed) {
     Bytes bytes = plain_file();
-    replace(bytes, "1.000000", "1,000000");  // the spacing comes first
+    replace(bytes, "1.000000", "1,000000");  // the direction comes first
     const DicomFile file = parse_dicom(bytes, most);
     const DicomSlice slice = describe_frame(file, describe_image(file), 0);
     EXPECT_THAT(slice.problem, HasSubstr("'1,000000"));

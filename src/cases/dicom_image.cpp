@@ -14,7 +14,6 @@ constexpr DicomTag rows_tag = 0x00280010, columns_tag = 0x00280011, frames_tag =
                    slope_tag = 0x00281053, intercept_tag = 0x00281052, center_tag = 0x00281050,
                    width_tag = 0x00281051, position_tag = 0x00200032, orientation_tag = 0x00200037,
                    spacing_tag = 0x00280030, table_tag = 0x00283000;
-constexpr int max_frames = 65'536;
 
 StoredBits bits_of(const DicomSet& set, std::string& problem) {
     StoredBits bits;

@@ -19,6 +19,7 @@ namespace theatron::cases {
 
 inline constexpr std::size_t max_dicom_text = 250;   // bytes of a text; a name has three spellings
 inline constexpr std::size_t max_identifiers = 255;  // texts that identify
+inline constexpr int max_frames = 65'536;            // images in one file
 inline constexpr std::size_t max_slice_head = 131072;  // bytes of an encoded slice but its samples
 
 // A text that may identify the patient, under DICOM's name for it ("PatientName").

@@ -230,7 +230,7 @@ std::vector<DicomSlice> DicomFiles::read(const fs::path& file) {
             slices.push_back(std::move(*slice));
             if (reply.what == Answer::content)
                 return slices;
-            if (samples > medical::max_volume_samples)
+            if (samples > medical::max_volume_samples || slices.size() > std::size_t(max_frames))
                 throw Error(quoted_path(file) + " " + reason_of(Answer::too_large) + ".");
         }
     } catch (const NotForUs&) {

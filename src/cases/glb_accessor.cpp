@@ -137,8 +137,8 @@ Answer Accessors::find(std::size_t accessor, std::size_t components, Numbers& ou
     const auto count = index_of(about, "count");
     out.component = index_of(about, "componentType").value_or(0);
     out.components = components;
-    out.normalized =
-        about.value("normalized", Json()).is_boolean() && about["normalized"].get<bool>();
+    const auto normalized = about.find("normalized");
+    out.normalized = normalized != about.end() && *normalized == true;
     if (!count || size_of(out.component) == 0 ||
         text_of(about, "type") != (components == 3 ? "VEC3" : "SCALAR"))
         return Answer::unreadable;

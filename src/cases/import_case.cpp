@@ -80,7 +80,7 @@ std::vector<ImportedPart> parts_of(const SourceFiles& files, const std::optional
         std::vector<ImportedPart> more =
             import_labels(file, options, found, left_out, remarks, progress);
         // A file for each organ, as TotalSegmentator writes them: its name is the organ's.
-        if (more.size() == 1 && more[0].part.name == "label 1" && options.labels.empty()) {
+        if (more.size() == 1 && more[0].part.name.starts_with("label ") && options.labels.empty()) {
             std::string name = file.filename().string();
             name = name.substr(0, name.find('.'));
             more[0].part = usual_part(name);
@@ -141,6 +141,9 @@ void remark_on_others(const SourceFiles& files, std::vector<std::string>& remark
     for (const fs::path& file : files.others)
         if (file.filename() != manifest_name && !read.contains(file))
             unread.push_back(file);
+    if (files.links > 0)
+        remarks.push_back("Links in the source are not followed, so what they lead to (" +
+                          std::to_string(files.links) + ") is left out.");
     if (!unread.empty())
         remarks.push_back(
             std::to_string(unread.size()) + (unread.size() == 1 ? " file was" : " files were") +
@@ -171,9 +174,6 @@ ImportReport import_case(const fs::path& source, const fs::path& folder,
         files.pictures.clear();
     NewFolder target(folder);
     ImportReport report;
-    if (files.links > 0)
-        report.remarks.push_back("Links in the source are not followed, so what they lead to (" +
-                                 std::to_string(files.links) + ") is left out.");
     const std::optional<Case> manifest = manifest_of(files);
     LeftOut left_out;
     std::vector<ImportedPart> parts =

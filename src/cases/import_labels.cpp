@@ -88,8 +88,9 @@ LabelMap read_label_map(const fs::path& file, std::size_t layer, std::size_t& la
         const fs::path data = file.parent_path() / fs::path(name).filename();
         std::error_code failed;
         if (!fs::is_regular_file(fs::symlink_status(data, failed)))
-            throw NotForUs(file, "keeps its samples in another file, '" + data.filename().string() +
-                                     "', which is not beside it; save it in one piece (.nrrd)");
+            throw NotForUs(file, "keeps its samples in another file, " +
+                                     quoted_path(data.filename()) +
+                                     ", which is not beside it; save it in one piece (.nrrd)");
         parsed = parse_nrrd(bytes, layer, files::read_file(data, max_label_file_bytes));
     }
     layers = parsed.layers;

@@ -54,7 +54,9 @@ TEST_F(Import, APictureThatIsDamagedOrNoneIsNamed) {
     fs::create_directories(source());
     std::ofstream(source() / "x.jpg") << "GIF89a";
     EXPECT_THAT(refusal(), HasSubstr("x.jpg' is left out: it is neither PNG nor JPEG"));
-    files::write_file(source() / "x.jpg", Bytes(1 << 16, std::byte(0xff)));
+    Bytes damaged(1 << 16, std::byte(0xff));
+    damaged[1] = std::byte(0xd8);  // as JPEG begins
+    files::write_file(source() / "x.jpg", damaged);
     EXPECT_THAT(refusal(), HasSubstr("x.jpg' is damaged"));
     fs::resize_file(source() / "x.jpg", 200 << 20);
     EXPECT_THAT(refusal(), HasSubstr("at most 128 MiB are read; save it with fewer pixels"));

@@ -198,6 +198,17 @@ TEST(Nrrd, LayersAreReadOneByOne) {
     EXPECT_THAT(second.value.names, ElementsAre(LabelName{1, "tumour"}));
 }
 
+TEST(Nrrd, AHeaderNamesTheFileOfItsSamples) {
+    for (const char* end : {"\n\n", "\n", ""}) {
+        const Bytes header = bytes_of(nrrd_head + "encoding: raw\nData File: x.raw" + end);
+        EXPECT_EQ(detached_data_of(header), "x.raw");
+        const ParsedLabels parsed = parse_nrrd(header, 0, twelve_labels);
+        ASSERT_EQ(parsed.problem, "");
+        EXPECT_EQ(parsed.value.labels[11], 255);
+    }
+    EXPECT_EQ(detached_data_of(nrrd("encoding: raw\n", twelve_labels)), "");
+}
+
 TEST(Nrrd, UnitsBecomeMillimetresOrAreNamed) {
     const auto read = [](const std::string& units) {
         return parse_nrrd(nrrd("encoding: raw\nSpace Units: " + units + "\n", twelve_labels));

@@ -145,6 +145,11 @@ TEST(Glb, WhatItNeedsAndIsNotKnownIsNamed) {
               Answer::no_triangles);
     EXPECT_EQ(read_glb_text(glb("{")).what, Answer::unreadable);
     EXPECT_EQ(
+        read_glb_text(glb(R"({"nodes": [{"mesh": 0}], "accessors": [5], "meshes": [{"primitives":
+                                [{"attributes": {"POSITION": 0}}]}]})"))
+            .what,
+        Answer::unreadable);
+    EXPECT_EQ(
         read_glb_text(glb(R"({"nodes": [{"children": [0]}], "scenes": [{"nodes": [0]}]})")).what,
         Answer::unreadable)
         << "a node that holds itself";

@@ -46,13 +46,11 @@ std::optional<std::size_t> read_header(ByteView file, Fields& fields) {
         return std::nullopt;
     std::size_t at = text.find('\n');
     while (at != std::string_view::npos && fields.size() < max_fields) {
-        const std::size_t begin = at + 1;
-        std::size_t end = text.find('\n', begin);
-        if (end == std::string_view::npos) {
+        const std::size_t begin = at + 1, end = std::min(text.find('\n', begin), text.size());
+        if (begin >= text.size()) {
             // A header with its samples in another file needs no empty line at its end.
-            if (text.size() == max_header_bytes || !fields.contains("data file"))
-                return std::nullopt;
-            end = text.size();
+            const bool is_whole = fields.contains("data file") && text.size() < max_header_bytes;
+            return is_whole ? std::optional(text.size()) : std::nullopt;
         }
         const std::string_view line = trimmed(text.substr(begin, end - begin));
         at = end;

@@ -79,7 +79,8 @@ TEST(RealCase, ASeriesWithItsSurfacesIsImportedAndItsSurfacesLieWhereTheImagesSh
     const fs::path target = folder.path() / "case";
     const ImportReport report = import_case(shared_case("hcc-tace-048"), target, {}, no_progress);
     EXPECT_THAT(report.remarks, ::testing::ElementsAre(HasSubstr("--from-labels"),
-                                                       HasSubstr("The picture is shown")));
+                                                       HasSubstr("The picture is shown"),
+                                                       HasSubstr("3 files were not read")));
     EXPECT_TRUE(report.manifest.deidentified);
     EXPECT_THAT(check_case(target).problems, IsEmpty());
 

@@ -356,6 +356,9 @@ def beside():
         files["Thumbs.dcm"] = data
         yield Input(name + " as .dcm", files, [series()], remarks=["Thumbs.dcm' is left out", words_])
     files = good()
+    files["index"] = b"\x08\0\5\0\x0a\0\0\0" + b"some index" * 30
+    yield Input("bytes that begin as DICOM does", files, [series()], remarks=["index' is left out", "no DICOM file"])
+    files = good()
     files.update({"AUTORUN.INF": b"[autorun]\n", "viewer/README.TXT": b"hello"})
     yield Input("a disc's other files", files, [series()], remarks=["2 files were not read"])
 

@@ -15,6 +15,7 @@ import tempfile
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
+import case_seeds  # noqa: E402
 import dicom_inputs  # noqa: E402
 import label_inputs  # noqa: E402
 import mesh_inputs  # noqa: E402
@@ -23,7 +24,7 @@ from expected import problem  # noqa: E402
 LEAST = 200
 FUZZERS = {".stl": "stl_fuzz", ".ply": "ply_fuzz", ".glb": "glb_fuzz", ".nii": "nifti_fuzz",
            ".nrrd": "nrrd_fuzz", ".nhdr": "nrrd_fuzz", ".dcm": "dicom_fuzz", "": "dicom_fuzz"}
-longest_seed = 1 << 16
+LONGEST_SEED = 1 << 16
 
 
 def inputs():
@@ -49,10 +50,14 @@ def write_seeds(folder):
         name = name.removesuffix(".gz")
         extension = pathlib.PurePath(name).suffix
         target = FUZZERS.get(extension)
-        if target and len(data) <= longest_seed:
+        if target and len(data) <= LONGEST_SEED:
             path = folder / target / plain_name(one.name)
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_bytes(data)
+    for target, name, data in case_seeds.seeds():
+        path = folder / target / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(data)
 
 
 class ForeignFiles(unittest.TestCase):

@@ -160,6 +160,7 @@ def nifti_inputs():
             for x in range(SIZE[0])]
     # An atlas of 240 parcels is a label map.
     yield Input("an atlas", {"atlas.nii": nifti(many)})
+    yield Input("a mask of 255", {"liver.nii": nifti(labels((0, 255, 0)))}, parts=[part(1, "liver")])
     yield Input("no NIfTI", {"o.nii": plain, "x.nii": b"hello " * 100}, parts=parts(),
                 remarks=["x.nii' is left out"])
 
@@ -252,6 +253,8 @@ def nrrd_inputs():
     yield Input("detached", {"o.nhdr": header, "o.raw": data}, parts=parts(), silent=True)
     yield Input("detached without an empty line", {"o.nhdr": header.rstrip(b"\n") + b"\n", "o.raw": data},
                 parts=parts())
+    yield Input("detached, no end of the last line", {"o.nhdr": header.rstrip(b"\n"), "o.raw": data}, parts=parts())
+    yield Input("detached, empty", {"o.nhdr": header, "o.raw": b""}, refused="less than its header announces")
     yield Input("detached, skipping", {"o.nhdr": nrrd([], fields={"datafile": "o.raw", "byte skip": "-1"}),
                                        "o.raw": b"head of another format" + data}, parts=parts())
     yield Input("detached, away", {"o.nhdr": header}, refused="which is not beside it")

@@ -253,6 +253,10 @@ def glb_inputs():
         root["nodes"][0]["children"] = [1]
     yield Input("a ring of nodes", {"o.glb": box_glb(change=wrong)}, refused="damaged")
 
+    def senseless(root):
+        root["accessors"][0] = 5
+    yield Input("an accessor that is none", {"o.glb": box_glb(change=senseless)}, refused="damaged")
+
     def far(root):
         root["buffers"][0]["uri"] = "other.bin"
     yield Input("buffer elsewhere", {"o.glb": box_glb(change=far)}, refused="in another file")
