@@ -3,13 +3,11 @@
 
 #include <gtest/gtest.h>
 
-extern "C" {
-#include <libavutil/display.h>
-}
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
+
+#include "ffmpeg/ffmpeg.h"
 
 namespace theatron::capture {
 namespace {
@@ -56,6 +54,7 @@ constexpr Size small_picture{64, 48};
 constexpr Rgb brick_red{190, 61, 29};
 
 TEST(PictureWriter, KeepsTheColoursOfAllPictures) {
+    ASSERT_EQ(ffmpeg::problem(), "");
     struct Case {
         AVPixelFormat format;
         AVColorRange range;
@@ -80,6 +79,7 @@ TEST(PictureWriter, KeepsTheColoursOfAllPictures) {
 }
 
 TEST(PictureWriter, ColoursMayChangeWithinAStream) {
+    ASSERT_EQ(ffmpeg::problem(), "");
     Bytes area(video_bytes(small_picture));
     PictureWriter writer(area);
     ASSERT_TRUE(writer.begin(small_picture));
@@ -105,11 +105,12 @@ TEST(PictureShape, PixelsAreSquareOnTheScreen) {
     EXPECT_EQ(shown_size({720, 576}, {{16, 15}, true}), (Size{576, 768}));
 }
 
-// One row of brick_red, green and blue as a display matrix turns it.
-std::vector<int> turned(double degrees, bool mirrored) {
-    std::int32_t matrix[9];
-    av_display_rotation_set(matrix, degrees);
-    av_display_matrix_flip(matrix, mirrored, false);
+// A picture of three columns and two rows as a display matrix shows it, which maps (x, y) to
+// (a x + c y, b x + d y).
+std::vector<int> turned(double a, double b, double c, double d) {
+    EXPECT_EQ(ffmpeg::problem(), "");
+    const auto fixed = [](double value) { return std::int32_t(value * 65536); };
+    const std::int32_t matrix[9] = {fixed(a), fixed(b), 0, fixed(c), fixed(d), 0, 0, 0, 1 << 30};
     const PictureShape shape = shape_of(matrix, {1, 1});
     const Size size = shown_size({3, 2}, shape);
     Bytes area(video_bytes(size));
@@ -127,12 +128,13 @@ std::vector<int> turned(double degrees, bool mirrored) {
 }
 
 TEST(PictureShape, PicturesAreTurnedAsTheirMatrixSays) {
-    EXPECT_EQ(turned(0, false), (std::vector{10, 20, 30, 40, 50, 60}));
-    EXPECT_EQ(turned(90, false), (std::vector{40, 10, 50, 20, 60, 30})) << "clockwise";
-    EXPECT_EQ(turned(180, false), (std::vector{60, 50, 40, 30, 20, 10}));
-    EXPECT_EQ(turned(-90, false), (std::vector{30, 60, 20, 50, 10, 40}));
-    EXPECT_EQ(turned(0, true), (std::vector{30, 20, 10, 60, 50, 40}));
-    EXPECT_EQ(turned(2, false), (std::vector{10, 20, 30, 40, 50, 60})) << "nearly upright";
+    EXPECT_EQ(turned(1, 0, 0, 1), (std::vector{10, 20, 30, 40, 50, 60}));
+    EXPECT_EQ(turned(0, 1, -1, 0), (std::vector{40, 10, 50, 20, 60, 30})) << "clockwise";
+    EXPECT_EQ(turned(-1, 0, 0, -1), (std::vector{60, 50, 40, 30, 20, 10}));
+    EXPECT_EQ(turned(0, -1, 1, 0), (std::vector{30, 60, 20, 50, 10, 40}));
+    EXPECT_EQ(turned(-1, 0, 0, 1), (std::vector{30, 20, 10, 60, 50, 40})) << "mirrored";
+    EXPECT_EQ(turned(0.99, 0.1, -0.1, 0.99), (std::vector{10, 20, 30, 40, 50, 60}))
+        << "nearly upright";
     EXPECT_FALSE(shape_of(nullptr, {1, 1}).is_turned());
 }
 

@@ -17,7 +17,6 @@
 #include "capture/mkv_reader.h"
 #include "files/file_bytes.h"
 #include "files/png_file.h"
-#include "sandbox/filter.h"
 #include "testing/shared_data.h"
 #include "testing/temporary_folder.h"
 
@@ -185,24 +184,6 @@ TEST(MkvCamera, AReaderThatEndsCostsThisCameraAloneAndItOpensAgain) {
     EXPECT_THAT(capture.problem, HasSubstr("recording.mkv' made its reader "));
     EXPECT_EQ(other->next(10s).kind, Capture::Kind::frame);
     EXPECT_EQ(open_camera(camera)->next(10s).kind, Capture::Kind::frame);
-}
-
-TEST(MkvFile, AFileThatNeedsTooMuchMemoryIsNamed) {
-    THEATRON_REQUIRE_DATA(sample);
-    const fs::path path = theatron::testing::shared_data() / sample;
-    try {
-        // Less than a depth picture takes, and enough for what comes before the file is read.
-        MkvFile file(path, {.memory_bytes = 512 << 10});
-        while (file.read()) {
-        }
-        FAIL() << "512 KiB were enough";
-    } catch (const Error& error) {
-        EXPECT_THAT(error.what(), HasSubstr("recording.mkv' made its reader "));
-        // Under a sanitizer the child ends in another way.
-        if (!sandbox::has_sanitizer) {
-            EXPECT_THAT(error.what(), HasSubstr("use more than 0 MiB"));
-        }
-    }
 }
 
 TEST(MkvFile, APictureLargerThanTheSharedMemoryArrivesEmpty) {

@@ -8,7 +8,9 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "capture/camera.h"
+#include "capture/mkv_file.h"
 #include "record/matroska_writer.h"
+#include "sandbox/filter.h"
 #include "testing/temporary_folder.h"
 #include "video/jpeg_encoder_native.h"
 
@@ -190,6 +192,26 @@ TEST_F(GeneratedMkv, AFileThatIsCutOffSaysSoAtItsEnd) {
     while ((got = camera->next(1s)).kind != Capture::Kind::end)
         ASSERT_NE(got.kind, Capture::Kind::failed) << got.problem;
     EXPECT_THAT(got.problem, HasSubstr("is cut off"));
+}
+
+TEST_F(GeneratedMkv, AFileThatNeedsTooMuchMemoryIsNamed) {
+    // A picture that no free part of the heap holds.
+    constexpr Size large{4096, 1024};
+    Kinect file(path(), {track(depth_track, "DEPTH", large, "b16g")});
+    file.add(depth_track, Bytes(2 * large.area()), 0);
+    file.finish();
+    try {
+        MkvFile read(path(), {.memory_bytes = 1 << 20});
+        while (read.read()) {
+        }
+        FAIL() << "1 MiB was enough";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("recording.mkv' made its reader "));
+        // Under a sanitizer the child ends in another way.
+        if (!sandbox::has_sanitizer) {
+            EXPECT_THAT(error.what(), HasSubstr("use more than 1 MiB"));
+        }
+    }
 }
 
 TEST_F(GeneratedMkv, ARecordingOfInfraredAloneIsNamed) {

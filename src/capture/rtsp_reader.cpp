@@ -154,13 +154,14 @@ private:
     std::span<std::byte> area_;
     int sent_ = 0;  // requests
     std::string challenge_, session_;
-    // The request whose response comes between packets.
+    // A request whose response comes between packets.
     struct Outstanding {
         std::string method, headers;
         int sequence = 0;
         bool is_repeated = false;  // with an answer to its challenge
     };
-    std::optional<Outstanding> outstanding_;
+    static constexpr std::size_t most_outstanding = 4;  // some servers never answer keep-alives
+    std::deque<Outstanding> outstanding_;
     bool send_between(Outstanding request);
     std::optional<Kind> refusal_;  // of PLAY
     int channel_ = 0;
@@ -293,15 +294,22 @@ std::optional<RtspResponse> Rtsp::ask(const std::string& method, const std::stri
 bool Rtsp::send_between(Outstanding request) {
     const bool is_sent = send(request.method, url_.address, request.headers);
     request.sequence = sent_;
-    outstanding_ = std::move(request);
+    outstanding_.push_back(std::move(request));
+    if (outstanding_.size() > most_outstanding)
+        outstanding_.pop_front();
     return is_sent;
 }
 
 // The response to a request, between packets. False ends the stream.
 bool Rtsp::take_response(const RtspResponse& response) {
-    if (!outstanding_ || (response.sequence != 0 && response.sequence != outstanding_->sequence))
+    const auto found =
+        std::find_if(outstanding_.begin(), outstanding_.end(), [&](const Outstanding& one) {
+            return response.sequence == 0 || response.sequence == one.sequence;
+        });
+    if (found == outstanding_.end())
         return true;
-    Outstanding request = *std::exchange(outstanding_, std::nullopt);
+    Outstanding request = std::move(*found);
+    outstanding_.erase(found);
     if (response.status == 401 && !response.challenge.empty() && !url_.user.empty() &&
         !request.is_repeated) {
         challenge_ = response.challenge;

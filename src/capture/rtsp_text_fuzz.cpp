@@ -19,6 +19,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         if (answer.find_first_of("\r\n") != std::string::npos)
             std::abort();
     }
+    // One empty line: a second one would be another answer.
+    if (const std::string answer = answer_to_rtsp_request(text);
+        !answer.empty() && answer.find("\r\n\r\n") != answer.size() - 4)
+        std::abort();
     if (const auto track = find_rtsp_track(text, "rtsp://host/"))
         if (track->control.find_first_of("\r\n ") != std::string::npos)
             std::abort();

@@ -15,6 +15,7 @@ namespace {
 constexpr Duration first_frame_patience = std::chrono::seconds(5);
 // At the end: for the last pictures of the cameras, which are still being encoded.
 constexpr Duration encoding_patience = std::chrono::milliseconds(1500);
+constexpr Duration file_patience = std::chrono::seconds(20);
 
 // A recording wants every frame: half a second of them may wait for the encoder.
 constexpr std::size_t waiting_frames = 15;
@@ -110,7 +111,11 @@ public:
 
     std::optional<End> ended() override {
         const std::lock_guard lock(mutex_);
-        if (ended_.size() + failed_.size() < lanes_.size())
+        // A file's last pictures are waited for as the others were.
+        const bool has_work = std::any_of(lanes_.begin(), lanes_.end(), [](const auto& lane) {
+            return lane->waits() && lane->wait_until_encoded(Duration(0)) > 0;
+        });
+        if (ended_.size() + failed_.size() < lanes_.size() || (begun_ && has_work))
             return std::nullopt;
         const bool is_fault = !failed_.empty() || ended_with_problem_;
         return End{"", is_fault ? std::optional(record::Lack::camera_failed) : std::nullopt};
@@ -143,6 +148,11 @@ public:
         const TimePoint until = steady_now() + encoding_patience;
         for (const auto& lane : lanes_)
             (void)lane->wait_until_encoded(std::max(until - steady_now(), Duration(0)));
+        // Those of a file are as many as may wait, also where the machine is slow.
+        const TimePoint latest = steady_now() + file_patience;
+        for (const auto& lane : lanes_)
+            if (begun_ && lane->waits())
+                (void)lane->wait_until_encoded(std::max(latest - steady_now(), Duration(0)));
         const std::lock_guard lock(media_mutex_);
         stopped_ = true;
         for (std::size_t i = 0; i < lanes_.size(); ++i) {

@@ -75,6 +75,7 @@ public:
         info_.calibration.depth = pinhole(size, 60);
     }
     const capture::CameraInfo& info() const override { return info_; }
+    bool skip_none() override { return true; }
     capture::Capture next(Duration timeout) override {
         std::unique_lock lock(script_->mutex);
         if (std::exchange(script_->last_on_its_way, false)) {
@@ -423,6 +424,33 @@ TEST_F(Lane, AClosedLaneEncodesTheFramesThatItHasTakenAndNoFurther) {
                             [](const auto& media) { return is_depth(media.header.stream); }),
               3);
     EXPECT_EQ(published.size(), 6u);
+}
+
+// A file that is converted: no frame is lost before the settings are there, nor to slow work, and
+// none is sent twice.
+TEST_F(Lane, WhereEveryFrameIsWantedTheCameraWaits) {
+    constexpr int frames = 20;
+    const GatedColor::Gate gate = std::make_shared<std::counting_semaphore<>>(0);
+    CameraLane::Options options;
+    options.waiting_frames = 3;
+    options.every_frame = true;
+    options.make_color = [gate](const video::ColorSetting&) {
+        return std::make_unique<GatedColor>(gate);
+    };
+    open(std::move(options));
+    EXPECT_TRUE(lane->waits());
+    for (int n = 0; n < frames; ++n)
+        script->give_frame(1000);
+    script->wait_until_taken(2);
+    lane->set_settings({{SettingId{1}, "rvl"}}, {{SettingId{2}, "jpeg"}});
+    lane->hold(false);
+    lane->request_key(depth_stream(CameraId{3}), SettingId{1});
+    gate->release(frames);
+    wait_for(2 * frames);
+    lane->wait_idle();
+    const std::lock_guard lock(mutex);
+    EXPECT_EQ(published.size(), std::size_t(2 * frames));
+    EXPECT_EQ(lane->dropped_newest(), 0u);
 }
 
 TEST_F(Lane, AFailureIsToldWithItsSentence) {
