@@ -79,10 +79,12 @@ LineWriter& writer_of(output::Stream stream) {
 }
 
 // The stream of a status line that stands on the terminal; a line wipes it first.
-std::atomic<std::optional<output::Stream>> status_stream;
+constexpr int no_stream = -1;
+std::atomic<int> status_stream{no_stream};
 
 std::string wiped(std::string line, int file) {
-    if (status_stream.load() && isatty(file) && status_stream.exchange(std::nullopt))
+    if (status_stream != no_stream && isatty(file) &&
+        status_stream.exchange(no_stream) != no_stream)
         line.insert(0, wipe);
     return line;
 }
@@ -133,13 +135,13 @@ void status_line(const std::string& text, Stream stream) {
     LineWriter& writer = writer_of(stream);
     if (!writer.idle())
         return;
-    status_stream = stream;
+    status_stream = int(stream);
     writer.put(wipe + text);
 }
 
 void end_status_line() {
-    if (const auto stream = status_stream.exchange(std::nullopt))
-        writer_of(*stream).put("\n");
+    if (const int stream = status_stream.exchange(no_stream); stream != no_stream)
+        writer_of(output::Stream(stream)).put("\n");
 }
 
 bool is_written() {

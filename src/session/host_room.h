@@ -38,7 +38,6 @@ public:
     static constexpr Duration max_pose_lead = std::chrono::seconds(1);
 
     // Objects that one person or one link may have made in the room, on whichever connections.
-    static constexpr std::size_t max_objects_of_person = RoomState::max_objects_of_one;
     static constexpr std::size_t max_objects_by_one_link = 1024;
     // Places among RoomState::max_objects for cases, shared screens and operators: what others make
     // takes none of them.

@@ -34,7 +34,7 @@ Refusal HostRoom::judge_place_for(ParticipantId id, const Request& request) cons
     });
     const std::size_t places = RoomState::max_objects - (manages ? 0 : kept_objects);
     const bool is_full = state_.objects().size() >= places ||
-                         std::size_t(of_person) >= max_objects_of_person ||
+                         std::size_t(of_person) >= RoomState::max_objects_of_one ||
                          (!manages && std::size_t(by_link) >= max_objects_by_one_link);
     return is_full ? Refusal::too_many : Refusal::none;
 }

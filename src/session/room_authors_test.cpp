@@ -71,7 +71,7 @@ protected:
 TEST_F(RoomAuthors, OnePersonMakesSoMuchOnHoweverManyConnections) {
     for (int again = 0; again < 5; ++again)
         make_bricks(author(1), "expert");
-    EXPECT_EQ(count(ObjectKind::brick), int(HostRoom::max_objects_of_person));
+    EXPECT_EQ(count(ObjectKind::brick), int(RoomState::max_objects_of_one));
     EXPECT_GT(make_bricks(author(2), "expert"), 0) << "somebody else";
 }
 

@@ -40,6 +40,7 @@ class Output(unittest.TestCase):
         self.addCleanup(shutil.rmtree, self.folder)
         self.camera = f"folder:{make_recording(self.folder / 'box')},loop=1"
         self.state = self.folder / "state"
+        self.started = 0
 
     # Readers that read nothing: each gives what a program writes to.
 
@@ -67,8 +68,10 @@ class Output(unittest.TestCase):
 
     def start(self, make_output, *words, env=None, stdin=subprocess.DEVNULL):
         output = make_output()
+        self.started += 1  # each is of another person
         process = subprocess.Popen([PROGRAM, *map(str, words)], bufsize=0, stdin=stdin, stdout=output, stderr=output,
-                                   env={**(env or os.environ), "XDG_STATE_HOME": str(self.folder / "home")})
+                                   env={**(env or os.environ),
+                                        "XDG_STATE_HOME": str(self.folder / f"home{self.started}")})
         os.close(output)
 
         def end():
