@@ -37,7 +37,7 @@ public:
     // The latest time of a pose, after the host's present time.
     static constexpr Duration max_pose_lead = std::chrono::seconds(1);
 
-    // Objects that one person or one link may have made in the room, on whichever connections.
+    // Objects that the people of one link may have made in the room, on whichever connections.
     static constexpr std::size_t max_objects_by_one_link = 1024;
     // Places among RoomState::max_objects for cases, shared screens and operators: what others make
     // takes none of them.
