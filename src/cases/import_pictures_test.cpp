@@ -54,8 +54,10 @@ TEST_F(Import, APictureThatIsDamagedOrNoneIsNamed) {
     fs::create_directories(source());
     std::ofstream(source() / "x.jpg") << "GIF89a";
     EXPECT_THAT(refusal(), HasSubstr("x.jpg' is left out: it is neither PNG nor JPEG"));
-    Bytes damaged(1 << 16, std::byte(0xff));
+    Bytes damaged(1 << 16);
+    damaged[0] = damaged[2] = std::byte(0xff);
     damaged[1] = std::byte(0xd8);  // as JPEG begins
+    damaged[3] = std::byte(0xe0);
     files::write_file(source() / "x.jpg", damaged);
     EXPECT_THAT(refusal(), HasSubstr("x.jpg' is damaged"));
     fs::resize_file(source() / "x.jpg", 200 << 20);

@@ -53,7 +53,10 @@ Answer read_jpeg(ByteView file, ColorImage& out) {
     if (tjDecompressHeader3(decoder.get(), data_of(file), size, &width, &height, &sampling,
                             &space) != 0)
         return Answer::unreadable;
-    if (width <= 0 || height <= 0 || !is_taken(std::size_t(width), std::size_t(height)))
+    // Bytes without a picture's head give no size.
+    if (width <= 0 || height <= 0)
+        return Answer::unreadable;
+    if (!is_taken(std::size_t(width), std::size_t(height)))
         return Answer::too_large;
     if (space == TJCS_CMYK || space == TJCS_YCCK)
         return Answer::compression;

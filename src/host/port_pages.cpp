@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/steady_clock.h"
+#include "files/utc_text.h"
 #include "host/host_http.h"
 #include "host/lobby.h"
 #include "net/certificate.h"
@@ -17,7 +18,7 @@ namespace {
 bool has_expired(const std::string& secret, const SessionSwitch::Sessions& sessions) {
     for (const auto& [number, session] : sessions)
         if (const auto token = session.find_token(secret))
-            return token->expires && steady_now() >= *token->expires;
+            return token->has_expired(steady_now(), files::utc_now());
     return false;
 }
 
