@@ -22,11 +22,15 @@ def anchors(text):
 def problems(name, text, read):
     """Sentences on the links of page `name`; `read` gives the text of a file, "" of a folder or picture, None of none."""
     found = []
+    # Lines of docs/changes are read in CHANGELOG.md.
+    folder = pathlib.PurePosixPath(name).parent
+    if folder == pathlib.PurePosixPath("docs/changes") and not name.endswith("README.md"):
+        folder = pathlib.PurePosixPath(".")
     for target in LINK.findall(re.sub(r"```.*?```", "", text, flags=re.DOTALL)):
         if re.match(r"[a-z]+:", target):
             continue
         path, _, anchor = target.partition("#")
-        other = read(pathlib.PurePosixPath(name).parent / path) if path else text
+        other = read(folder / path) if path else text
         if other is None:
             found.append(f"{name}: {target}: there is no such file")
         elif anchor and anchor not in anchors(other):
