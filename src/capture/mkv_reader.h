@@ -53,7 +53,7 @@ inline constexpr sandbox::Reader foreign_readers[] = {
     {"mkv", sandbox::Profile::file, MkvReader::serve, ffmpeg::load_if_there},
     {"video", sandbox::Profile::library, serve_video, ffmpeg::load_if_there},
     {"rtsp", sandbox::Profile::stream, serve_rtsp, ffmpeg::load_if_there},
-    {"x11", sandbox::Profile::display, serve_x11},
+    {"x11", sandbox::Profile::display, serve_x11, ffmpeg::load_if_there},
     {"v4l2", sandbox::Profile::device, serve_v4l2, ffmpeg::load_if_there}};
 
 }  // namespace theatron::capture

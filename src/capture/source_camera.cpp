@@ -323,7 +323,7 @@ std::unique_ptr<Camera> open_x11_camera(Options& options, const Progress&) {
     const std::string subject = window.number == 0
                                     ? "the display '" + x11.display + "'"
                                     : "the window '" + number_text(window.number) + "'";
-    const Opening opening{"x11",
+    const Opening opening{ffmpeg::needed_by("x11"),
                           subject,
                           std::to_string(x11.screen) + " " + std::to_string(window.number) +
                               (cursor ? " 1 " : " 0 ") + x11.cookie_hex,
