@@ -62,10 +62,10 @@ void add_of_sequences(const DicomSet& set, int depth, std::vector<Identifier>& f
         // Texts begin otherwise than an item does.
         if (element.tag == pixel_data_tag)
             continue;
-        for (const DicomSet& item : set.items(element)) {
+        for (const DicomSet& inside : set.items(element)) {
             for (const KnownTag& tag : identifying_inside)
-                add(item, tag, found);
-            add_of_sequences(item, depth + 1, found);
+                add(inside, tag, found);
+            add_of_sequences(inside, depth + 1, found);
         }
     }
 }

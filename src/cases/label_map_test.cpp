@@ -277,6 +277,7 @@ TEST(Nifti, EachProblemIsNamed) {
     EXPECT_THAT(changed([](Bytes& f) { f.pop_back(); }), HasSubstr("less than its header"));
     EXPECT_THAT(changed([](Bytes& f) { f[344] = std::byte('x'); }), HasSubstr("version 1 or 2"));
     EXPECT_THAT(changed([](Bytes& f) { f[70] = std::byte(3); }), HasSubstr("type"));
+    EXPECT_THAT(changed([](Bytes& f) { f[41] = std::byte(0x7f); }), HasSubstr("than seven"));
     EXPECT_THAT(changed([](Bytes& f) { f[48] = std::byte(5), f[40] = std::byte(4); }),
                 HasSubstr("three dimensions"));
     EXPECT_THAT(changed([](Bytes& f) { f[254] = std::byte(0); }),

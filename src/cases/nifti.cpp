@@ -160,7 +160,7 @@ Vec3 lps_from_ras(Vec3 v) {
 std::string read_grid(const Header& header, medical::VolumeGrid& grid) {
     const double dimensions = header.dim(0);
     if (!(dimensions >= 1 && dimensions <= 7))
-        return "is damaged: it has " + std::to_string(int(dimensions)) + " dimensions";
+        return "is damaged: it has less than one dimension, or more than seven";
     int sides[3] = {1, 1, 1};
     for (std::size_t i = 1; i <= std::size_t(dimensions); ++i) {
         const double side = header.dim(i);
