@@ -235,7 +235,6 @@ void CameraLane::begin_work() {
 }
 
 void CameraLane::work() {
-    const TimePoint begin = now();
     std::optional<Captured> next;
     {
         const std::lock_guard lock(mutex_);
@@ -251,7 +250,7 @@ void CameraLane::work() {
     }
     room_.notify_one();
     bool ready = false;
-    if (!contain("encode", [&] { ready = prepare(std::move(next), begin); }))
+    if (!contain("encode", [&] { ready = prepare(std::move(next)); }))
         failed_ = true;
     if (ready)
         encode_frame();
@@ -281,8 +280,10 @@ void CameraLane::end_work() {
         workers_.enqueue([this] { work(); });
 }
 
-bool CameraLane::prepare(std::optional<Captured> next, TimePoint begin) {
+bool CameraLane::prepare(std::optional<Captured> next) {
     take_orders();
+    // Read after the orders, so that a repeat is never older than the order that asked for it.
+    const TimePoint begin = now();
     LaneEncoders::For meant = LaneEncoders::For::all;
     if (next) {
         last_ = std::move(next);

@@ -149,7 +149,7 @@ private:
     void begin_work();
     void work();
     // True if a frame is now in `picture_`, to be encoded.
-    bool prepare(std::optional<Captured> next, TimePoint begin);
+    bool prepare(std::optional<Captured> next);
     std::optional<LaneEncoders::For> repeats(TimePoint begin);
     void take_orders();
     void filter_frame();

@@ -16,7 +16,6 @@ namespace theatron::send {
 namespace {
 
 constexpr Size size{16, 12};
-// Longest time that a test waits for an event: generous, so that slow machines pass.
 
 // Time that passes when the test says so.
 class ManualClock {
@@ -24,11 +23,30 @@ public:
     TimePoint now() const { return TimePoint(now_.load()); }
     void pass(Duration time) { now_ = now_.load() + time; }
     capture::Clock clock() {
-        return {[this] { return now(); }, [](Duration) { std::this_thread::yield(); }};
+        return {[this] { return read(); }, [](Duration) { std::this_thread::yield(); }};
+    }
+    // Calls `then` once, between the next reading of the clock and the use of what was read.
+    void after_next_reading(std::function<void()> then) {
+        const std::lock_guard lock(mutex_);
+        after_reading_ = std::move(then);
     }
 
 private:
+    TimePoint read() {
+        const TimePoint read = now();
+        std::function<void()> then;
+        {
+            const std::lock_guard lock(mutex_);
+            then = std::exchange(after_reading_, nullptr);
+        }
+        if (then)
+            then();
+        return read;
+    }
+
     std::atomic<Duration> now_{Duration(1h)};
+    std::mutex mutex_;
+    std::function<void()> after_reading_;
 };
 
 // Hands over frames when the test says so.
@@ -274,6 +292,25 @@ TEST_F(Lane, AStandingCameraIsRepeatedAtMostTwiceASecond) {
     const std::lock_guard lock(mutex);
     EXPECT_EQ(published[2].header.setting, SettingId(setting));
     EXPECT_TRUE(published[2].header.key);
+}
+
+TEST_F(Lane, ARepeatIsNotOlderThanTheOrderThatAskedForIt) {
+    lane->set_settings({{SettingId{1}, "trvl"}}, {});
+    script->give_frame(1000);
+    wait_for(1);
+    lane->wait_idle();
+    // A receiver comes ten seconds after the clock was read for other work.
+    script->clock.after_next_reading([&] {
+        script->clock.pass(10s);
+        lane->set_settings({{SettingId{1}, "trvl"}, {SettingId{2}, "rvl"}}, {});
+    });
+    lane->set_settings({{SettingId{1}, "trvl"}}, {});
+    wait_for(2);
+    lane->wait_idle();
+    lane->set_settings({{SettingId{1}, "trvl"}, {SettingId{3}, "rvl"}}, {});
+    lane->wait_idle();
+    const std::lock_guard lock(mutex);
+    EXPECT_EQ(published.size(), 2u);
 }
 
 TEST_F(Lane, ColorFramesNameWhatTheyReferTo) {
