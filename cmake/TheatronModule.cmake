@@ -1,10 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
 # One folder, one library, its tests and fuzz targets found by file name.
 
+# The optimised build's unit tests are part of `make test` only of these modules: they have kernels for several
+# instruction sets, of which a sanitizer build has one; statistics over many images, which a sanitizer build leaves out;
+# or limits of memory and system calls, which sanitizers exceed. The unit tests of the other modules run once, with
+# sanitizers.
+set(THEATRON_OPTIMISED_TESTS capture cases codec filter geometry image registration sandbox send simulation
+  synthetic video voice)
+
 # theatron_unit_test(NAME TARGET [ENVIRONMENT variable=value...])
 #
 # A test that runs the program TARGET in the repository's root, in sanitizer builds with the lists of what
-# is not reported (each entry with its reason). It counts as skipped where every test in it is.
+# is not reported (each entry with its reason). It counts as skipped where every test in it is. Its label is
+# `unit`, and also `once` in a build where `make test` leaves it out; the target unit_tests builds it there.
 function(theatron_unit_test name target)
   cmake_parse_arguments(T "" "" "ENVIRONMENT" ${ARGN})
   add_test(NAME ${name} COMMAND ${target} WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
@@ -16,8 +24,13 @@ function(theatron_unit_test name target)
       "LSAN_OPTIONS=suppressions=${lists}/leaks.txt" "UBSAN_OPTIONS=print_stacktrace=1"
       "TSAN_OPTIONS=suppressions=${lists}/threads.txt:second_deadlock_stack=1")
   endif()
+  set(labels unit)
+  if(NOT THEATRON_SANITIZE AND NOT THEATRON_MODULES AND NOT name IN_LIST THEATRON_OPTIMISED_TESTS)
+    list(APPEND labels once)
+    set_target_properties(${target} PROPERTIES EXCLUDE_FROM_ALL TRUE)
+  endif()
   set_tests_properties(${name} PROPERTIES
-    LABELS unit
+    LABELS "${labels}"
     ENVIRONMENT "${T_ENVIRONMENT}"
     SKIP_REGULAR_EXPRESSION "\\[  PASSED  \\] 0 tests\\.\n\\[  SKIPPED \\]")
   set_property(GLOBAL APPEND PROPERTY THEATRON_UNIT_TESTS ${target})
