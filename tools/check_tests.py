@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Refuses what makes a test fail by chance: the real clock, sleeps, deadlines, rates and ages as assertions.
+"""Refuses what makes a test fail by chance: the real clock, sleeps, deadlines, rates and ages as assertions, and files that
+another run of the same test shares.
 
 A test fails when something is wrong, on any machine, however busy. docs/testing.md says what to write instead. In
 tests/real_time.txt stand the files that may do so all the same, each with how often; the list may only shrink, so an
@@ -17,6 +18,7 @@ LIST = "tests/real_time.txt"
 # A wait for a condition alone, as `held.wait_until([&] {...})`, is no deadline.
 IN_CPP = re.compile(r"\b(?:steady_now|steady_clock::now|this_thread::sleep_for|this_thread::sleep_until|usleep|nanosleep)\(|"
                     r"\.wait_(?:for|until)\((?!\[|$)|::sleep\(")
+SHARED_FOLDER = re.compile(r"\btemp_directory_path\(")
 CLOCK = {"sleep", "monotonic", "perf_counter"}
 MEASURED = re.compile(r"^(fps\w*|frames_per_second|mbit_per_s|\w*age_ms|age_now_ms|p50|p99)$")
 PATIENT = {"wait_for", "wait_until", "wait_for_error", "wait_for_end", "read_json", "end"}
@@ -26,7 +28,9 @@ def in_cpp(text):
     """[(line, what)] that depends on the machine's speed."""
     found = []
     for number, line in enumerate(text.splitlines(), 1):
-        found += [(number, f"{m[0].strip('.(')} needs the real clock") for m in IN_CPP.finditer(line.split("//")[0])]
+        code = line.split("//")[0]
+        found += [(number, f"{m[0].strip('.(')} needs the real clock") for m in IN_CPP.finditer(code)]
+        found += [(number, "temp_directory_path() is shared by all runs: testing::TemporaryFolder is of one test") for _ in SHARED_FOLDER.finditer(code)]
     return found
 
 

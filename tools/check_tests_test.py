@@ -16,6 +16,10 @@ class Cpp(unittest.TestCase):
         self.assertEqual(self.found("EXPECT_TRUE(changed.wait_for(lock, 30s, [&] { return done; }));"), ["wait_for"])
         self.assertEqual(self.found("if (future.wait_until(end) == ready)"), ["wait_until"])
 
+    def test_folders_of_all_runs(self):
+        self.assertEqual(self.found('const fs::path cache = fs::temp_directory_path() / "cache";'), ["temp_directory_path()"])
+        self.assertEqual(self.found("const testing::TemporaryFolder folder;"), [])
+
     def test_conditions_and_given_clocks_are_none(self):
         for line in ("held.wait_until([&] { return held.frames.size() == 51; });", "time.sleep_until(due);",
                      "changed.wait(lock, [&] { return done; });", "// steady_now() is not called", "clock.pass(33ms);"):

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "testing/temporary_folder.h"
 
 namespace theatron::capture {
 namespace {
@@ -22,8 +23,8 @@ std::string problem_of(std::string_view specification) {
 }
 
 TEST(SyntheticCamera, DeliversRegisteredFramesWithColor) {
-    const fs::path cache = fs::temp_directory_path() / "theatron-synthetic-camera-test";
-    fs::remove_all(cache);
+    const testing::TemporaryFolder folder;
+    const fs::path cache = folder.path() / "frames";
     const auto camera =
         open_camera("synthetic:seconds=2,fps=2,quality=quick,cache=" + cache.string());
     EXPECT_TRUE(camera->info().calibration.registered);

@@ -8,6 +8,7 @@
 #include "net/certificate.h"
 #include "net/clock_sync.h"
 #include "net/link.h"
+#include "testing/temporary_folder.h"
 
 namespace theatron::net {
 namespace {
@@ -43,8 +44,8 @@ TEST(Endpoint, Parses) {
 }
 
 TEST(Certificate, IsMadeOnceAndKept) {
-    const auto folder =
-        std::filesystem::temp_directory_path() / ("theatron_cert_" + random_token());
+    const testing::TemporaryFolder of_this_test;
+    const auto folder = of_this_test.path() / "state";
     const Certificate made = load_or_make_certificate(folder);
     const Certificate loaded = load_or_make_certificate(folder);
     EXPECT_EQ(made.fingerprint, loaded.fingerprint);
@@ -55,7 +56,6 @@ TEST(Certificate, IsMadeOnceAndKept) {
 
     std::filesystem::resize_file(folder / "host.key", 20);
     EXPECT_THROW(load_or_make_certificate(folder), Error);
-    std::filesystem::remove_all(folder);
 }
 
 TEST(Certificate, SecretsCompare) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "files/file_bytes.h"
+#include "testing/temporary_folder.h"
 
 namespace theatron::synthetic {
 namespace {
@@ -13,10 +14,7 @@ namespace fs = std::filesystem;
 class FrameCache : public ::testing::Test {
 protected:
     FrameCache() {
-        folder_ = fs::temp_directory_path() /
-                  ("theatron-loop-test-" +
-                   std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) +
-                   std::to_string(std::size_t(reinterpret_cast<std::uintptr_t>(this))));
+        folder_ = of_this_test_.path() / "loop";
         options_.scene = {.seed = 5, .loop = 2s, .detail = 0.05};
         options_.color = {64, 36};
         options_.depth_divisor = 4;
@@ -24,7 +22,6 @@ protected:
         options_.noise = false;
         options_.folder = folder_;
     }
-    ~FrameCache() override { fs::remove_all(folder_); }
 
     std::vector<Frame> all_frames(FrameLoop& loop) {
         std::vector<Frame> frames(loop.frames());
@@ -40,6 +37,7 @@ protected:
         }
     }
 
+    testing::TemporaryFolder of_this_test_;
     fs::path folder_;
     LoopOptions options_;
 };
