@@ -32,10 +32,14 @@ struct Decide {  // an operator's decision on a person
     ParticipantId person{};
     wire::Role role{};
 };
-struct OpenOffered {  // a case of the host
+struct AskToOpen {  // a case of the host: whose it is is shown first
     ContentHash offered;
 };
-struct ChangeCase {  // false: there is no such case any more
+struct OpenOffered {  // that case, which is the right one
+    ContentHash offered;
+};
+struct LeaveClosed {};  // it is not
+struct ChangeCase {     // false: there is no such case any more
     std::function<bool(client::Participant&)> change;
 };
 struct ChooseMarkTool {
@@ -83,9 +87,9 @@ struct LookBackTo {  // for this person alone; 0: the present
     Duration ago{};
 };
 using RoomCommand =
-    std::variant<GoToPerson, LookThrough, GoToPlace, Decide, OpenOffered, ChangeCase,
-                 ChooseMarkTool, ChangeMarks, Call, AnswerCall, ShowLarge, AdjustStep, PlayStep,
-                 ChangeScreen, ShowFace, LookBackTo, UseSound>;
+    std::variant<GoToPerson, LookThrough, GoToPlace, Decide, AskToOpen, OpenOffered, LeaveClosed,
+                 ChangeCase, ChooseMarkTool, ChangeMarks, Call, AnswerCall, ShowLarge, AdjustStep,
+                 PlayStep, ChangeScreen, ShowFace, LookBackTo, UseSound>;
 
 struct RoomPanel {
     std::vector<xr::Panel> panels;
