@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "page_state.h"
+#include "session/whose_camera.h"
 #include "viewer/meeting.h"
 #include "viewer/playing.h"
 #include "wire/no_codec.h"
@@ -39,7 +40,7 @@ void FlatView::follow_cameras() {
     names_.clear();
     for (const auto& camera : participant_.cameras(generation))
         if (camera.description.has_color)
-            names_[camera.description.id] = camera.description.name;
+            names_[camera.description.id] = session::whose_camera(camera.description, room.objects);
     if (!camera_ || !names_.contains(*camera_)) {
         camera_.reset();
         next_camera();
@@ -110,6 +111,9 @@ viewer::Facts FlatView::facts(TimePoint now) {
     // That little comes is this view's own wish.
     facts.received.status.delivery = {};
     facts.has_picture = shown_.has_value();
+    const auto room = participant_.room();
+    for (client::CameraFigures& one : facts.received.cameras)
+        one.camera.description.name = session::whose_camera(one.camera.description, room.objects);
     const TimePoint session_time = participant_.session_time(now);
     if (shown_ && facts.received.status.clock_known)
         facts.age_ms = std::max(to_ms(session_time - shown_->captured), 0.0);

@@ -210,6 +210,8 @@ private:
     void open_before_eye(const ContentHash& offered);
     Pose at_eye_height(Pose room_from_eye) const;
     std::string camera_text(CameraId camera) const;
+    // With the person whose it is.
+    std::string name_of(const client::Participant::Camera& camera) const;
     ViewableCameras cameras() const { return {scene_.calibrations(), scene_.newest()}; }
 
     Options options_;
