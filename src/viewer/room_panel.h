@@ -31,6 +31,7 @@ struct Decide {  // an operator's decision on a person
     wire::ManageAction action{};
     ParticipantId person{};
     wire::Role role{};
+    bool operator==(const Decide&) const = default;
 };
 struct AskToOpen {  // a case of the host: whose it is is shown first
     ContentHash offered;
@@ -106,8 +107,8 @@ struct RoomPanelFacts {
     bool may_call = false, is_calling = false;
     std::map<ParticipantId, int> speaking = {};  // as in Voices
     OwnFace own_face = OwnFace::none;
-    // The person of whom "Remove" was pressed once; removed by the second press.
-    std::optional<ParticipantId> asked_removal = {};
+    // The decision of which the button was pressed once; carried out by the second press.
+    std::optional<Decide> asked = {};
 };
 RoomPanel room_panel(const RoomPanelFacts& facts);
 

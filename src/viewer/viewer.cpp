@@ -252,11 +252,11 @@ void Viewer::press(int command, TimePoint now) {
             note(say(Phrase::no_such_mark), now);
         return;
     }
-    if (const auto* offer = std::get_if<OpenOffered>(&chosen))
     if (const auto* offer = std::get_if<AskToOpen>(&chosen))
         return ask_to_open(offer->offered);
     if (std::holds_alternative<LeaveClosed>(chosen))
         return asked_case_.reset();
+    if (const auto* offer = std::get_if<OpenOffered>(&chosen))
         return open_before_eye(offer->offered);
     if (const auto* large = std::get_if<ShowLarge>(&chosen)) {
         large_ = large_ == *large ? std::nullopt : std::optional(*large);
@@ -523,6 +523,8 @@ Facts Viewer::facts(TimePoint now) {
     // Its buttons would change the present by what is shown of the past.
     if (shows_case_ && facts.past.empty())
         add_case(panel);
+    else
+        asked_case_.reset();
     if (adjusting_.is_shown())
         adjusting_.add_panel(panel);
     facts.rectangle = adjusting_.rectangle();
@@ -530,8 +532,6 @@ Facts Viewer::facts(TimePoint now) {
     if (marking_.tool())
         add_mark_panel(marking_.tool(),
                        facts.received.status.standing.role == wire::Role::operator_, panel);
-    else
-        asked_case_.reset();
     add_camera_pictures(facts, panel, now);
     facts.pointed = pointed_text();
     facts.panels = std::move(panel.panels);
