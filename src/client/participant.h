@@ -235,6 +235,11 @@ public:
     // The patient of the open case; empty: not known, or this person may not know it. Show
     // it to this person alone, and keep it nowhere else: neither in files nor in figures or logs.
     wire::Patient patient() const;
+    // Asks whose case this offered one is, before it is opened. False, and there will be no answer:
+    // not joined, without Options::shows_patient, or the host is of an earlier version.
+    bool ask_patient(const ContentHash& offered);
+    // The newest answer; its texts are empty where this person may not know them. As patient().
+    wire::Patient asked_patient() const;
 
     // For operators, from any thread: the people who wait for admission now.
     std::vector<wire::Visitor> visitors() const;

@@ -12,6 +12,7 @@
 #include "room/people.h"
 #include "room/srgb.h"
 #include "session/room_bytes.h"
+#include "session/whose_camera.h"
 #include "viewer/placed_marks.h"
 #include "viewer/playing.h"
 
@@ -66,6 +67,8 @@ bool OrScreen::step(client::Participant& participant, const std::set<Participant
         live_.clear();
         for (client::CameraFigures& one : client::figures_of(participant).cameras) {
             const CameraId id = one.camera.description.id;
+            one.camera.description.name =
+                session::whose_camera(one.camera.description, scene_.meeting().room().objects);
             if (one.camera.state.condition == wire::CameraCondition::live)
                 live_.insert(id);
             figures_.emplace(id, std::move(one));

@@ -121,6 +121,10 @@ void HostSession::carry_out(ParticipantId id, const wire::RequestContent& reques
         send(id, wire::Content{request.hash, request.offset, 0, {}});
 }
 
+void HostSession::carry_out(ParticipantId id, const wire::AskPatient& question, TimePoint) {
+    cases_.tell_asked_patient(id, question.of_case);
+}
+
 void HostSession::carry_out(ParticipantId id, const wire::VoiceConsent& consent, TimePoint) {
     Participant& person = *admission_.find(id);
     if (!person.has(wire::Feature::voice_consent) || person.voice_recorded == consent.may_record)

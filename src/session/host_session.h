@@ -210,6 +210,7 @@ private:
     void carry_out(ParticipantId id, const wire::Play& message, TimePoint now);
     void carry_out(ParticipantId id, const wire::LookBack& message, TimePoint now);
     void carry_out(ParticipantId id, const wire::OfferDirect& message, TimePoint now);
+    void carry_out(ParticipantId id, const wire::AskPatient& message, TimePoint now);
     void follow_paths();
     void carry_out_late(ParticipantId id, Participant& participant, TimePoint now);
     // `by`: the operator; 0: the person at the host's machine.

@@ -10,6 +10,7 @@
 #include "phrases/phrase.h"
 #include "room/facing.h"
 #include "session/room_object.h"
+#include "session/whose_camera.h"
 #include "viewer/age_text.h"
 #include "viewer/looking_back.h"
 #include "wire/condition_text.h"
@@ -233,7 +234,7 @@ void LiveScene::update_room(const std::vector<client::Participant::Camera>& came
     for (const auto& camera : cameras) {
         if (person_of(camera) || is_screen(camera.calibration) || is_face(camera))
             continue;
-        std::string label = camera.description.name;
+        std::string label = session::whose_camera(camera.description, meeting_.room().objects);
         if (camera.state.condition != wire::CameraCondition::live)
             label += std::string(" (") + text_of(camera.state.condition) + ")";
         marks.push_back({std::move(label), camera.calibration});

@@ -206,9 +206,12 @@ private:
     bool may(session::Right right) const;
     void show_slice_at(const xr::WindowInput& input, Size picture, TimePoint now);
     void add_case(RoomPanel& panel) const;
+    void ask_to_open(const ContentHash& offered);
     void open_before_eye(const ContentHash& offered);
     Pose at_eye_height(Pose room_from_eye) const;
     std::string camera_text(CameraId camera) const;
+    // With the person whose it is.
+    std::string name_of(const client::Participant::Camera& camera) const;
     ViewableCameras cameras() const { return {scene_.calibrations(), scene_.newest()}; }
 
     Options options_;
@@ -261,7 +264,9 @@ private:
     SoundChoices sound_choices_;
     std::optional<UseSound> sound_wish_;
     bool shows_panels_ = false, shows_case_ = false;
-    std::vector<RoomCommand> commands_;  // of the panels' buttons
+    std::optional<ContentHash> asked_case_;  // that the person is about to open
+    bool patient_is_asked_ = false;          // the host answers whose case it is
+    std::vector<RoomCommand> commands_;      // of the panels' buttons
     bool help_ = false;
     bool line_ = true;
     std::string notice_;
