@@ -114,7 +114,7 @@ class Patient(unittest.TestCase):
             page.wait_for("theatron.state.phase === 'joined' && !!theatron.state.overlay.panels.length")
             anna.wait_for(lambda f: f["cases"]["offered"] and len(f["room"]["people"]) == 2)
             anna.say("case open Made liver")
-            page.evaluate("document.querySelector('[data-key=o]').click()")
+            page.evaluate("document.getElementById('show_case').click()")
             panels = "document.getElementById('room_panels').textContent"
             page.wait_for(f"{panels}.includes('Patient: Doe, Jane') && {panels}.includes('born 1961-02-03, number AB-471142')")
             self.assertNotIn("Doe", page.evaluate("JSON.stringify({ ...localStorage, ...sessionStorage })"))
