@@ -38,6 +38,7 @@ const char* kind_of(const xr::Panel& panel) {
 const char* kind_of(const xr::Fact& fact) {
     return fact.label == say(Phrase::recording)     ? "recording"
            : fact.label == say(Phrase::at_the_door) ? "door"
+           : fact.label == say(Phrase::not_live)    ? "not_live"
                                                     : "";
 }
 

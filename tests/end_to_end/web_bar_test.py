@@ -153,15 +153,16 @@ class WebBar(PageCase):
         page = self.form()
         said = page.evaluate(IMPORT % "notices" + """.then(({ Notices }) => {
             const notices = new Notices();
-            const at = (s, warning, notice = "", of_camera = false) => {
-                const { shown, unrest } = notices.at(1000 * s, { warning, notice, of_camera });
+            const at = (s, warning, notice = "", of_camera = false, once = "") => {
+                const { shown, unrest } = notices.at(1000 * s, { warning, notice, of_camera, once });
                 return [...shown, unrest];
             };
             return [at(0, "It is 3 s old"), at(7, "It is 9 s old"), at(9, "It is 11 s old"), at(10, ""), at(20, "It is 2 s old"), at(100, "It is 2 s old"),
-                    at(200, "", "A stands", true), at(203, "", "A is live", true), at(204, "", "View of A"), at(205, "", "A stands", true), at(300, "", "")];
+                    at(200, "", "A stands", true), at(203, "", "A is live", true), at(204, "", "View of A"), at(205, "", "A stands", true), at(300, "", ""),
+                    at(301, "", "", false, "Camera 1"), at(302, "", "", false, "Camera 2"), at(315, "", "", false, "Camera 2")];
         })""")
         self.assertEqual(said, [["It is 3 s old", 0], ["It is 9 s old", 0], [0], [0], [0], ["It is 2 s old", 0],
-                                ["A stands", 0], [2], ["View of A", 2], [3], [0]])
+                                ["A stands", 0], [2], ["View of A", 2], [3], [0], ["Camera 1", 0], ["Camera 2", 0], [0]])
 
     def test_the_form_enters_without_scrolling_and_offers_an_observer_no_voice(self):
         for size in SIZES:

@@ -9,14 +9,17 @@ const unrest_ms = 60000;  // cameras that stand still and go on within this time
 const kind_of = sentence => sentence.replace(/\d+/g, "0");
 
 export class Notices {
-    warnings = new Map();  // kind -> { since, last } in milliseconds
+    said = new Map();  // kind -> { since, last } in milliseconds
     unrest = [];           // when a camera stood still or went on
     notice = "";
 
-    // The client's sentences at this moment; `of_camera`: the notice tells that a camera stands still or goes on.
+    // The client's sentences at this moment; `of_camera`: the notice tells that a camera stands still or goes on. `once`: the
+    // page's own sentence, such as why it shows something else than before; "": none.
     // Returns the sentences to show now, and the warning and the number of such notices that are signs of the dot.
-    at(now_ms, { warning, notice, of_camera }) {
+    at(now_ms, { warning, notice, of_camera, once = "" }) {
         const shown = [];
+        if (once && this.is_new(now_ms, once))
+            shown.push(once);
         if (warning && this.is_new(now_ms, kind_of(warning)))
             shown.push(warning);
         this.unrest = this.unrest.filter(at_ms => now_ms - at_ms < unrest_ms);
@@ -32,9 +35,9 @@ export class Notices {
     }
 
     is_new(now_ms, kind) {
-        const known = this.warnings.get(kind);
+        const known = this.said.get(kind);
         const since = known && now_ms - known.last < again_ms ? known.since : now_ms;
-        this.warnings.set(kind, { since, last: now_ms });
+        this.said.set(kind, { since, last: now_ms });
         return now_ms - since < shown_ms;
     }
 }

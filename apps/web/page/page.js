@@ -177,7 +177,7 @@ function run({ client, voice, face, module, flat }) {
         const key = event.key.toLowerCase();
         if (key === "l" && !event.repeat && is_plain)
             voice.toggle_microphone();
-        if (Object.hasOwn(sheets, key) && !event.repeat && is_plain)
+        if (Object.hasOwn(sheets, key) && !event.repeat && is_plain && (key !== "o" || page.way === "room"))
             sheet.toggle(sheets[key]);
         if (!["F7", "F8"].includes(event.key))
             return;
@@ -220,9 +220,9 @@ function run({ client, voice, face, module, flat }) {
         }
         follow_face();
         page.state.face_problem ||= face_problem(face, page.way);
-        show(page.state, { sheet, notices, way: page.way, now_ms: performance.now() });
+        const way_sentence = show_way(page.state);
+        show(page.state, { sheet, notices, way: page.way, way_sentence, now_ms: performance.now() });
         picture_panel.show(page.state);
-        show_way(page.state);
         place_voices(voice, page.state);
         show_voices(voice, page.state);
         document.title = `${page.state.host || host} - Theatron`;
@@ -371,6 +371,7 @@ function place_voices(voice, { ear, people }) {
 const sheets = { p: "people", o: "case", b: "details" };
 const titles = { people: "people", case: "case", draw: "draw", more: "more", details: "details", picture: "picture_settings" };
 
+// Returns the sentence on what is drawn; "": nothing is to be said.
 function show_way({ has_picture, flat_camera, cameras }) {
     const is_flat = page.way === "flat";
     const sentence = !is_flat ? (page.graphics === "card" ? "" : text("drawn_by_processor"))
@@ -382,6 +383,7 @@ function show_way({ has_picture, flat_camera, cameras }) {
     $("other_way").hidden = page.graphics === "none";
     for (const kind of ["vr", "ar"])
         $(`enter_${kind}`).hidden = is_flat || !has_picture || !page.headset_kinds[kind];
+    return sentence;
 }
 
 // As --render-scale of theatron join; 0: chosen by drawing time.

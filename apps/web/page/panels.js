@@ -250,19 +250,23 @@ function show_details(state, signs) {
     })), fill_cameras);
 }
 
-// `sheet` is the page's Sheet, `notices` its Notices; `way` is "room" or "flat".
-export function show(state, { sheet, notices, way, now_ms }) {
+// `sheet` is the page's Sheet, `notices` its Notices; `way` is "room" or "flat",
+// and `way_sentence` says why, or which camera is shown.
+export function show(state, { sheet, notices, way, way_sentence, now_ms }) {
     const { overlay } = state;
     set_text($("message"), [overlay.message, overlay.detail].filter(Boolean).join("\n"));
     // That a picture is not of the present is said as long as it is so.
-    set_text($("not_live"), state.is_not_live ? overlay.warning : "");
+    const played = overlay.facts.find(fact => fact.kind === "not_live");
+    set_text($("not_live"), !state.is_not_live ? "" : overlay.warning || (played ? `${played.label}: ${played.value}` : ""));
     const { shown, warning, unrest } = notices.at(now_ms, {
-        warning: state.is_not_live ? "" : overlay.warning, notice: overlay.notice, of_camera: state.is_of_camera });
+        warning: state.is_not_live ? "" : overlay.warning, notice: overlay.notice, of_camera: state.is_of_camera, once: way_sentence });
     set_text($("notice"), shown.join("\n"));
     show_dot($("dot"), judge(state, unrest));
     show_chips(state);
     show_buttons(state, way);
     follow_drawing(overlay, sheet);
+    if (way === "flat" && ["case", "draw"].includes(sheet.name))
+        sheet.close();  // nothing of them is in this view
     show_details(state, [warning, unrest ? text("unrest", { count: unrest }) : ""].filter(Boolean));
     sheet.entitle();
     update_panels($("room_panels"), (kinds[sheet.name] ?? []).flatMap(kind => of_kind(overlay, kind)));
