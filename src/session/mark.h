@@ -59,7 +59,8 @@ constexpr std::uint8_t color_number(ParticipantId author) {
     return std::uint8_t(std::uint32_t(author) % mark_colors);
 }
 
-// The first letters of the first and the last word of a name, in UTF-8; "?" without any.
+// The first letters of the first and the last word of a name without its titles ("Dr.", "Prof."),
+// in UTF-8; "?" without any.
 std::string initials_of(std::string_view name);
 
 // A line with fewer points, at most `most` (2 or more). The ends stay, and the point that is

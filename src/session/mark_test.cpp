@@ -74,6 +74,12 @@ TEST(Mark, InitialsAreThoseOfTheFirstAndTheLastWord) {
     EXPECT_EQ(initials_of("Ada"), "A");
     EXPECT_EQ(initials_of("\u00d6zlem K\u00f6se"), "\u00d6K");
     EXPECT_EQ(initials_of(" "), "?");
+    EXPECT_EQ(initials_of("Dr. Eva Stone"), "ES");
+    EXPECT_EQ(initials_of("Prof. Dr. med. Ada Lovelace"), "AL");
+    EXPECT_EQ(initials_of(" Dr Eva  Stone"), "ES");
+    EXPECT_EQ(initials_of("J.R. Stone"), "JS");
+    EXPECT_EQ(initials_of("Dr. Stone"), "S");
+    EXPECT_EQ(initials_of("Dr. "), "D") << "nothing else is known";
     // Cut in the middle of a character.
     EXPECT_EQ(initials_of("\xc3"), "\xc3");
 }

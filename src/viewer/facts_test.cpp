@@ -149,7 +149,7 @@ TEST(Overlay, SaysNothingOfPicturesWhereThereAreNoCameras) {
     EXPECT_TRUE(fact(overlay(facts), "Sent").warning);
     facts.received.cameras.clear();
     for (const xr::Fact& shown : overlay(facts).facts)
-        for (const char* label : {"Sent", "Received", "Dropped", "Depth", "Colour", "Filter"})
+        for (const char* label : {"Sent", "Received", "Left out", "Depth", "Colour", "Filter"})
             EXPECT_NE(shown.label, label);
 }
 

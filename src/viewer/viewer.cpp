@@ -401,12 +401,12 @@ void Viewer::send_own_pose(Size picture, TimePoint now) {
 }
 
 std::string Viewer::camera_text(CameraId camera) const {
-    const std::string number = std::to_string(int(camera));
     std::uint64_t generation = 0;
     for (const auto& known : participant_.cameras(generation))
-        if (known.description.id == camera)
-            return say(Phrase::camera_number_named, number, name_of(known));
-    return say(Phrase::camera_number, number);
+        if (known.description.id == camera && !known.description.name.empty())
+            return say(Phrase::camera_called, name_of(known));
+    // As the keys 1 to 9 count.
+    return say(Phrase::camera_number, std::to_string(int(camera) + 1));
 }
 
 std::string Viewer::name_of(const client::Participant::Camera& camera) const {

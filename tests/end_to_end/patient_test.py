@@ -127,7 +127,7 @@ class Patient(unittest.TestCase):
             page.evaluate("document.getElementById('name').value = 'Ada'; document.getElementById('enter').click()")
             page.wait_for("theatron.state.phase === 'joined' && !!theatron.state.overlay.panels.length")
             anna.wait_for(lambda f: f["cases"]["offered"] and len(f["room"]["people"]) == 2)
-            page.evaluate("document.querySelector('[data-key=o]').click()")
+            page.evaluate("document.getElementById('show_case').click()")
             panels = "document.getElementById('room_panels').textContent"
             press = "[...document.querySelectorAll('#room_panels button')].find(b => b.textContent === '{}').click()"
             page.wait_for(f"{panels}.includes('Made liver')")
