@@ -159,11 +159,22 @@ void OrScreenPicture::add_to(nlohmann::json& json) const {
                             {"sight", text_of(pointer.place.sight)},
                             {"x", pointer.place.pixel.x},
                             {"y", pointer.place.pixel.y}});
-    json["or_screen"] = {{"camera", content.camera},   {"age", content.age},
-                         {"warning", content.warning}, {"recording", content.playback},
-                         {"message", content.message}, {"people", people},
-                         {"pointers", pointers},       {"marks", content.marks.size()},
-                         {"slice", content.slice}};
+    json["or_screen"] = {{"camera", content.camera},
+                         {"age", content.age},
+                         {"warning", content.warning},
+                         {"recording", content.playback},
+                         {"message", content.message},
+                         {"people", people},
+                         {"pointers", pointers},
+                         {"marks", content.marks.size()},
+                         {"slice", content.slice ? content.slice->plane : ""}};
+    if (content.slice) {
+        const medical::EdgeLetters& letters = content.slice->letters;
+        json["or_screen"]["slice_letters"] = {letters.left, letters.right, letters.top,
+                                              letters.bottom};
+        json["or_screen"]["case"] = content.slice->case_name;
+        json["or_screen"]["window"] = content.slice->window;
+    }
 }
 
 }  // namespace theatron::app

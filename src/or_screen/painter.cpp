@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "phrases/phrase.h"
@@ -16,6 +17,7 @@ namespace colors = xr::colors;
 
 constexpr ImU32 shade_color = colors::with_opacity(colors::shade, 190);
 constexpr ImU32 outline_color = IM_COL32(0, 0, 0, 170);
+constexpr ImU32 slice_ink = IM_COL32(255, 220, 90, 255);  // as in the room
 
 // A person's colour as the ground of a card, dark enough for white letters.
 ImU32 tinted(Rgb c) {
@@ -266,16 +268,30 @@ void Painter::room(const Content& content, const Rect& rect, const render::Textu
 void Painter::monitor(const Content& content, const Rect& rect,
                       const render::PictureTexture* slice) {
     list_.AddRectFilled(from(rect), to(rect), IM_COL32(0, 0, 0, 255), 0.25f * letter_);
-    const double text_height = 1.7 * letter_;
-    Rect below{rect.x, rect.bottom() - text_height, rect.width, text_height};
-    centred(fonts_.small, below, colors::label, content.slice);
-    if (!slice || slice->size().area() == 0)
+    if (!content.slice || !slice || slice->size().area() == 0)
         return;
-    const Rect area =
-        fitted(slice->size(), {rect.x, rect.y, rect.width, rect.height - text_height});
-    list_.AddImage(xr::texture_of(slice->texture()), from(area), to(area));
+    const viewer::SliceTexts& texts = *content.slice;
+    const MonitorPlaces places = monitor_places(rect, slice->size(), letter_);
+    list_.AddImage(xr::texture_of(slice->texture()), from(places.picture), to(places.picture));
     there_.clear();
-    pointers(content.slice_pointers, area, slice->size());
+    const auto put = [&](const std::string& letters, Vec2 towards) {
+        const Rect place = letters_place(places.picture, towards, letters.size(), letter_);
+        there_.push_back(place);
+        list_.AddRectFilled(from(place), to(place), shade_color, 0.35f * letter_);
+        const ImVec2 size = measure(fonts_.small, letters);
+        text(fonts_.small,
+             {float(place.x + (place.width - size.x) / 2),
+              float(place.y + (place.height - size.y) / 2)},
+             slice_ink, letters);
+    };
+    pointers(content.slice_pointers, places.picture, slice->size());
+    put(texts.letters.left, {-1, 0});
+    put(texts.letters.right, {1, 0});
+    put(texts.letters.top, {0, -1});
+    put(texts.letters.bottom, {0, 1});
+    const std::string lines[] = {texts.case_name, texts.plane, texts.window};
+    for (std::size_t i = 0; i < std::size(lines); ++i)
+        centred(fonts_.small, places.lines[i], i == 0 ? colors::text : colors::label, lines[i]);
 }
 
 void Painter::card(const PersonCard& card, bool two_lines, const Rect& rect) {

@@ -276,7 +276,7 @@ std::vector<ColoredPoint> LiveScene::points() const {
 }
 
 // Others point at the present: what their rays meet is not in a picture of the past.
-void LiveScene::add_pointers(const render::CameraView& view) {
+void LiveScene::add_pointers() {
     const bool is_present = !past_moment();
     for (const room::RoomPerson& person : meeting_.people())
         if (is_present && person.points && !person.is_stale)
@@ -302,7 +302,7 @@ void LiveScene::add_pointers(const render::CameraView& view) {
     }
     if (!drawn_pointers_)
         drawn_pointers_ = std::make_unique<room::Pointers>();
-    drawn_pointers_->add_to(frame_, pointers_, view);
+    drawn_pointers_->add_to(frame_, pointers_);
 }
 
 void LiveScene::add_headset_text(const render::CameraView& view) {
@@ -347,6 +347,8 @@ const std::vector<room::Pointer>& LiveScene::pointers(const render::CameraView& 
 const render::SceneFrame* LiveScene::scene_for(const render::CameraView& view) {
     frame_.objects.clear();
     frame_.texts.clear();
+    frame_.lines.clear();
+    frame_.labels.clear();
     pointers_.clear();
     if (choice_.in_steps && !passes_)
         return nullptr;
@@ -359,15 +361,17 @@ const render::SceneFrame* LiveScene::scene_for(const render::CameraView& view) {
             room_.add_to(frame_, view);
         meeting_.set_faces(faces_.pictures());
         meeting_.add_to(frame_, view);
-        add_pointers(view);
+        add_pointers();
         if (menu_)
             menu_->add_to(frame_, chosen_row_);
         if (shows_table_)
             add_table_outline();
         if (!real_room_)
             add_ages(view);
-        if (!choice_.has_texts)
+        if (!choice_.has_texts) {
             frame_.texts.clear();
+            frame_.labels.clear();
+        }
         add_headset_text(view);
     }
     if (frame_.empty())

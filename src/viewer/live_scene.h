@@ -146,7 +146,7 @@ private:
     std::vector<render::DrawnClouds> clouds(const std::string& renderer);
     void cut_people(const std::vector<client::Participant::Camera>& cameras);
     void update_room(const std::vector<client::Participant::Camera>& cameras);
-    void add_pointers(const render::CameraView& view);
+    void add_pointers();
     void add_table_outline();
     void add_headset_text(const render::CameraView& view);
     void add_ages(const render::CameraView& view);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The screen of the open case: a slice of its images with letters of directions and a scale bar, in
-// the room and as a plane inside of the organ; or a picture of the case, on the screen alone.
+// The screen of the open case: a slice of its images with letters of directions, a scale bar, the
+// case's name, its place and its window, in the room and as a plane inside of the organ; or a
+// picture of the case, on the screen alone.
 #pragma once
 
 #include <memory>
@@ -76,7 +77,7 @@ private:
 
     std::shared_ptr<const medical::Volume> volume_;
     std::optional<session::CaseScreen> wanted_, shown_;  // slices
-    std::string series_;
+    std::string series_, case_name_;
     medical::SlicePlane plane_;
     Face slice_;
     std::optional<render::SceneMesh> ruler_, inside_;

@@ -271,6 +271,31 @@ class Case(unittest.TestCase):
             anna.wait_for(lambda f: f["cases"]["open"]["cut"])
             self.assertGreater(count("cut.png", is_white), screen + 500, "the slice in the organ")
 
+    def test_the_or_screen_tells_sides_case_and_window_of_the_slice(self):
+        write_case(self.cases / "liver")
+        file = self.folder / "or.png"
+        with self.start() as h, member(h.greeting["link"], "Anna") as anna, \
+                Process("join", h.greeting["link"], "--or-screen", "--offscreen", file, "--size", "1280x720",
+                        "--seconds", "60", "--every", "0.2") as screen:
+            anna.wait_for(lambda f: f["cases"]["offered"])
+            anna.say("case open Made liver")
+            anna.wait_for(has_all)
+            for plane, letters in (("axial", "RLAP"), ("coronal", "RLHF"), ("sagittal", "APHF")):
+                with self.subTest(plane):
+                    anna.say(f"case slice {plane} 0")
+                    anna.say("case window 60 350")
+                    shown = screen.wait_for(
+                        lambda f: f.get("or_screen", {}).get("slice") == f"{plane} 0.0 mm"
+                        and f["or_screen"]["window"] == "L 60  W 350")["or_screen"]
+                    self.assertEqual("".join(shown["slice_letters"]), letters)
+                    self.assertEqual(shown["case"], "Made liver")
+            screen.say("quit")
+            self.assertEqual(screen.end(), 0, screen.errors)
+        width, height, channels, rows = read_png(file)
+        # The letters' colour, in the column beside the camera's picture.
+        yellow = sum(tuple(row[x:x + 3]) == (255, 220, 90) for row in rows[height // 4:] for x in range(3 * width * 3 // 4, 3 * width, 3))
+        self.assertGreater(yellow, 60)
+
     def test_the_places_where_two_people_point_on_the_slice_are_shown_on_the_organ_too(self):
         write_case(self.cases / "liver")
         with self.start() as h, member(h.greeting["link"], "Anna") as anna, member(h.greeting["link"], "Ben") as ben:
