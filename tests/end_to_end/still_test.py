@@ -24,7 +24,7 @@ class Still(unittest.TestCase):
 
     def window(self, link, *options, environment=None):
         home = tempfile.mkdtemp(dir=self.folder)
-        return Process("join", link, "--size", f"{WIDTH}x{HEIGHT}", "--render-scale", "1", *options,
+        return Process("join", link, "--size", f"{WIDTH}x{HEIGHT}", *options,
                        env={**(environment or self.screen.environment), "XDG_STATE_HOME": home})
 
     def picture(self):
@@ -57,7 +57,7 @@ class Still(unittest.TestCase):
         environment = {**preloaded("swap", self.screen.environment), "HANG_STANDIN_FILE": str(hangs)}
         with host(self.folder / "state", self.camera) as h, \
                 self.window(h.greeting["link"], *options, environment=environment) as window:
-            wait_until(lambda: self.picture() > 60)
+            wait_until(lambda: self.picture() > 60, of=window)
             self.assertLess(self.covered(), 0.8)
             hangs.touch()
             wait_until(lambda: self.covered() > 0.9, of=window)
@@ -78,18 +78,13 @@ class Still(unittest.TestCase):
         self.covers_while_drawing_hangs("--or-screen")
 
     def test_after_the_end_of_a_session_the_window_shows_its_form(self):
-        with self.window_of_host() as window:
+        with host(self.folder / "state", self.camera) as h, self.window(h.greeting["link"], "--name", "Wim") as window:
+            wait_until(lambda: self.picture() > 70, of=window)
+            h.send(signal.SIGTERM)
             wait_until(lambda: self.screen.title().startswith("Enter a session"), of=window)
             self.assertIsNone(window.process.poll())
             window.send(signal.SIGTERM)
             self.assertEqual(window.end(), 0, window.errors)
-
-    def window_of_host(self):
-        """A window in whose session a picture was seen, before its host ended."""
-        with host(self.folder / "state", self.camera) as h:
-            window = self.window(h.greeting["link"], "--name", "Wim")
-            wait_until(lambda: self.picture() > 70, of=window)
-        return window
 
 
 if __name__ == "__main__":
