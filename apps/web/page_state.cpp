@@ -63,6 +63,7 @@ json to_json(const xr::OverlayContent& overlay) {
         {"facts", facts},           {"message", overlay.message},
         {"detail", overlay.detail}, {"warning", overlay.warning},
         {"notice", overlay.notice}, {"panels", panels},
+        {"cover", overlay.cover},
     };
 }
 

@@ -13,6 +13,7 @@
 #include "session/whose_camera.h"
 #include "viewer/age_text.h"
 #include "viewer/looking_back.h"
+#include "viewer/still_cover.h"
 #include "wire/condition_text.h"
 #include "xr/font.h"
 
@@ -317,6 +318,28 @@ void LiveScene::add_headset_text(const render::CameraView& view) {
                             {255, 220, 150}});
 }
 
+// Nearer than the clouds, so that none hides it.
+void LiveScene::add_cover(const render::CameraView& view) {
+    if (!shows_cover_ || cover_.empty() || real_room_)
+        return;
+    constexpr double ahead_m = 0.5, width_m = 0.5, plate_height_m = 0.1, letters_m = 0.03;
+    constexpr double before_m = 0.002;
+    if (!plate_)
+        plate_ =
+            std::make_unique<render::SceneMesh>(render::make_panel_mesh(width_m, plate_height_m));
+    render::SurfaceLook look{{0.02, 0.02, 0.02}, 0, 0.6};
+    look.unlit = true;
+    render::SceneObject plate{plate_.get(), view.room_from_eye * Pose{{}, {0, 0, ahead_m}}, look};
+    plate.casts_shadow = false;
+    frame_.objects.push_back(plate);
+    const double half_width = 0.5 * letters_m * letter_width * double(cover_.size());
+    frame_.texts.push_back(
+        {cover_,
+         view.room_from_eye * Pose{{}, {-half_width, letters_m / 2, ahead_m - before_m}},
+         letters_m,
+         {255, 190, 70}});
+}
+
 // As large as the virtual room's table (furniture/table.cpp), with a mark at the patient's head.
 void LiveScene::add_table_outline() {
     constexpr double half_length_m = 1, half_width_m = 0.26, height_m = 0.9;
@@ -373,6 +396,7 @@ const render::SceneFrame* LiveScene::scene_for(const render::CameraView& view) {
             frame_.labels.clear();
         }
         add_headset_text(view);
+        add_cover(view);
     }
     if (frame_.empty())
         return nullptr;
@@ -490,9 +514,14 @@ bool LiveScene::fade(const client::Participant& participant, TimePoint now) {
     if (now - judged_at_ >= judge_every) {
         judged_at_ = now;
         live_.clear();
-        for (const auto& one : client::figures_of(participant).cameras)
+        const client::ParticipantFigures figures = client::figures_of(participant);
+        for (const client::CameraFigures& one : figures.cameras)
             live_[one.camera.description.id] =
-                one.camera.state.condition == wire::CameraCondition::live;
+                one.camera.state.condition == wire::CameraCondition::live &&
+                !stands_still(shown_camera(one, now), now);
+        const auto still =
+            past_moment() ? std::nullopt : all_still(shown_cameras(figures.cameras, now), now);
+        changed = std::exchange(cover_, still_text(still)) != cover_ || changed;
         changed = note_ages(participant) || changed;
     }
     for (const auto& [id, live] : live_) {

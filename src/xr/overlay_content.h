@@ -65,6 +65,9 @@ struct OverlayContent {
     std::vector<Fact> facts;
     // Large in the middle, over a darkened picture, with a smaller line below.
     std::string message, detail;
+    // The same below the panels, where there is no message: the picture no longer shows the
+    // present.
+    std::string cover;
     std::string warning;  // at the top, while its cause lasts
     std::string notice;   // below it, for a recent event
     bool help = false;

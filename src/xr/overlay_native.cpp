@@ -477,11 +477,18 @@ void Overlay::draw(const OverlayContent& content, Size window, double text_pixel
     };
     const auto middle = middle_of(content.warning);
     const float end = p.window.y - bottom - (middle ? 0 : p.notice_end(content.warning, 0));
+    // The cover lies over the pictures and below the panels.
+    p.list->ChannelsSplit(2);
+    p.list->ChannelsSetCurrent(1);
     const float panels_end =
         p.panels(content.panels, {{margin, margin}, {margin + widest, end - p.unit}});
+    p.list->ChannelsSetCurrent(0);
     p.pictures.draw(*p.list, *p.small, p.unit, p.window,
                     {panels_end + (panels_end > 0 ? p.unit : 0), p.unit}, {p.window.x, end},
                     content.pictures);
+    if (!content.cover.empty() && content.message.empty())
+        p.message(content.cover, "", bottom);
+    p.list->ChannelsMerge();
     if (!content.message.empty())
         p.message(content.message, content.detail, bottom);
     if (content.help)

@@ -16,6 +16,7 @@ import { PicturePanel } from "./picture.js";
 import { put_bytes, with_patience, with_program } from "./program.js";
 import { ask_for_right_link } from "./right_link.js";
 import { Sheet } from "./sheet.js";
+import { StillCover } from "./still.js";
 import { store, stored } from "./storage.js";
 import { hold_to_talk } from "./talk.js";
 import { language, text, texts } from "./texts.js";
@@ -25,6 +26,7 @@ import { offer_h264 } from "./video_decoder.js";
 import { Voice } from "./voice.js";
 
 const $ = id => document.getElementById(id);
+const still = new StillCover($("panels"));
 const texts_every_ms = 250;
 const poll_every_ms = 1;
 const longest_wait_ms = 500;
@@ -214,6 +216,12 @@ function run({ client, voice, face, module, flat }) {
     };
     const show_state = () => {
         page.state = JSON.parse(client.state());
+        // Nothing of a session stays once it is over for this person.
+        if (page.state.phase === "ended" || (page.state.phase === "refused" && page.state.joins > 0)) {
+            const problem = text("session_over", { why: page.state.problem });
+            client.leave();
+            page.state = { phase: "left", problem };
+        }
         if (page.state.phase === "left") {
             sheet.close();
             return leave(voice, face, page.state.problem);
@@ -222,6 +230,7 @@ function run({ client, voice, face, module, flat }) {
         page.state.face_problem ||= face_problem(face, page.way);
         const way_sentence = show_way(page.state);
         show(page.state, { sheet, notices, way: page.way, way_sentence, now_ms: performance.now() });
+        still.show(page.state);
         picture_panel.show(page.state);
         place_voices(voice, page.state);
         show_voices(voice, page.state);
@@ -288,6 +297,7 @@ function run({ client, voice, face, module, flat }) {
     const headset = page.headset = new Headset({
         canvas, module, client,
         after_frame: now => {
+            still.beat(now);
             voice.hands_free = true;
             show_texts(now);
             prepare_room(now);
@@ -325,6 +335,9 @@ function run({ client, voice, face, module, flat }) {
         if (page.state.phase === "left")
             return;
         go_on_drawing();
+        // A picture that the graphics card does not finish is not drawn.
+        if (page.state.has_picture && !is_drawing)
+            still.beat(now);
         if (page.way === "flat") {
             if (flat.draw(now))
                 note_picture();
@@ -418,7 +431,11 @@ function follow_way(face) {
 function leave(voice, face, problem) {
     voice.leave();
     face.hide();
-    $("view").hidden = $("flat").hidden = $("panels").hidden = true;
+    still.rest();
+    $("view").hidden = $("flat").hidden = $("panels").hidden = $("session_picture").hidden = true;
+    // The canvases would keep their last pictures.
+    for (const canvas of [$("view"), $("flat"), $("session_picture")])
+        canvas.width = canvas.height = 1;
     $("lobby").hidden = false;
     page.lobby.watch();
     if (problem)
