@@ -58,7 +58,7 @@ struct Host::Impl {
     Thumbnail thumbnail;           // of the first camera
     std::vector<std::unique_ptr<send::CameraLane>> lanes;
     std::unique_ptr<PlaceWatch> place_watch;  // does not change once lanes run
-    std::unique_ptr<GainWatch> gain_watch;    // likewise
+    std::unique_ptr<GainWatch> gain_watch;    // does not change once lanes run
     send::ColorWatch color_watch;             // on the thread of the server
     std::vector<FilterSource> filters;        // by camera; used by the owner of the host
     std::vector<Size> depth_sizes;            // by camera; the same way
@@ -86,7 +86,8 @@ struct Host::Impl {
     std::optional<TimePoint> alarm_at;    // of the server; server's thread
     // Frames dropped per camera because a receiver was too slow; server's thread.
     std::map<CameraId, std::uint64_t> dropped_slow;
-    std::map<CameraId, std::uint64_t> received;  // bytes of participants' cameras; likewise
+    // Bytes of participants' cameras; server's thread.
+    std::map<CameraId, std::uint64_t> received;
     mutable std::mutex figures_mutex;
     std::vector<HostFigures::Participant> participant_figures;
     std::vector<HostFigures::Published> published_figures;
@@ -118,7 +119,7 @@ struct Host::Impl {
     std::unique_ptr<RoomReplay> replay;             // uses the lanes and the server
     std::unique_ptr<CaseShelf> cases;               // its thread posts to the server; may be null
     std::optional<CaseShelf::Offer> offered_cases;  // the newest; server's thread
-    std::string said_lost_case;                     // likewise
+    std::string said_lost_case;                     // server's thread
 
     explicit Impl(std::atomic<std::size_t>& count) : participants(count) {}
     ~Impl() {

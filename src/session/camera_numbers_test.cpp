@@ -14,7 +14,7 @@ using std::chrono::seconds;
 
 class Numbers : public ::testing::Test {
 protected:
-    // Cameras that come and go at once, until none has a number, or so many.
+    // Cameras that come and go at once, until none has a number, at most `most`.
     int come_and_go(int most) {
         int came = 0;
         for (; came < most && numbers_.has(1); ++came)

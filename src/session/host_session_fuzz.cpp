@@ -167,7 +167,7 @@ wire::Patient patient_of(int number) {
     return {Bytes(facts.id.bytes.begin(), facts.id.bytes.end()), "Doe", "", ""};
 }
 
-// A publisher sends directly only to so many receivers, and a recorder gets nothing directly.
+// The receivers to whom a publisher sends directly are bounded; a recorder gets nothing directly.
 void check_direct(const HostSession& host, const session::action::Send& send) {
     const auto* grants = std::get_if<wire::DirectGrants>(&send.message);
     const auto* receivers = std::get_if<wire::DirectReceivers>(&send.message);

@@ -81,7 +81,8 @@ public:
                 const std::vector<CameraId>& cameras);
     void set_goal(ParticipantId receiver, const wire::ChooseDelivery& goal);
     // The receiver is shown the past of exactly these cameras (look_back.h): it gets nothing of
-    // their present, and no settings. Those of before that are not among them it gets anew.
+    // their present, and no settings. The cameras of an earlier call that are not among them it
+    // gets anew.
     void look_back(ParticipantId receiver, std::set<CameraId> cameras);
     // Numbers for settings of the past.
     SettingId take_number() { return numbers_.take(); }

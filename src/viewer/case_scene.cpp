@@ -10,7 +10,7 @@
 namespace theatron::viewer {
 namespace {
 
-// Parts that are farthest apart are drawn so many times as far from the middle.
+// How many times as far from the middle parts that are farthest apart are drawn.
 constexpr double farthest = 1.6;
 constexpr double tissue_roughness = 0.4;
 

@@ -196,7 +196,7 @@ private:
     TimePoint faded_at_, judged_at_;
     std::map<CameraId, bool> live_;  // as judged last
     bool shows_ages_ = false;
-    std::map<CameraId, std::string> ages_;  // likewise
+    std::map<CameraId, std::string> ages_;  // as judged last
     std::map<CameraId, Calibration> calibrations_;
     std::map<CameraId, Origin> origins_;  // also of cameras that see their publisher
     std::map<CameraId, receive::CameraFramePtr> newest_;

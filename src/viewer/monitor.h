@@ -38,7 +38,7 @@ public:
     // down, z away from the reader; its origin is the picture's middle, lengths are life size.
     struct SliceFrame {
         Pose picture_from_organ;  // from the frame of the organ, metres
-        // Where it is on the screen: so many metres of the room are a metre of the organ.
+        // Where it is on the screen: a metre of the organ is `screen_scale` metres of the room.
         Pose screen_from_organ;
         double screen_scale = 1;
         double half_step_m = 0;  // half of the distance between two slices

@@ -121,7 +121,8 @@ public:
     // which the program carries out.
     void set_own_face(OwnFace face) { own_face_ = face; }
     std::optional<bool> take_face_wish() { return std::exchange(face_wish_, std::nullopt); }
-    // The devices to choose from, and the choice in the panel, likewise.
+    // The devices to choose from, and the choice in the panel since the last call, which the
+    // program carries out.
     void set_sound_choices(SoundChoices choices) { sound_choices_ = std::move(choices); }
     std::optional<UseSound> take_sound_wish() { return std::exchange(sound_wish_, std::nullopt); }
     // The person's choices by name, among renderer_choices() and video::depth_codec_names(). While

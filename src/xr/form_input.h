@@ -39,7 +39,7 @@ struct FormKeyPress {
 
 struct FormInput {
     bool close = false;   // as in WindowInput
-    bool redraw = false;  // likewise
+    bool redraw = false;  // as in WindowInput
     std::string text;     // typed, UTF-8
     std::vector<FormKeyPress> keys;
     // The mouse in shares of the window's width and height from its top left corner, if it is in

@@ -31,7 +31,7 @@ struct PanelButton {
 };
 struct PanelSlider {
     double value = 0, lowest = 0, highest = 1;
-    int command = 0;  // likewise, with the value
+    int command = 0;  // as of a button, with the value
 
     bool operator==(const PanelSlider&) const = default;
 };

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Who the patient of the open case is: seen by roles that may know it, and kept nowhere."""
+"""The patient of the open case is seen by roles that may know it, and kept nowhere."""
 import contextlib
 import json
 import pathlib

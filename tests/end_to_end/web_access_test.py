@@ -79,7 +79,7 @@ class WebAccess(unittest.TestCase):
         cls.stack.close()
 
     def check(self):
-        """What holds for whatever the page shows now."""
+        """Checks the rules that hold for everything that the page shows."""
         page = self.page
         self.assertIn(page.evaluate("document.documentElement.lang"), ("en", "de"))
         controls = [node for node in page.call("Accessibility.getFullAXTree")["nodes"]
