@@ -115,6 +115,22 @@ Span span_of(const std::vector<MarkPoint>& line, std::size_t begin, std::size_t 
     return span;
 }
 
+std::string first_letters(std::string_view name) {
+    std::string first, last;
+    bool at_start = true;
+    while (!name.empty()) {
+        const std::size_t size = character_length(name);
+        if (at_start && name[0] != ' ') {
+            last = name.substr(0, size);
+            if (first.empty())
+                first = std::exchange(last, "");
+        }
+        at_start = name[0] == ' ';
+        name.remove_prefix(size);
+    }
+    return first.empty() ? "?" : first + last;
+}
+
 }  // namespace
 
 std::string_view to_text(MarkKind kind) {
@@ -186,20 +202,11 @@ std::optional<Mark> decode_mark(ByteView properties) {
 }
 
 std::string initials_of(std::string_view name) {
-    std::string first, last;
-    name = without_titles(name);
-    bool at_start = true;
-    while (!name.empty()) {
-        const std::size_t size = character_length(name);
-        if (at_start && name[0] != ' ') {
-            last = name.substr(0, size);
-            if (first.empty())
-                first = std::exchange(last, "");
-        }
-        at_start = name[0] == ' ';
-        name.remove_prefix(size);
-    }
-    return first.empty() ? "?" : first + last;
+    return first_letters(without_titles(name));
+}
+
+bool may_be_initials_of(std::string_view name, std::string_view initials) {
+    return initials == initials_of(name) || initials == first_letters(name);
 }
 
 std::vector<MarkPoint> simplified(const std::vector<MarkPoint>& line, double tolerance_m,
