@@ -94,27 +94,35 @@ Layout layout(const LayoutFacts& facts) {
     return layout;
 }
 
-MonitorPlaces monitor_places(const Rect& monitor, Size slice, double letter) {
-    constexpr double line = 1.55;  // in letters' heights
+MonitorPlaces monitor_places(const Rect& monitor, Size slice, std::size_t lines, double letter) {
+    // In letters' heights.
+    constexpr double line_height = 1.55, least_width = 5.4, least_height = 3.6;
     MonitorPlaces places;
-    const double lines = double(places.lines.size()) * line * letter;
-    places.picture = fitted(slice, {monitor.x, monitor.y, monitor.width, monitor.height - lines});
-    places.picture.y = monitor.y;
-    for (std::size_t i = 0; i < places.lines.size(); ++i)
-        places.lines[i] = {monitor.x, monitor.bottom() - lines + double(i) * line * letter,
-                           monitor.width, line * letter};
+    const double below = double(lines) * line_height * letter;
+    const Rect area{monitor.x, monitor.y, monitor.width, monitor.height - below};
+    places.picture = fitted(slice, area);
+    places.letters.width =
+        std::max(places.picture.width, std::min(area.width, least_width * letter));
+    places.letters.height =
+        std::max(places.picture.height, std::min(area.height, least_height * letter));
+    places.letters.x = area.x + (area.width - places.letters.width) / 2;
+    places.letters.y = area.y + (area.height - places.letters.height) / 2;
+    for (std::size_t i = 0; i < lines; ++i)
+        places.lines.push_back({monitor.x,
+                                monitor.bottom() - below + double(i) * line_height * letter,
+                                monitor.width, line_height * letter});
     return places;
 }
 
-Rect letters_place(const Rect& slice, Vec2 towards, std::size_t letters, double letter) {
+Rect letters_place(const Rect& area, Vec2 towards, std::size_t letters, double letter) {
     constexpr double high = 1.44, wide = 1.0, beside = 0.7, apart = 0.15;  // in letters' heights
     const Vec2 size{(double(letters) * wide + beside) * letter, high * letter};
     const double free = apart * letter;
     const auto begin = [&](double from, double whole, double side, double way) {
         return from + (whole - side) / 2 + way * ((whole - side) / 2 - free);
     };
-    return {begin(slice.x, slice.width, size.x, towards.x),
-            begin(slice.y, slice.height, size.y, towards.y), size.x, size.y};
+    return {begin(area.x, area.width, size.x, towards.x),
+            begin(area.y, area.height, size.y, towards.y), size.x, size.y};
 }
 
 Vec2 drift(TimePoint now) {

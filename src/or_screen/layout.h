@@ -4,7 +4,6 @@
 // Pure functions; pixels, x to the right and y down from the screen's upper left corner.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -46,16 +45,17 @@ struct Layout {
 
 Layout layout(const LayoutFacts& facts);
 
-// The places of the monitor's slice, with the proportions of `slice`, and of three lines of text
+// The places of the monitor's slice, with the proportions of `slice`, and of so many lines of text
 // below it.
 struct MonitorPlaces {
     Rect picture;
-    std::array<Rect, 3> lines;
+    Rect letters;  // at whose edges the letters of sides stand: around a picture that is too flat
+    std::vector<Rect> lines;
 };
-MonitorPlaces monitor_places(const Rect& monitor, Size slice, double letter);
-// The place of so many letters inside of the slice at its edge in the direction `towards`, of which
+MonitorPlaces monitor_places(const Rect& monitor, Size slice, std::size_t lines, double letter);
+// The place of so many letters inside of `area`, at its edge in the direction `towards`, of which
 // one coordinate is 0 and the other -1 or 1.
-Rect letters_place(const Rect& slice, Vec2 towards, std::size_t letters, double letter);
+Rect letters_place(const Rect& area, Vec2 towards, std::size_t letters, double letter);
 
 // By how much all of it is moved at this moment, in units of Layout::letter, at most
 // largest_drift along each axis; layout() keeps that much free at the edges. It moves slower than

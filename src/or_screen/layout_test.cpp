@@ -96,7 +96,7 @@ TEST(OrScreenLayout, ASliceHasItsLettersInsideAndItsTextsBelow) {
     for (const Size screen : {Size{1920, 1080}, Size{1280, 1024}, Size{1080, 1920}})
         for (const Size slice : {Size{512, 512}, Size{512, 200}, Size{200, 512}}) {
             const Layout one = layout({screen, {1280, 720}, 3, true});
-            const MonitorPlaces places = monitor_places(one.monitor, slice, one.letter);
+            const MonitorPlaces places = monitor_places(one.monitor, slice, 4, one.letter);
             EXPECT_NEAR(places.picture.width / places.picture.height,
                         double(slice.width) / slice.height, 1e-9);
             std::vector<Rect> below(places.lines.begin(), places.lines.end());
@@ -107,11 +107,11 @@ TEST(OrScreenLayout, ASliceHasItsLettersInsideAndItsTextsBelow) {
             }
             std::vector<Rect> letters;
             for (const Vec2 towards : {Vec2{-1, 0}, Vec2{1, 0}, Vec2{0, -1}, Vec2{0, 1}}) {
-                const Rect place = letters_place(places.picture, towards, 1, one.letter);
-                EXPECT_GE(place.x, places.picture.x);
-                EXPECT_GE(place.y, places.picture.y);
-                EXPECT_LE(place.right(), places.picture.right());
-                EXPECT_LE(place.bottom(), places.picture.bottom());
+                const Rect place = letters_place(places.letters, towards, 1, one.letter);
+                EXPECT_GE(place.x, one.monitor.x);
+                EXPECT_GE(place.y, one.monitor.y);
+                EXPECT_LE(place.right(), one.monitor.right());
+                EXPECT_LE(place.bottom(), below[0].y + 1e-9);
                 // At the side that they name.
                 const double right = place.x + place.width / 2 - places.picture.x -
                                      places.picture.width / 2,

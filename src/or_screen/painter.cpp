@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <numbers>
 
 #include "phrases/phrase.h"
@@ -65,6 +64,18 @@ std::string Painter::shortened(const ImFont* font, const std::string& words, flo
     while (!part.empty() && part.back() == ' ')
         part.pop_back();
     return part + dots;
+}
+
+std::vector<std::string> Painter::in_lines(const ImFont* font, const std::string& words,
+                                           float width) const {
+    if (measure(font, words).x <= width)
+        return {words};
+    // Names of cases often differ in their ends.
+    for (std::size_t end = words.rfind(' '); end != std::string::npos && end > 0;
+         end = words.rfind(' ', end - 1))
+        if (measure(font, words.substr(0, end)).x <= width)
+            return {words.substr(0, end), shortened(font, words.substr(end + 1), width)};
+    return {shortened(font, words, width)};
 }
 
 void Painter::text(const ImFont* font, ImVec2 place, ImU32 color, const std::string& words,
@@ -271,11 +282,15 @@ void Painter::monitor(const Content& content, const Rect& rect,
     if (!content.slice || !slice || slice->size().area() == 0)
         return;
     const viewer::SliceTexts& texts = *content.slice;
-    const MonitorPlaces places = monitor_places(rect, slice->size(), letter_);
+    std::vector<std::string> lines =
+        in_lines(fonts_.small, texts.case_name, float(rect.width) - letter_);
+    const std::size_t of_name = lines.size();
+    lines.insert(lines.end(), {texts.plane, texts.window});
+    const MonitorPlaces places = monitor_places(rect, slice->size(), lines.size(), letter_);
     list_.AddImage(xr::texture_of(slice->texture()), from(places.picture), to(places.picture));
     there_.clear();
     const auto put = [&](const std::string& letters, Vec2 towards) {
-        const Rect place = letters_place(places.picture, towards, letters.size(), letter_);
+        const Rect place = letters_place(places.letters, towards, letters.size(), letter_);
         there_.push_back(place);
         list_.AddRectFilled(from(place), to(place), shade_color, 0.35f * letter_);
         const ImVec2 size = measure(fonts_.small, letters);
@@ -289,9 +304,9 @@ void Painter::monitor(const Content& content, const Rect& rect,
     put(texts.letters.right, {1, 0});
     put(texts.letters.top, {0, -1});
     put(texts.letters.bottom, {0, 1});
-    const std::string lines[] = {texts.case_name, texts.plane, texts.window};
-    for (std::size_t i = 0; i < std::size(lines); ++i)
-        centred(fonts_.small, places.lines[i], i == 0 ? colors::text : colors::label, lines[i]);
+    for (std::size_t i = 0; i < lines.size(); ++i)
+        centred(fonts_.small, places.lines[i], i < of_name ? colors::text : colors::label,
+                lines[i]);
 }
 
 void Painter::card(const PersonCard& card, bool two_lines, const Rect& rect) {

@@ -15,6 +15,8 @@ namespace {
 constexpr double padding = 0.55, plate_height = 2.0, apart = 0.9, rounding = 0.45;
 constexpr Rgb letters{240, 244, 244}, ground{16, 19, 22};
 constexpr double ground_opacity = 0.88;
+// Surfaces hide names where they are so much nearer to the eye.
+constexpr double nearer_m = 0.1;
 
 struct Projected {
     Vec2 pixel;
@@ -32,13 +34,15 @@ std::optional<Projected> projected(Vec3 place, const CameraView& view, Size pict
 }
 
 // Clip coordinates from pixels of a picture, whose origin is `origin`, at this distance.
-Mat4 clip_from_pixels(Size picture, Vec2 origin, double distance_m) {
-    const double w = distance_m;
+Mat4 clip_from_pixels(Size picture, Vec2 origin, double distance_m, const CameraView& view) {
+    const double w = distance_m, n = view.near_m, f = view.far_m;
+    const double tested = std::max(w - nearer_m, 1.001 * n);
+    const double depth = (f + n) / (f - n) - 2 * f * n / (f - n) / tested;
     return {{2.0 / picture.width * w, 0, 0, 0,    //
              0, -2.0 / picture.height * w, 0, 0,  //
              0, 0, 0, 0,                          //
-             (2 * origin.x / picture.width - 1) * w, (1 - 2 * origin.y / picture.height) * w, 0,
-             w}};
+             (2 * origin.x / picture.width - 1) * w, (1 - 2 * origin.y / picture.height) * w,
+             depth * w, w}};
 }
 
 std::array<float, 16> floats(const Mat4& matrix) {
@@ -110,16 +114,18 @@ void LabelPass::draw(const std::vector<SceneLabel>& labels, TextPass& text, cons
     // A number is never below another plate.
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return labels[a].rank < labels[b].rank; });
-    glDisable(GL_DEPTH_TEST);
     for (const std::size_t i : order) {
         const auto at = projected(labels[i].place, view, target.size);
         if (!plates_[i] || !at)
             continue;
         const LabelPlate& label = *plates_[i];
+        // A name that a screen hides must not be taken for one on its images; a number is always
+        // read, and its line shows faintly where it is hidden.
+        labels[i].rank == LabelRank::number ? glDisable(GL_DEPTH_TEST) : glEnable(GL_DEPTH_TEST);
         // Whole pixels keep letters sharp.
         const Vec2 corner{std::round(at->pixel.x + label.plate.x - label.place.x),
                           std::round(at->pixel.y + label.plate.y - label.place.y)};
-        const Mat4 clip = clip_from_pixels(target.size, corner, at->distance_m);
+        const Mat4 clip = clip_from_pixels(target.size, corner, at->distance_m, view);
         program_.use();
         glBindVertexArray(nothing_.name());
         glUniformMatrix4fv(clip_from_picture_, 1, GL_FALSE, floats(clip).data());
@@ -132,7 +138,7 @@ void LabelPass::draw(const std::vector<SceneLabel>& labels, TextPass& text, cons
         glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
         const Vec2 base{corner.x + std::round(padding * label.letter),
                         corner.y + std::round((plate_height + 1) / 2 * label.letter)};
-        text.draw_line(labels[i].utf8, clip_from_pixels(target.size, base, at->distance_m),
+        text.draw_line(labels[i].utf8, clip_from_pixels(target.size, base, at->distance_m, view),
                        label.letter, letters);
     }
     glEnable(GL_DEPTH_TEST);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws the labels of a SceneFrame: upright in the picture, whole, on plates, before everything.
+// Draws the labels of a SceneFrame: upright in the picture, on plates, numbers before everything.
 #pragma once
 
 #include <optional>

@@ -152,7 +152,7 @@ struct SceneFrame {
     std::vector<SceneObject> objects;
     std::vector<SceneText> texts;
     std::vector<SceneLine> lines;    // before translucent surfaces
-    std::vector<SceneLabel> labels;  // before everything else
+    std::vector<SceneLabel> labels;  // after everything else
     Vec3 to_light{0.3, 1, 0.2};      // a direction
     double surroundings = 1;         // of the light from all around
     double light = 2.2;              // of white light, beside the surroundings' 1

@@ -2,8 +2,8 @@
 // Lines and labels that are seen and read in every picture: marks, pointers and their texts.
 //
 // A line has a least width in pixels, however far away it is, and an outline that stands out from
-// any ground. A label is upright in the picture, on a plate, before everything else, and whole.
-// No GL type appears here.
+// any ground. A label is upright in the picture and on a plate; that of a number is before
+// everything else, and whole. No GL type appears here.
 #pragma once
 
 #include <memory>

@@ -214,6 +214,25 @@ TEST_F(SceneLinesTest, ALabelIsUprightAndWholeFromAnySideAndBehindAnything) {
     EXPECT_EQ(lost, 0);
 }
 
+// A pin behind a screen must not be taken for one on the screen's images.
+TEST_F(SceneLinesTest, ANameIsHiddenByWhatIsClearlyBeforeIt) {
+    const auto atlas = font_atlas();
+    if (!atlas)
+        GTEST_SKIP() << "fonts-dejavu-core is not installed";
+    const SceneMesh wall(make_box_mesh({-0.5, -0.5, -0.01}, {0.5, 0.5, 0.01}));
+    SceneFrame frame;
+    const auto orange_pixels = [&](double z) {
+        frame.objects = {{&wall, {Quat{}, {0, 1, z}}, {{0.1, 0.3, 0.1}}}};
+        frame.labels = {{"12 AB", {0, 1, 0}, orange, LabelRank::name}};
+        const ColorImage picture = drawn(frame, view_from(2), &*atlas);
+        return std::count_if(picture.pixels.begin(), picture.pixels.end(),
+                             [](Rgb pixel) { return is_near(pixel, orange); });
+    };
+    EXPECT_GT(orange_pixels(-0.1), 60);
+    EXPECT_EQ(orange_pixels(0.05), orange_pixels(-0.1));
+    EXPECT_EQ(orange_pixels(0.3), 0);
+}
+
 TEST_F(SceneLinesTest, BothEyesHaveALabelAtItsPlace) {
     const auto atlas = font_atlas();
     if (!atlas)
