@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The panel of people (P) has the sound devices of the machine; the one that is chosen is used, and kept."""
+"""The panel of sound, which "More" opens, has the devices of the machine; the one that is chosen is used, and kept."""
 import pathlib
 import shutil
 import tempfile
@@ -29,7 +29,9 @@ class SoundPanel(unittest.TestCase):
                 ada.wait_for(lambda f: any(p["name"] == "Wim" for p in f["room"]["people"]))
                 before = screen.buttons(WIDTH, HEIGHT)
                 self.assertEqual(before, [])
-                screen.do("mousemove", 600, 850, "key", "p")
+                # The last button of the bar, and the second one of its panel, by the keyboard.
+                screen.do("mousemove", 600, 700, "key", "shift+Tab", "key", "Return", "sleep", 1, "key", "Tab", "key", "Tab",
+                          "key", "Return", "key", "Escape")
                 # Both kinds have two devices: the usual one and the dummy; none is in use yet.
                 screen.click_until(lambda: self.button(screen, -4), ada, lambda _: "speaks yes" in kept())
                 self.assertIn("\nmicrophone default\n", kept())

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/camera_unrest.h"
+
+#include <gtest/gtest.h>
+
+#include "phrases/phrase.h"
+
+namespace theatron::viewer {
+namespace {
+
+using std::chrono::seconds;
+
+const std::vector<std::string> lamps{"left", "right"};
+constexpr TimePoint begin{seconds(100)};
+
+std::string stands(const std::string& camera) {
+    return say(Phrase::camera_stale, camera, "It sends nothing.");
+}
+
+TEST(CameraUnrest, IsToldOnceAndThenCounted) {
+    CameraUnrest unrest;
+    EXPECT_TRUE(unrest.tells(stands("left"), lamps, begin));
+    EXPECT_EQ(unrest.count(begin), 0u);
+    EXPECT_FALSE(unrest.tells(say(Phrase::camera_live_again, "left"), lamps, begin + seconds(1)));
+    EXPECT_FALSE(unrest.tells(stands("right"), lamps, begin + seconds(2)));
+    EXPECT_EQ(unrest.count(begin + seconds(2)), 2u);
+}
+
+TEST(CameraUnrest, IsForgottenAfterAMinuteOfRest) {
+    CameraUnrest unrest;
+    EXPECT_TRUE(unrest.tells(stands("left"), lamps, begin));
+    EXPECT_FALSE(unrest.tells(stands("left"), lamps, begin + seconds(1)));
+    EXPECT_EQ(unrest.count(begin + seconds(62)), 0u);
+    EXPECT_TRUE(unrest.tells(stands("left"), lamps, begin + seconds(62)));
+}
+
+TEST(CameraUnrest, AllElseIsTold) {
+    CameraUnrest unrest;
+    for (int i = 0; i < 3; ++i) {
+        EXPECT_TRUE(unrest.tells("Connected again.", lamps, begin));
+        EXPECT_TRUE(unrest.tells(say(Phrase::camera_failed, "left", "No power."), lamps, begin));
+        EXPECT_TRUE(unrest.tells(stands("left"), {"right"}, begin)) << "no camera of this name";
+    }
+    EXPECT_EQ(unrest.count(begin), 0u);
+}
+
+}  // namespace
+}  // namespace theatron::viewer
