@@ -27,6 +27,7 @@ class SoundPanel(unittest.TestCase):
                     Process("join", h.greeting["link"], "--name", "Wim", "--size", f"{WIDTH}x{HEIGHT}",
                             env=environment) as window:
                 ada.wait_for(lambda f: any(p["name"] == "Wim" for p in f["room"]["people"]))
+                wait_until(lambda: screen.has_bar(WIDTH, HEIGHT))
                 before = screen.buttons(WIDTH, HEIGHT)
                 self.assertEqual(before, [])
                 # The last button of the bar, and the second one of its panel, by the keyboard.
