@@ -344,7 +344,7 @@ EntryAnswer EntryForm::Parts::form(const EntryFacts& facts, float width) {
 // After a click the keyboard goes on with the name, where Enter enters.
 void EntryForm::Parts::choose(std::size_t recent_index) {
     recent = RecentAnswer{recent_index, false};
-    if (ImGui::IsItemHovered())
+    if (ImGui::IsMouseReleased(ImGuiMouseButton_Left))
         wanted_stop = name_stop;
 }
 

@@ -126,7 +126,8 @@ TEST_F(Form, EnterEntersAfterAClickOnASessionAlsoBeforeTheHostHasAnswered) {
     type({{FormKey::tab}, letters("eva")});
     std::optional<RecentAnswer> chosen;
     for (double y = 0.2; y < 0.8 && !chosen; y += 0.015)
-        chosen = press({0.2, y});
+        for (double x = 0.3; x < 0.6 && !chosen; x += 0.05)
+            chosen = press({x, y});
     ASSERT_TRUE(chosen && !chosen->forgets);
     form->set_hidden_link("https://or-3/#join=x");
     EXPECT_EQ(type({{FormKey::enter}}), EntryAnswer::none) << "no answer yet";
@@ -139,8 +140,8 @@ TEST_F(Form, EnterDoesNotWaitForAnotherLinkThanTheOneThatIsThere) {
     type({letters("https://wrong"), {FormKey::tab}, letters("eva"), {FormKey::enter}});
     EntryFacts open;
     open.can_enter = true;
-    EXPECT_EQ(type({{FormKey::tab, false, true}, {FormKey::end}, letters("er")}, open),
-              EntryAnswer::none);
+    type({{FormKey::tab, false, true}, {FormKey::end}, letters("er")});
+    EXPECT_EQ(type({}, open), EntryAnswer::none);
     EXPECT_EQ(type({{FormKey::enter}}, open), EntryAnswer::enter);
 }
 

@@ -190,8 +190,10 @@ class Screens(unittest.TestCase):
             wait_until(lambda: is_shown(440, 380))
 
             # The last button of the bar, and "Screens" in its panel, by the keyboard.
-            x11.do("mousemove", 700, 600, "key", "shift+Tab", "key", "Return", "sleep", 1, *["key", "Tab"] * 5, "key", "Return", "key", "Escape")
             buttons = lambda: x11.buttons(width, height)
+            x11.do("mousemove", 700, 600, "key", "shift+Tab", "key", "Return")
+            wait_until(lambda: len(buttons()) >= 6)
+            x11.do(*["key", "Tab"] * 5, "key", "Return", "key", "Escape")
             # Smaller, Larger, Pin in place, End share: the first row of four.
             four = lambda: wait_until(lambda: len(row := row_of(buttons(), 4)) == 4 and row)
             x11.click_until(lambda: four()[2], ben, lambda f: scope(f)["screen"]["pinned"])
