@@ -12,7 +12,7 @@ namespace {
 using Level = xr::PictureDot::Level;
 using Phase = client::Participant::Phase;
 
-DotFacts live() {
+DotFacts live_dot() {
     DotFacts facts;
     facts.has_picture = true;
     facts.age_ms = 60;
@@ -20,9 +20,9 @@ DotFacts live() {
 }
 
 TEST(PictureDot, ALivePictureIsGreenWithItsAge) {
-    EXPECT_EQ(picture_dot(live()).level, Level::good);
-    EXPECT_EQ(picture_dot(live()).words, "Live 0.1 s");
-    DotFacts unknown = live();
+    EXPECT_EQ(picture_dot(live_dot()).level, Level::good);
+    EXPECT_EQ(picture_dot(live_dot()).words, "Live 0.1 s");
+    DotFacts unknown = live_dot();
     unknown.age_ms.reset();
     EXPECT_EQ(picture_dot(unknown).level, Level::good);
     EXPECT_EQ(picture_dot(unknown).words, "Live");
@@ -30,13 +30,13 @@ TEST(PictureDot, ALivePictureIsGreenWithItsAge) {
 
 TEST(PictureDot, IsGermanForAGerman) {
     const testing::Speaking german(Language::german);
-    DotFacts facts = live();
+    DotFacts facts = live_dot();
     facts.age_ms = 812;
     EXPECT_EQ(picture_dot(facts).words, "Live 0,8 s");
 }
 
 TEST(PictureDot, ALatePictureIsYellowAndAnOldOneRed) {
-    DotFacts facts = live();
+    DotFacts facts = live_dot();
     facts.age_ms = 800;
     EXPECT_EQ(picture_dot(facts).level, Level::slow);
     facts.age_ms = 12'300;
@@ -45,27 +45,27 @@ TEST(PictureDot, ALatePictureIsYellowAndAnOldOneRed) {
 }
 
 TEST(PictureDot, NothingOfAnotherTimeLooksLive) {
-    DotFacts facts = live();
+    DotFacts facts = live_dot();
     facts.is_of_another_time = true;
     EXPECT_EQ(picture_dot(facts).level, Level::bad);
     EXPECT_EQ(picture_dot(facts).words, "Not live");
-    facts = live();
+    facts = live_dot();
     facts.is_missing_a_camera = true;
     EXPECT_EQ(picture_dot(facts).level, Level::bad);
 }
 
 TEST(PictureDot, UnrestAndSlownessAreSigns) {
-    DotFacts facts = live();
+    DotFacts facts = live_dot();
     facts.is_late = true;
     EXPECT_EQ(picture_dot(facts).level, Level::slow);
-    facts = live();
+    facts = live_dot();
     facts.unrest = 7;
     EXPECT_EQ(picture_dot(facts).level, Level::slow);
     EXPECT_THAT(picture_dot(facts).hint, ::testing::HasSubstr("7 times"));
 }
 
 TEST(PictureDot, WithoutAConnectionItIsNeverGreen) {
-    DotFacts facts = live();
+    DotFacts facts = live_dot();
     for (const Phase phase :
          {Phase::connecting, Phase::waiting, Phase::lost, Phase::refused, Phase::ended}) {
         facts.phase = phase;
