@@ -26,7 +26,7 @@ constexpr float rounding = 1;
 constexpr float panel_padding = 1.4f, slider_units = 22;
 // A panel has this width whatever its texts say, so that its buttons stay in their places; it is
 // wider only for its buttons. Longer texts have several lines.
-constexpr float panel_units = 33, least_text_units = 12;
+constexpr float panel_units = 33, least_text_units = 12, slider_text_units = 21;
 // Labels of the bar may be so much smaller than other small texts.
 constexpr float least_label_scale = 0.6f;
 
@@ -393,9 +393,13 @@ float Overlay::Parts::controls_width(const PanelRow& row) const {
 // The width of a panel without its edges.
 float Overlay::Parts::wanted_width(const Panel& panel) const {
     float width = panel_units * unit;
-    for (const PanelRow& row : panel.rows)
-        width =
-            std::max(width, controls_width(row) + (row.text.empty() ? 0 : least_text_units * unit));
+    for (const PanelRow& row : panel.rows) {
+        // The number of a slider changes; its text stays one line.
+        const float text_units = row.text.empty() ? 0
+                                 : row.slider     ? slider_text_units
+                                                  : least_text_units;
+        width = std::max(width, controls_width(row) + text_units * unit);
+    }
     return width;
 }
 
