@@ -13,7 +13,7 @@ struct Settings {
     std::string renderer = "auto";
     bool sits = false;                    // the eyes' height after a teleport
     bool shows_people = false;            // the panel of people and places
-    bool shows_facts = true;              // the line at the bottom
+    bool shows_facts = false;             // the details of picture and connection
     std::string quality = "auto";         // of the virtual room: auto, low or high
     bool hears = false;                   // the others' voices, where no command line says more
     bool speaks = false;                  // to the others, where no command line says more

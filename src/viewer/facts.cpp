@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
+#include <utility>
 
 #include "viewer/age_text.h"
+#include "viewer/picture_dot.h"
 #include "viewer/still_cover.h"
 #include "viewer/trust_panel.h"
 #include "wire/condition_text.h"
@@ -284,6 +287,40 @@ Message message_of(const Facts& facts, const std::string& address) {
     return {};
 }
 
+// A window with a bar shows little else unless asked: the dot and the offers say it.
+void make_calm(const Facts& facts, xr::OverlayContent& content) {
+    const auto& status = facts.received.status;
+    const bool is_slow = drawing_is_slow(facts);
+    DotFacts dot;
+    dot.phase = status.phase;
+    dot.has_picture = facts.has_picture;
+    dot.age_ms = facts.age_ms;
+    dot.is_of_another_time = facts.frozen || !facts.past.empty() || !facts.played.empty();
+    dot.is_missing_a_camera = !not_live_text(facts.received).empty();
+    dot.is_late = is_slow || status.delivery.level > 0;
+    dot.unrest = facts.unrest;
+    content.tools = facts.tools;
+    const int command = content.tools->dot.command;
+    content.tools->dot = picture_dot(dot);
+    content.tools->dot.command = command;
+    for (const Phrase slow : {Phrase::slow_press_m, Phrase::slow_not_connection})
+        if (content.warning == say(slow))
+            content.tools->dot.hint = std::exchange(content.warning, "");
+    if (content.message.empty() && !facts.help)
+        content.offers = facts.offers;
+    // The offer to return to the present begins with the same words.
+    if (!facts.past.empty() && !facts.frozen && !content.offers.empty())
+        content.warning.clear();
+    const Phrase said_elsewhere[] = {
+        Phrase::age_of_picture, Phrase::at_the_door, Phrase::drawn,     Phrase::sent,
+        Phrase::depth_fact,     Phrase::microphone,  Phrase::connection};
+    if (!facts.line)
+        std::erase_if(content.facts, [&](const xr::Fact& fact) {
+            return std::any_of(std::begin(said_elsewhere), std::end(said_elsewhere),
+                               [&](Phrase label) { return fact.label == say(label); });
+        });
+}
+
 }  // namespace
 
 xr::OverlayContent overlay_of(const Facts& facts, const std::string& address,
@@ -311,6 +348,8 @@ xr::OverlayContent overlay_of(const Facts& facts, const std::string& address,
         if (facts.trust)
             content.panels.push_back(trust_panel(facts.received, filter_name));
     }
+    if (facts.tools)
+        make_calm(facts, content);
     return content;
 }
 

@@ -473,9 +473,9 @@ bool LiveScene::note_ages(const client::Participant& participant) {
     if (participant.status().clock_known)
         for (const auto& [id, frame] : newest_) {
             const bool is_live = shows_present(id) && !left_out_.contains(id);
-            if (!shows_ages_ && is_live)
-                continue;
             const double ms = to_ms(participant.now() - frame->times.captured);
+            if (is_live && (!shows_ages_ || ms < least_told_ms))
+                continue;
             const auto known = before.find(id);
             std::string age = left_out_.contains(id)
                                   ? say(Phrase::not_drawn_age, age_text(std::max(ms, 0.0)))

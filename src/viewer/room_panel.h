@@ -12,8 +12,10 @@
 #include "viewer/meeting.h"
 #include "viewer/own_face.h"
 #include "viewer/places.h"
+#include "viewer/sheet.h"
 #include "viewer/voices.h"
 #include "xr/overlay_content.h"
+#include "xr/window_input.h"
 
 namespace theatron::viewer {
 
@@ -87,10 +89,16 @@ struct ChangeScreen {
 struct LookBackTo {  // for this person alone; 0: the present
     Duration ago{};
 };
+struct PressKey {  // as its key does
+    xr::Action action{};
+};
+struct ShowSheet {
+    Sheet sheet{};
+};
 using RoomCommand =
     std::variant<GoToPerson, LookThrough, GoToPlace, Decide, AskToOpen, OpenOffered, LeaveClosed,
                  ChangeCase, ChooseMarkTool, ChangeMarks, Call, AnswerCall, ShowLarge, AdjustStep,
-                 PlayStep, ChangeScreen, ShowFace, LookBackTo, UseSound>;
+                 PlayStep, ChangeScreen, ShowFace, LookBackTo, UseSound, PressKey, ShowSheet>;
 
 struct RoomPanel {
     std::vector<xr::Panel> panels;

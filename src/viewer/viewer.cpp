@@ -61,6 +61,10 @@ void Viewer::on_input(xr::WindowInput input, std::optional<double> grabbed_m, Si
     else
         draw_region(input, picture, now);
     mark(input, picture);
+    if (is_past || input.pointer_covered)
+        input.points = input.points && !is_past;
+    else
+        input.points = input.points || points_;
     point(input, picture);
     if (eye_.is_placed() && (!is_past || handling_.holds()))
         handling_.on_input(input, grabbed_m, double(picture.width) / picture.height,
@@ -83,6 +87,12 @@ void Viewer::on_input(xr::WindowInput input, std::optional<double> grabbed_m, Si
 }
 
 void Viewer::on_key(const xr::KeyPress& key, Size picture, TimePoint now) {
+    const Sheet before = sheet();
+    carry_out(key, picture, now);
+    keep_one_panel(before);
+}
+
+void Viewer::carry_out(const xr::KeyPress& key, Size picture, TimePoint now) {
     switch (key.action) {
         case xr::Action::help:
             help_ = !help_;
@@ -91,6 +101,18 @@ void Viewer::on_key(const xr::KeyPress& key, Size picture, TimePoint now) {
             line_ = !line_;
             scene_.set_ages_shown(line_);
             scene_changed_ = true;
+            if (options_.one_panel && line_ != (sheet() == Sheet::details))
+                toggle_sheet(line_ ? Sheet::details : Sheet::none);
+            break;
+        case xr::Action::point:
+            points_ = !points_;
+            if (points_ && marking_.tool()) {  // the mouse does one of both
+                marking_.choose(std::nullopt, scene_.meeting());
+                scene_changed_ = true;
+            }
+            break;
+        case xr::Action::more:
+            toggle_sheet(sheet_ == Sheet::none || sheet_ == Sheet::details ? Sheet::more : sheet_);
             break;
         case xr::Action::next_renderer:
             choose_next_renderer(now);
@@ -108,6 +130,7 @@ void Viewer::on_key(const xr::KeyPress& key, Size picture, TimePoint now) {
             shows_case_ = !shows_case_;
             break;
         case xr::Action::marks:
+            points_ = false;
             marking_.choose(
                 marking_.tool() ? std::nullopt : std::optional(session::MarkKind::stroke),
                 scene_.meeting());
@@ -181,6 +204,10 @@ void Viewer::on_key(const xr::KeyPress& key, Size picture, TimePoint now) {
         case xr::Action::own_face:
         case xr::Action::save_picture:
         case xr::Action::save_points:
+        case xr::Action::leave_session:
+        case xr::Action::next_control:
+        case xr::Action::previous_control:
+        case xr::Action::press_control:
             break;  // the first three are of objects (handling.h), the others of the window
     }
 }
@@ -211,9 +238,19 @@ void Viewer::aim_teleport(const xr::WindowInput& input, Size picture) {
 }
 
 void Viewer::press(int command, TimePoint now) {
-    if (command < 0 || command >= int(commands_.size()) || !eye_.is_placed())
+    if (command < 0 || command >= int(commands_.size()))
         return;
     const RoomCommand chosen = commands_[std::size_t(command)];
+    if (const auto* key = std::get_if<PressKey>(&chosen)) {
+        // The panel of the rest has done its work.
+        if (sheet_ == Sheet::more && key->action != xr::Action::more)
+            open_sheet(Sheet::none);
+        return pressed_.push_back({key->action});
+    }
+    if (const auto* opened = std::get_if<ShowSheet>(&chosen))
+        return open_sheet(opened->sheet);
+    if (!eye_.is_placed())
+        return;
     if (const auto* decision = std::get_if<Decide>(&chosen)) {
         if (removal_.is_meant(*decision, now))
             participant_.manage(decision->action, decision->person, decision->role);
@@ -496,6 +533,30 @@ Facts Viewer::facts(TimePoint now) {
     RoomPanel panel;
     facts.past = past(now);
     facts.played = played(now);
+    if (options_.one_panel) {
+        add_tools(facts, panel, now);
+        add_offers(facts, panel, now);
+        add_sheet(facts, panel, now);
+    } else {
+        add_open_panels(facts, panel, now);
+    }
+    facts.rectangle = adjusting_.rectangle();
+    facts.bar = playing_.bar(participant_, may(session::Right::play), now, panel);
+    if (marking_.tool() && !options_.one_panel)
+        add_mark_panel(marking_.tool(),
+                       facts.received.status.standing.role == wire::Role::operator_, panel);
+    add_camera_pictures(facts, panel, now);
+    facts.pointed = pointed_text();
+    facts.panels = std::move(panel.panels);
+    commands_ = std::move(panel.commands);
+    facts.line = line_;
+    facts.voices = voices_;
+    facts.own_face = own_face_;
+    facts.trust = options_.one_panel ? sheet() == Sheet::details : shows_panels_;
+    return facts;
+}
+
+void Viewer::add_open_panels(const Facts& facts, RoomPanel& panel, TimePoint now) {
     // The way back to the present comes first. Panels that others bring about come below people and
     // places, which stay where they are.
     if (!facts.past.empty())
@@ -527,20 +588,6 @@ Facts Viewer::facts(TimePoint now) {
         asked_case_.reset();
     if (adjusting_.is_shown())
         adjusting_.add_panel(panel);
-    facts.rectangle = adjusting_.rectangle();
-    facts.bar = playing_.bar(participant_, may(session::Right::play), now, panel);
-    if (marking_.tool())
-        add_mark_panel(marking_.tool(),
-                       facts.received.status.standing.role == wire::Role::operator_, panel);
-    add_camera_pictures(facts, panel, now);
-    facts.pointed = pointed_text();
-    facts.panels = std::move(panel.panels);
-    commands_ = std::move(panel.commands);
-    facts.line = line_;
-    facts.voices = voices_;
-    facts.own_face = own_face_;
-    facts.trust = shows_panels_;
-    return facts;
 }
 
 }  // namespace theatron::viewer

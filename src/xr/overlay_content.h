@@ -11,6 +11,7 @@
 
 #include "geometry/vec.h"
 #include "image/image.h"
+#include "xr/tool_bar.h"
 
 namespace theatron::xr {
 
@@ -75,7 +76,10 @@ struct OverlayContent {
     std::vector<OverlayPicture> pictures;  // in rows of three, or a large one
     // That is being drawn with the mouse: two corners, in shares of the window's width and height.
     std::optional<std::pair<Vec2, Vec2>> rectangle = {};
-    std::optional<PanelRow> bar = {};  // above the facts, as wide as the window
+    std::optional<PanelRow> bar = {};   // above the facts, as wide as the window
+    std::vector<PanelRow> offers = {};  // at the top: notices with buttons
+    std::optional<ToolBar> tools = {};  // at the bottom, below all others
+    std::optional<std::size_t> hovered = {}, focused = {};  // controls, as Overlay counts them
 
     bool operator==(const OverlayContent&) const = default;
 };

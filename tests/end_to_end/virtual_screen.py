@@ -66,6 +66,11 @@ class VirtualScreen:
             return [image[start + y * stride + 4 * left:start + y * stride + 4 * (left + width)]
                     for y in range(top, top + height)]
 
+    def has_bar(self, width, height):
+        """The bar at the bottom of the window is drawn: its labels have the brightest colour of texts."""
+        color = bytes((250, 247, 245))
+        return sum(row[4 * x:4 * x + 3] == color for row in self.pixels(0, height - 50, width, 50) for x in range(width)) >= 20
+
     def buttons(self, width, height, apart=40):
         """Middles of the panels' buttons, from top to bottom and left to right; `apart`: pixels between two of a row."""
         rows = self.pixels(0, 0, width, height)

@@ -116,7 +116,7 @@ class Window(unittest.TestCase):
                 self.assertIn(b"element vertex", header)
                 self.assertIn(b"comment x, y, z in metres in the room", header)
             with self.subTest("renderers and codecs are changed"):
-                do("key", "Tab")
+                do("key", "m")
                 wait_until(lambda: " disc " in self.screen.title())
                 do("key", "m")
                 wait_until(lambda: " mesh " in self.screen.title())
