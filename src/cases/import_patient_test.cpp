@@ -52,6 +52,9 @@ void write_dicomdir(const fs::path& file, const fs::path& any_image) {
     set.Replace(text({0x0008, 0x0016}, gdcm::VR::UI, "1.2.840.10008.1.3.10"));
     reader.GetFile().GetHeader().Replace(
         text({0x0002, 0x0002}, gdcm::VR::UI, "1.2.840.10008.1.3.10"));
+    // All that describes pixels.
+    while (set.FindNextDataElement({0x0028, 0}).GetTag().GetGroup() == 0x0028)
+        set.Remove(set.FindNextDataElement({0x0028, 0}).GetTag());
     set.Remove({0x7fe0, 0x0010});
     gdcm::SmartPointer<gdcm::SequenceOfItems> records = new gdcm::SequenceOfItems;
     records->SetLengthToUndefined();
