@@ -19,7 +19,7 @@ public:
     void set_size(std::size_t cameras) { slots_ = std::deque<Slot>(cameras); }
     void clear() { slots_.clear(); }
 
-    // Of all cameras, also missing ones. From any thread, as all below.
+    // The number of all cameras, also missing ones. From any thread, as all below.
     std::size_t size() const { return slots_.size(); }
     // Null if the camera is missing or there is no such number.
     send::CameraLane* find(std::size_t camera) const {

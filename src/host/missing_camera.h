@@ -37,7 +37,7 @@ public:
         Duration longest = capture::CameraCare::longest_wait;
     };
 
-    // `problem`: why it could not be opened until now. What `open` uses must live as long as it
+    // `problem`: why it could not be opened until now. All that `open` uses must live as long as it
     // runs, which may be longer than this object where a driver hangs.
     MissingCamera(std::string problem, Open open, Found found, Pauses pauses);
     MissingCamera(std::string problem, Open open, Found found)
