@@ -13,6 +13,7 @@
 #include "base/outside_text.h"
 #include "base/thread_name.h"
 #include "cases/manifest.h"
+#include "host/cases_folder.h"
 #include "net/content_digest.h"
 
 namespace theatron::host {
@@ -69,6 +70,8 @@ CaseShelf::CaseShelf(fs::path directory, Changed changed)
     if (!fs::is_directory(directory_, failed))
         throw Error("There is no folder '" + clean_text(directory_.string(), 300) +
                     "' for cases; make it, or name another with --cases.");
+    if (const std::string advice = advice_on_cases_folder(directory_); !advice.empty())
+        log::say(advice);
     thread_ = std::thread([this] { run(); });
 }
 

@@ -46,6 +46,13 @@ TEST_F(Numbers, AreAllUsedOnceBeforeOneIsUsedAgain) {
     EXPECT_EQ(numbers_.take(), CameraId(0));
 }
 
+TEST_F(Numbers, ThatAreKeptAreNotGivenOut) {
+    numbers_.keep(3);
+    EXPECT_TRUE(numbers_.was_given(CameraId(2)));
+    EXPECT_EQ(numbers_.next(1), CameraId(4));
+    EXPECT_EQ(numbers_.take(), CameraId(3));
+}
+
 TEST_F(Numbers, OfSeveralThatHaveRestedTheOneIsUsedThatLeftLongestAgo) {
     pass(seconds(1));
     const CameraId stays = numbers_.take(), leaves_last = numbers_.take();

@@ -53,6 +53,8 @@ public:
     void add(ParticipantId publisher, std::vector<wire::Camera> cameras,
              const std::string& publisher_name = "",
              const std::vector<std::string>& given_names = {});
+    // As in SessionCameras.
+    void keep_numbers(int below) { cameras_.keep_numbers(below); }
     // Unknown cameras are skipped.
     void remove(const std::vector<CameraId>& cameras);
     const SessionCameras& cameras() const { return cameras_; }
