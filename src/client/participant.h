@@ -249,7 +249,8 @@ public:
     // Adjusts a camera for all; kept within its limits. The answer is a Managed, too. Returns its
     // number; 0 while not joined, or where the host cannot do this.
     std::uint32_t adjust(CameraId camera, const session::CameraAdjustment& adjustment);
-    // Plays the recording that the host shows, for all; likewise.
+    // Plays the recording that the host shows, for all. The answer is a Managed, too. Returns its
+    // number; 0 while not joined, or where the host cannot do this.
     std::uint32_t play(wire::PlayAction action, Duration position = {});
     // Where that recording is; empty: the host plays none.
     std::optional<wire::Playback> playback() const;
@@ -349,7 +350,7 @@ private:
     std::unique_ptr<DirectSender> direct_sender_;        // null: it does not listen
     std::unique_ptr<DirectReception> direct_reception_;  // null without Options::direct
     std::unique_ptr<Decoders> decoders_;                 // its threads use all above
-    std::unique_ptr<CaseKeeper> cases_;                  // likewise; may be null
+    std::unique_ptr<CaseKeeper> cases_;                  // its threads use all above; may be null
     Attempts attempts_;
 
     // The thread, in a browser the page's events: participant_loop_native.cpp, _web.cpp.

@@ -166,7 +166,7 @@ struct Pong {
 struct Delivery {
     std::uint8_t level = 0;             // 0: all that was requested
     std::uint8_t levels = 1;            // number of levels
-    std::uint8_t one_frame_of = 1;      // of so many frames one is sent
+    std::uint8_t one_frame_of = 1;      // one frame in this number is sent
     std::string color_codec;            // coarser colour; empty: as requested
     bool lossy_outside_region = false;  // depth has bounded loss outside the region of interest
     Text reason;
