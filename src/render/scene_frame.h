@@ -131,7 +131,7 @@ struct SceneLine {
     const SceneLineMesh* mesh = nullptr;
     Pose room_from_line;
     Rgb color;
-    // Surfaces hide it only where they are so much nearer to the eye, plus so many metres a metre
+    // Surfaces hide it only where they are so much nearer to the eye, plus these metres a metre
     // of distance: a measured surface's noise does not cut it.
     double nearer_m = 0, nearer_per_distance = 0;
     double hidden_opacity = 0;  // behind surfaces
