@@ -45,16 +45,16 @@ struct Layout {
 
 Layout layout(const LayoutFacts& facts);
 
-// The places of the monitor's slice, with the proportions of `slice`, and of this number of lines of text
-// below it.
+// The places of the monitor's slice, with the proportions of `slice`, and of this number of lines
+// of text below it.
 struct MonitorPlaces {
     Rect picture;
     Rect letters;  // at whose edges the letters of sides stand: around a picture that is too flat
     std::vector<Rect> lines;
 };
 MonitorPlaces monitor_places(const Rect& monitor, Size slice, std::size_t lines, double letter);
-// The place of this number of letters inside of `area`, at its edge in the direction `towards`, of which
-// one coordinate is 0 and the other -1 or 1.
+// The place of this number of letters inside of `area`, at its edge in the direction `towards`, of
+// which one coordinate is 0 and the other -1 or 1.
 Rect letters_place(const Rect& area, Vec2 towards, std::size_t letters, double letter);
 
 // By how much all of it is moved at this moment, in units of Layout::letter, at most
