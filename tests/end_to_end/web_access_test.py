@@ -98,6 +98,8 @@ class WebAccess(unittest.TestCase):
 
     def tab_order(self, from_element):
         """Names of what the Tab key reaches from there until it leaves the page."""
+        # A key first: a browser shows the focus that a script has set only to somebody who uses the keyboard.
+        self.page.press("Tab", "Tab", 9)
         self.page.evaluate(f"document.querySelector('{from_element}').focus()")
         reached = []
         while not (focus := self.page.evaluate(FOCUS))["is_body"] and len(reached) < 60:
