@@ -278,7 +278,7 @@ class Case(unittest.TestCase):
                 Process("join", h.greeting["link"], "--or-screen", "--offscreen", file, "--size", "1280x720",
                         "--seconds", "60", "--every", "0.2") as screen:
             anna.wait_for(lambda f: f["cases"]["offered"])
-            anna.say("case open Made liver")
+            anna.say("case open --yes Made liver")
             anna.wait_for(has_all)
             for plane, letters in (("axial", "RLAP"), ("coronal", "RLHF"), ("sagittal", "APHF")):
                 with self.subTest(plane):
