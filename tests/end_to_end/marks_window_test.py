@@ -36,7 +36,7 @@ class MarksWindow(unittest.TestCase):
         self.screen.do(*before, "mousemove", *begin, "sleep", 0.15, "mousedown", 1, "sleep", 0.15, *steps, "mouseup", 1, *after)
 
     def buttons(self):
-        return self.screen.buttons(WIDTH, HEIGHT, apart=30)
+        return self.screen.buttons(WIDTH, HEIGHT)
 
     def press(self, place):
         self.screen.do("mousemove", *place, "click", 1)
