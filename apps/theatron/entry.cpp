@@ -201,8 +201,15 @@ std::optional<Entered> ask_entry(xr::DesktopWindow& window, xr::EntryFields fiel
             must_draw = true;
         }
         fields = form.fields();
-        if (pressed == xr::EntryAnswer::enter && read.link)
+        if (pressed == xr::EntryAnswer::enter && read.link) {
+            // Opening sound and connection takes a while: the press is seen to have been taken.
+            facts.hint = say(Phrase::connecting);
+            facts.can_enter = false;
+            facts.is_problem = false;
+            form.draw(facts, {}, window.pixels(), window.text_pixels(), steady_now());
+            window.present();
             return Entered{*read.link, fields};
+        }
         window.present();
     }
     return std::nullopt;

@@ -47,6 +47,12 @@ private:
     std::vector<std::string> texts_;
 };
 
+// For somebody who was in.
+bool is_over(const client::Participant::Status& status) {
+    using Phase = client::Participant::Phase;
+    return status.joins > 0 && (status.phase == Phase::ended || status.phase == Phase::refused);
+}
+
 std::string title_of(const viewer::Facts& facts, const std::string& address) {
     const std::string& host = facts.received.status.host_name;
     return (host.empty() ? address : host) + " - " + facts.way.renderer + " - Theatron";
@@ -296,8 +302,12 @@ WindowEnd show(xr::DesktopWindow& window, ViewerWindow options) {
     std::optional<std::size_t> focus;           // the button that has the keyboard
     sound::DeviceWatch sound_devices;
     WindowEnd end = WindowEnd::closed;
+    std::string over;  // why the session is, for good
     while (!cli::stop_requested()) {
         const TimePoint before = steady_now();
+        // Before the first picture there is nothing that looks live.
+        if (options.watch && viewer.pictures() > 0)
+            options.watch->beat();
         const bool picture_is_due = before < next_picture || viewer.is_animated();
         window.wait((picture_is_due ? next_picture : next_texts) - before);
 
@@ -372,6 +382,9 @@ WindowEnd show(xr::DesktopWindow& window, ViewerWindow options) {
                 options.voice->note(status.standing);
             if (options.entered)
                 std::exchange(options.entered, nullptr)(status.host_name);
+        } else if (is_over(status)) {
+            over = say(Phrase::enter_again_later, status.problem);
+            break;
         }
         if (options.voice)
             options.voice->hold(input.talks, now);
@@ -434,6 +447,8 @@ WindowEnd show(xr::DesktopWindow& window, ViewerWindow options) {
             viewer.on_presented(now, (is_software ? steady_now() : submitted) - now, steady_now());
     }
     print_end(viewer, participant, window);
+    if (!over.empty())
+        throw SessionEnded(over);
     if (options.is_last || end == WindowEnd::closed)
         cli::begin_end();
     return end;

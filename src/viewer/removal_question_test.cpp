@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "wire/clear_objects.h"
+
 namespace theatron::viewer {
 namespace {
 
@@ -12,16 +14,26 @@ using wire::ManageAction;
 constexpr ParticipantId anna{1}, ben{2};
 constexpr TimePoint begin(100s);
 
-TEST(RemovalQuestion, OnlyTheSecondPressOfTheSamePersonInTimeRemoves) {
+TEST(RemovalQuestion, OnlyTheSecondPressOfTheSameButtonInTimeRemoves) {
+    for (const ManageAction action : {ManageAction::remove, wire::clear_objects}) {
+        const Decide of_anna{action, anna, {}}, of_ben{action, ben, {}};
+        RemovalQuestion question;
+        EXPECT_EQ(question.asked(begin), std::nullopt);
+        EXPECT_FALSE(question.is_meant(of_anna, begin));
+        EXPECT_EQ(question.asked(begin + 4s), of_anna);
+        EXPECT_FALSE(question.is_meant(of_ben, begin + 1s));
+        EXPECT_FALSE(question.is_meant(of_anna, begin + 2s));
+        EXPECT_TRUE(question.is_meant(of_anna, begin + 3s));
+        EXPECT_EQ(question.asked(begin + 3s), std::nullopt) << "each removal is asked about";
+        EXPECT_FALSE(question.is_meant(of_anna, begin + 4s));
+        EXPECT_FALSE(question.is_meant(of_anna, begin + 9s)) << "too late";
+    }
+}
+
+TEST(RemovalQuestion, ClearingIsNotConfirmedByRemoving) {
     RemovalQuestion question;
-    EXPECT_EQ(question.asked(begin), std::nullopt);
-    EXPECT_FALSE(question.is_meant({ManageAction::remove, anna, {}}, begin));
-    EXPECT_EQ(question.asked(begin + 4s), anna);
-    EXPECT_FALSE(question.is_meant({ManageAction::remove, ben, {}}, begin + 1s));
-    EXPECT_FALSE(question.is_meant({ManageAction::remove, anna, {}}, begin + 2s));
-    EXPECT_TRUE(question.is_meant({ManageAction::remove, anna, {}}, begin + 3s));
-    EXPECT_EQ(question.asked(begin + 7s), std::nullopt);
-    EXPECT_FALSE(question.is_meant({ManageAction::remove, anna, {}}, begin + 7s));
+    EXPECT_FALSE(question.is_meant({wire::clear_objects, anna, {}}, begin));
+    EXPECT_FALSE(question.is_meant({ManageAction::remove, anna, {}}, begin + 1s));
 }
 
 TEST(RemovalQuestion, OtherDecisionsAreCarriedOutAtOnce) {

@@ -33,11 +33,16 @@ struct Decide {  // an operator's decision on a person
     wire::ManageAction action{};
     ParticipantId person{};
     wire::Role role{};
+    bool operator==(const Decide&) const = default;
 };
-struct OpenOffered {  // a case of the host
+struct AskToOpen {  // a case of the host: whose it is is shown first
     ContentHash offered;
 };
-struct ChangeCase {  // false: there is no such case any more
+struct OpenOffered {  // that case, which is the right one
+    ContentHash offered;
+};
+struct LeaveClosed {};  // it is not
+struct ChangeCase {     // false: there is no such case any more
     std::function<bool(client::Participant&)> change;
 };
 struct ChooseMarkTool {
@@ -91,9 +96,9 @@ struct ShowSheet {
     Sheet sheet{};
 };
 using RoomCommand =
-    std::variant<GoToPerson, LookThrough, GoToPlace, Decide, OpenOffered, ChangeCase,
-                 ChooseMarkTool, ChangeMarks, Call, AnswerCall, ShowLarge, AdjustStep, PlayStep,
-                 ChangeScreen, ShowFace, LookBackTo, UseSound, PressKey, ShowSheet>;
+    std::variant<GoToPerson, LookThrough, GoToPlace, Decide, AskToOpen, OpenOffered, LeaveClosed,
+                 ChangeCase, ChooseMarkTool, ChangeMarks, Call, AnswerCall, ShowLarge, AdjustStep,
+                 PlayStep, ChangeScreen, ShowFace, LookBackTo, UseSound, PressKey, ShowSheet>;
 
 struct RoomPanel {
     std::vector<xr::Panel> panels;
@@ -110,8 +115,8 @@ struct RoomPanelFacts {
     bool may_call = false, is_calling = false;
     std::map<ParticipantId, int> speaking = {};  // as in Voices
     OwnFace own_face = OwnFace::none;
-    // The person of whom "Remove" was pressed once; removed by the second press.
-    std::optional<ParticipantId> asked_removal = {};
+    // The decision of which the button was pressed once; carried out by the second press.
+    std::optional<Decide> asked = {};
 };
 RoomPanel room_panel(const RoomPanelFacts& facts);
 

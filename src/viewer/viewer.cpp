@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "phrases/phrase.h"
 #include "session/permissions.h"
+#include "session/whose_camera.h"
 #include "viewer/mark_actions.h"
 #include "viewer/mark_panel.h"
 #include "viewer/screen_panel.h"
@@ -288,6 +289,10 @@ void Viewer::press(int command, TimePoint now) {
             note(say(Phrase::no_such_mark), now);
         return;
     }
+    if (const auto* offer = std::get_if<AskToOpen>(&chosen))
+        return ask_to_open(offer->offered);
+    if (std::holds_alternative<LeaveClosed>(chosen))
+        return asked_case_.reset();
     if (const auto* offer = std::get_if<OpenOffered>(&chosen))
         return open_before_eye(offer->offered);
     if (const auto* large = std::get_if<ShowLarge>(&chosen)) {
@@ -433,12 +438,16 @@ void Viewer::send_own_pose(Size picture, TimePoint now) {
 }
 
 std::string Viewer::camera_text(CameraId camera) const {
-    const std::string number = std::to_string(int(camera));
     std::uint64_t generation = 0;
     for (const auto& known : participant_.cameras(generation))
-        if (known.description.id == camera)
-            return say(Phrase::camera_number_named, number, known.description.name);
-    return say(Phrase::camera_number, number);
+        if (known.description.id == camera && !known.description.name.empty())
+            return say(Phrase::camera_called, name_of(known));
+    // As the keys 1 to 9 count.
+    return say(Phrase::camera_number, std::to_string(int(camera) + 1));
+}
+
+std::string Viewer::name_of(const client::Participant::Camera& camera) const {
+    return session::whose_camera(camera.description, scene_.meeting().room().objects);
 }
 
 void Viewer::draw(Size picture, const render::DrawTarget& target, TimePoint now) {
@@ -498,6 +507,8 @@ void Viewer::on_presented(TimePoint begin, Duration processor, TimePoint end) {
 Facts Viewer::facts(TimePoint now) {
     Facts facts;
     facts.received = client::figures_of(participant_);
+    for (client::CameraFigures& one : facts.received.cameras)
+        one.camera.description.name = name_of(one.camera);
     // Faces are people, not cameras of the room.
     std::erase_if(facts.received.cameras, [](const client::CameraFigures& one) {
         return one.camera.description.frame == wire::CameraFrame::face;
@@ -573,6 +584,8 @@ void Viewer::add_open_panels(const Facts& facts, RoomPanel& panel, TimePoint now
     // Its buttons would change the present by what is shown of the past.
     if (shows_case_ && facts.past.empty())
         add_case(panel);
+    else
+        asked_case_.reset();
     if (adjusting_.is_shown())
         adjusting_.add_panel(panel);
 }

@@ -129,7 +129,8 @@ public:
     // which the program carries out.
     void set_own_face(OwnFace face) { own_face_ = face; }
     std::optional<bool> take_face_wish() { return std::exchange(face_wish_, std::nullopt); }
-    // The devices to choose from, and the choice in the panel, likewise.
+    // The devices to choose from, and the choice in the panel since the last call, which the
+    // program carries out.
     void set_sound_choices(SoundChoices choices) { sound_choices_ = std::move(choices); }
     std::optional<UseSound> take_sound_wish() { return std::exchange(sound_wish_, std::nullopt); }
     // The person's choices by name, among renderer_choices() and video::depth_codec_names(). While
@@ -228,9 +229,12 @@ private:
     void add_sheet(const Facts& facts, RoomPanel& panel, TimePoint now);
     void show_slice_at(const xr::WindowInput& input, Size picture, TimePoint now);
     void add_case(RoomPanel& panel) const;
+    void ask_to_open(const ContentHash& offered);
     void open_before_eye(const ContentHash& offered);
     Pose at_eye_height(Pose room_from_eye) const;
     std::string camera_text(CameraId camera) const;
+    // With the person whose it is.
+    std::string name_of(const client::Participant::Camera& camera) const;
     ViewableCameras cameras() const { return {scene_.calibrations(), scene_.newest()}; }
 
     Options options_;
@@ -283,8 +287,10 @@ private:
     SoundChoices sound_choices_;
     std::optional<UseSound> sound_wish_;
     bool shows_panels_ = false, shows_case_ = false;
-    Sheet sheet_ = Sheet::none;  // one of those that are not open by other members
-    bool points_ = false;        // with the mouse, until the person ends it
+    std::optional<ContentHash> asked_case_;  // that the person is about to open
+    bool patient_is_asked_ = false;          // the host answers whose case it is
+    Sheet sheet_ = Sheet::none;              // one of those that are not open by other members
+    bool points_ = false;                    // with the mouse, until the person ends it
     TimePoint leave_asked_until_;
     std::vector<xr::KeyPress> pressed_;
     CameraUnrest unrest_;

@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "render/gl_errors_native.h"
 #include "xr/input_queue.h"
+#include "xr/x11_window_native.h"
 
 namespace theatron::xr {
 namespace {
@@ -450,6 +451,10 @@ Duration DesktopWindow::picture_time() const {
     if (SDL_GetCurrentDisplayMode(display, &mode) != 0 || mode.refresh_rate <= 0)
         mode.refresh_rate = 60;
     return seconds_to_duration(1.0 / mode.refresh_rate);
+}
+
+std::uint32_t DesktopWindow::x11_number() const {
+    return x11_window(parts_->window);
 }
 
 void DesktopWindow::set_title(const std::string& title) {

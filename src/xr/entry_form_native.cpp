@@ -64,7 +64,7 @@ ImGuiKey key_of(FormKey key) {
 // Numbers of the places where Tab stops, in its order; a session that was entered before has two.
 constexpr int link_stop = 0, name_stop = 1, box_stop = 2, enter_stop = 6, leave_stop = 7,
               paste_stop = 8, recent_stop = 9;
-// ImGui carries out a move of the keyboard in so many pictures; letters wait for that.
+// ImGui carries out a move of the keyboard within three pictures; letters wait for that.
 constexpr int settled_after = 3;
 
 // A text that ImGui edits in place.

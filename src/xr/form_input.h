@@ -41,7 +41,7 @@ struct FormKeyPress {
 
 struct FormInput {
     bool close = false;              // as in WindowInput
-    bool redraw = false;             // likewise
+    bool redraw = false;             // as in WindowInput
     std::vector<FormKeyPress> keys;  // with the letters in between, in their order
     // The mouse in shares of the window's width and height from its top left corner, if it is in
     // the window.

@@ -32,7 +32,7 @@ struct PanelButton {
 };
 struct PanelSlider {
     double value = 0, lowest = 0, highest = 1;
-    int command = 0;  // likewise, with the value
+    int command = 0;  // as of a button, with the value
 
     bool operator==(const PanelSlider&) const = default;
 };
@@ -66,6 +66,9 @@ struct OverlayContent {
     std::vector<Fact> facts;
     // Large in the middle, over a darkened picture, with a smaller line below.
     std::string message, detail;
+    // The same below the panels, where there is no message: the picture no longer shows the
+    // present.
+    std::string cover;
     std::string warning;  // at the top, while its cause lasts
     std::string notice;   // below it, for a recent event
     bool help = false;

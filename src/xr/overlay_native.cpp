@@ -635,6 +635,9 @@ void Overlay::draw(const OverlayContent& content, Size window, double text_pixel
     }
     const auto middle = p.middle_of(strips_width, panels_right, pictures_left);
     const float end = p.window.y - bottom - (middle ? 0 : strips_height);
+    // The cover lies over the pictures and below the panels.
+    p.list->ChannelsSplit(2);
+    p.list->ChannelsSetCurrent(1);
     float strip = middle ? margin : end;
     for (const PanelRow& offer : content.offers) {
         p.offer(offer, strip, middle.value_or(p.window.x / 2));
@@ -642,9 +645,13 @@ void Overlay::draw(const OverlayContent& content, Size window, double text_pixel
     }
     const float panels_end =
         p.panels(content.panels, {{margin, margin}, {margin + widest, end - p.unit}});
+    p.list->ChannelsSetCurrent(0);
     p.pictures.draw(*p.list, *p.small, p.unit, p.window,
                     {panels_end + (panels_end > 0 ? p.unit : 0), p.unit}, {p.window.x, end},
                     content.pictures);
+    if (!content.cover.empty() && content.message.empty())
+        p.message(content.cover, "", bottom);
+    p.list->ChannelsMerge();
     if (!content.message.empty())
         p.message(content.message, content.detail, bottom);
     if (content.help)

@@ -58,7 +58,7 @@ class MarksWindow(unittest.TestCase):
                 wait_until(lambda: not self.buttons())
             anna.say("case close")
             anna.wait_for(lambda f: not f["cases"]["open"])
-            anna.say("case open Made liver")
+            anna.say("case open --yes Made liver")
             anna.wait_for(has_all)
             anna.say("case scale 3")
             organ = anna.newest_json()["cases"]["open"]["object"]

@@ -36,7 +36,7 @@ def is_green(pixel):
 
 
 def row_of(buttons, count):
-    """The first row with so many buttons."""
+    """The first row with `count` buttons."""
     rows = {}
     for x, y in buttons:
         rows.setdefault(y, []).append((x, y))

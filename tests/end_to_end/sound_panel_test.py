@@ -45,7 +45,7 @@ class SoundPanel(unittest.TestCase):
                 self.assertEqual(window.end(), 0, "".join(window.errors))
 
     def button(self, screen, number):
-        """The middle of this one of the buttons that stand alone, once there are so many."""
+        """The middle of this one of the buttons that stand alone, once it is there."""
         return wait_until(lambda: len(alone := self.alone(screen)) >= abs(number) and alone)[number]
 
     def alone(self, screen):

@@ -218,7 +218,7 @@ class Window(unittest.TestCase):
                 Process("join", h.greeting["link"], "--name", "Ann", "--every", "0.1") as ann, \
                 self.window(h.greeting["link"]):
             ann.wait_for(lambda f: f["cases"]["offered"])
-            ann.say("case open Many")
+            ann.say("case open --yes Many")
             self.wait_for_scene()
             self.screen.do("key", "o")
             wait_until(lambda: len(self.buttons()) > 12)
