@@ -53,6 +53,9 @@ class MarksWindow(unittest.TestCase):
                 do("mousemove", *AIR, "key", "o")
                 wait_until(lambda: len(self.buttons()) == 1)
                 self.press(self.buttons()[0])
+                # The panel asks whether it is the right patient; its first button opens the case.
+                wait_until(lambda: len(self.buttons()) == 2)
+                self.press(self.buttons()[0])
                 anna.wait_for(has_all)
                 do("key", "o")
                 wait_until(lambda: not self.buttons())
