@@ -185,6 +185,9 @@ void Viewer::add_more_panel(RoomPanel& panel) const {
 // The one that is open.
 void Viewer::add_sheet(const Facts& facts, RoomPanel& panel, TimePoint now) {
     const wire::Role role = facts.received.status.standing.role;
+    // A question about a case is asked anew when its panel opens again.
+    if (sheet() != Sheet::patient_case || !facts.past.empty())
+        asked_case_.reset();
     switch (sheet()) {
         case Sheet::none:
         case Sheet::details:  // overlay_of() adds it

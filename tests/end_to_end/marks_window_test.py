@@ -36,7 +36,7 @@ class MarksWindow(unittest.TestCase):
         self.screen.do(*before, "mousemove", *begin, "sleep", 0.15, "mousedown", 1, "sleep", 0.15, *steps, "mouseup", 1, *after)
 
     def buttons(self):
-        return self.screen.buttons(WIDTH, HEIGHT, apart=30)
+        return self.screen.buttons(WIDTH, HEIGHT)
 
     def press(self, place):
         self.screen.do("mousemove", *place, "click", 1)
@@ -52,6 +52,9 @@ class MarksWindow(unittest.TestCase):
             with self.subTest("O offers the case, and its button opens it before the person"):
                 do("mousemove", *AIR, "key", "o")
                 wait_until(lambda: len(self.buttons()) == 1)
+                self.press(self.buttons()[0])
+                # The panel asks whether it is the right patient; its first button opens the case.
+                wait_until(lambda: len(self.buttons()) == 2)
                 self.press(self.buttons()[0])
                 anna.wait_for(has_all)
                 do("key", "o")
