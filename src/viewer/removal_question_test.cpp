@@ -11,12 +11,12 @@ namespace {
 using namespace std::chrono_literals;
 using wire::ManageAction;
 
-constexpr ParticipantId anna{1}, ben{2};
+constexpr ParticipantId somebody{1}, ben{2};
 constexpr TimePoint begin(100s);
 
 TEST(RemovalQuestion, OnlyTheSecondPressOfTheSameButtonInTimeRemoves) {
     for (const ManageAction action : {ManageAction::remove, wire::clear_objects}) {
-        const Decide of_anna{action, anna, {}}, of_ben{action, ben, {}};
+        const Decide of_anna{action, somebody, {}}, of_ben{action, ben, {}};
         RemovalQuestion question;
         EXPECT_EQ(question.asked(begin), std::nullopt);
         EXPECT_FALSE(question.is_meant(of_anna, begin));
@@ -32,13 +32,13 @@ TEST(RemovalQuestion, OnlyTheSecondPressOfTheSameButtonInTimeRemoves) {
 
 TEST(RemovalQuestion, ClearingIsNotConfirmedByRemoving) {
     RemovalQuestion question;
-    EXPECT_FALSE(question.is_meant({wire::clear_objects, anna, {}}, begin));
-    EXPECT_FALSE(question.is_meant({ManageAction::remove, anna, {}}, begin + 1s));
+    EXPECT_FALSE(question.is_meant({wire::clear_objects, somebody, {}}, begin));
+    EXPECT_FALSE(question.is_meant({ManageAction::remove, somebody, {}}, begin + 1s));
 }
 
 TEST(RemovalQuestion, OtherDecisionsAreCarriedOutAtOnce) {
     RemovalQuestion question;
-    EXPECT_TRUE(question.is_meant({ManageAction::mute, anna, {}}, begin));
+    EXPECT_TRUE(question.is_meant({ManageAction::mute, somebody, {}}, begin));
     EXPECT_EQ(question.asked(begin), std::nullopt);
 }
 
