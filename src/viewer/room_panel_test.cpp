@@ -105,8 +105,9 @@ TEST(RoomPanel, OperatorsDecideOnPeople) {
     EXPECT_EQ(std::get<Decide>(panel.commands.at(buttons[2].command)), clear);
     EXPECT_EQ(std::get<Decide>(panel.commands.at(buttons[3].command)), remove);
     const auto labels = [&] {
-        const auto& now = room_panel(facts).panels[0].rows.at(1).buttons;
-        return now[2].label + "; " + now[3].label;
+        const RoomPanel panel = room_panel(facts);
+        const auto& buttons = panel.panels[0].rows.at(1).buttons;
+        return buttons[2].label + "; " + buttons[3].label;
     };
     EXPECT_EQ(labels(), "Clear; Remove");
     facts.asked = remove;
