@@ -10,6 +10,7 @@
 #include <semaphore>
 
 #include "codec/depth_stream.h"
+#include "testing/manual_clock.h"
 #include "video/color_codec.h"
 
 namespace theatron::send {
@@ -17,43 +18,35 @@ namespace {
 
 constexpr Size size{16, 12};
 
-// Time that passes when the test says so.
-class ManualClock {
+// Time that passes when the test says so, not while somebody sleeps.
+class LaneClock : public testing::ManualClock {
 public:
-    TimePoint now() const { return TimePoint(now_.load()); }
-    void pass(Duration time) { now_ = now_.load() + time; }
     capture::Clock clock() {
         return {[this] { return read(); }, [](Duration) { std::this_thread::yield(); }};
     }
     // Calls `then` once, between the next reading of the clock and the use of what was read.
     void after_next_reading(std::function<void()> then) {
-        const std::lock_guard lock(mutex_);
-        after_reading_ = std::move(then);
+        then_ = std::move(then);
+        has_then_ = true;
     }
 
 private:
     TimePoint read() {
         const TimePoint read = now();
-        std::function<void()> then;
-        {
-            const std::lock_guard lock(mutex_);
-            then = std::exchange(after_reading_, nullptr);
-        }
-        if (then)
-            then();
+        if (has_then_.exchange(false))
+            then_();
         return read;
     }
 
-    std::atomic<Duration> now_{Duration(1h)};
-    std::mutex mutex_;
-    std::function<void()> after_reading_;
+    std::function<void()> then_;
+    std::atomic<bool> has_then_ = false;
 };
 
 // Hands over frames when the test says so.
 class ManualCamera final : public capture::Camera {
 public:
     struct Script {
-        ManualClock clock;
+        LaneClock clock;
         std::mutex mutex;
         std::condition_variable changed;
         std::deque<capture::Capture> waiting;
