@@ -5,7 +5,8 @@
 # program (headers, static libraries, fonts), from the copyright files that the packages install. A shared
 # library comes with its own package and is not named here.
 function(theatron_notices file)
-  cmake_parse_arguments(N "" "TEXT" "PACKAGES" ${ARGN})
+  # TEXT has semicolons, at which ${ARGN} would cut it.
+  cmake_parse_arguments(PARSE_ARGV 1 N "" "TEXT" "PACKAGES")
   set(notices "Theatron, copyright 2026 the Theatron authors, Apache License 2.0\n")
   string(APPEND notices "It contains parts of the works below, under the terms that follow each name.\n${N_TEXT}")
   foreach(package ${N_PACKAGES})
