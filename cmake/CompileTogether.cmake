@@ -36,6 +36,7 @@ set(THEATRON_COMPILED_ALONE
   bench/theatron_bench/bench_view_scene.cpp
   bench/theatron_bench/bench_web.cpp
   bench/theatron_bench/browser_page.cpp
+  src/xr/x11_window_native.cpp
   src/capture/camera.cpp
   src/capture/mkv_answer.cpp
   src/capture/mkv_answer_test.cpp

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Checks every tracked source: clang-format, the licence line at its top, comments whose subject is named, and that no
-test depends on the speed of the machine (check_tests.py)."""
+"""Checks every tracked source: clang-format, the licence line at its top, comments whose subject is named, words that stand
+for others, and that no test depends on the speed of the machine (check_tests.py)."""
 import pathlib
 import re
 import subprocess
@@ -24,6 +24,15 @@ MAY_WRITE_DIRECTLY = re.compile(
     r"^apps/theatron/(register_result|main)\.cpp$|^apps/web/")
 # A sentence that begins so does not name its subject.
 UNNAMED_SUBJECT = re.compile(r"(?:^|[.:;!?] )(What|Whatever|Who|Whoever|Whose|Of|Which|Whether) [^?]*$")
+# Words that stand for a count or a noun which the reader would have to look for; also across a line's end.
+UNCLEAR_WORDS = re.compile(r"\b(likewise|so[\s/#*]+many|of[\s/#*]+before)\b", re.IGNORECASE)
+WRITTEN = LICENSED | {".md", ".inc", ".html"}
+NAMES_THE_WORDS = {"tools/check_sources.py", "tools/check_sources_test.py"}
+
+
+def unclear_words(text):
+    """(line number, words) of each word that stands for another."""
+    return [(text.count("\n", 0, found.start()) + 1, " ".join(re.findall(r"\w+", found[1]))) for found in UNCLEAR_WORDS.finditer(text)]
 
 
 def comment_blocks(file, text):
@@ -46,6 +55,9 @@ def main():
     files = [ROOT / line for line in listed.splitlines() if (ROOT / line).is_file()]
     problems = check_tests.problems()
     for file in files:
+        if file.suffix in WRITTEN and str(file.relative_to(ROOT)) not in NAMES_THE_WORDS:
+            problems += [f"{file.relative_to(ROOT)}:{number}: '{words}' leaves open what is meant; name it"
+                         for number, words in unclear_words(file.read_text(errors="replace"))]
         if file.suffix in LICENSED or file.name in {"CMakeLists.txt", "Makefile"}:
             text = file.read_text(errors="replace")
             for number, comment in comment_blocks(file, text):
@@ -70,4 +82,5 @@ def main():
     return 1 if problems else 0
 
 
-sys.exit(main())
+if __name__ == "__main__":
+    sys.exit(main())

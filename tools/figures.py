@@ -28,6 +28,7 @@ ALL_SKIPPED = 77  # for ctest
 # A figure is the page's if it differs by one in its last digit or by this share. Strata's weights come
 # from sums in floating point, whose order depends on the instruction set.
 SAME_SHARE = 0.002
+PICTURES_A_KEY_FRAME = 45  # 1.5 s of recordings and of looking back
 
 
 class Missing(Exception):
@@ -211,13 +212,23 @@ def border(program, table, row):
 
 @Figure("docs/decisions/cropping.md", "full resolution",
         "theatron bench color FOLDER --tile SIZE --frames 30 "
-        "--codecs jpeg:quality=85 h264:crf=20 h264:crf=24 h264:crf=24,preset=veryfast")
+        "--codecs jpeg:quality=85 h264:crf=20 h264:crf=24 h264:crf=24,preset=veryfast",
+        quick=lambda row: row[0].startswith("azure"))
 def full_resolution(program, table, row):
     codecs = full_resolution.command.partition("--codecs ")[2].split()
     name, size = row[0].split(", ")
     tile = ["--tile", size] if name == "table-person" else []
     codec = program.codecs("color", program.sequence(name), codecs, *tile, "--frames", 30)[row[1]]
     return {"kB": [kilobytes(codec)], "PSNR dB": [codec["psnr_db"]]}
+
+
+@Figure("docs/recording.md", "key frames", "theatron bench depth FOLDER --frames 60 --codecs strata trvl zstd:delta=1")
+def key_frames(program, table, row):
+    kind = "color" if row[1].startswith("h264") else "depth"
+    codecs = [row[1]] if kind == "color" else key_frames.command.partition("--codecs ")[2].split()
+    codec = program.codecs(kind, program.sequence(row[0]), codecs, "--frames", 60)[row[1]]
+    first, mean = codec["bytes_first"] / 1000, kilobytes(codec)
+    return {"key frame": [first], "other": [mean], "more": [100 * (first - mean) / (PICTURES_A_KEY_FRAME * mean)]}
 
 
 @Figure("docs/filters.md", "truth", "theatron bench filter --quality --room", slow=True)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Names every test that ctest had to run a second time, and fails when too many needed it.
 
-A test that passes only at its second try found a fault in the program or has one itself. What it printed when it failed
+A test that passes only at its second try found a fault in the program or has one itself. Its output when it failed
 is appended to a file, so that it can be found out which.
     tools/repeated_tests.py build/release/Testing/Temporary/LastTest.log --keep build/repeated_tests.txt --most 2
 """

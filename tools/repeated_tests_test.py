@@ -22,7 +22,7 @@ endforeach()
 
 class Repeats(unittest.TestCase):
     def run_with(self, *once):
-        """What the tool says of a run in which these tests fail once: its exit code, its output and the file that it keeps."""
+        """The answer of the tool to a run in which these tests fail once: its exit code, its output and the file that it keeps."""
         with tempfile.TemporaryDirectory() as folder:
             folder = pathlib.Path(folder)
             (folder / "CMakeLists.txt").write_text(PROJECT.replace("ONCE", " ".join(once)))

@@ -90,7 +90,7 @@ void add_background_command(CLI::App& app) {
         "then the filters default+background:file=left.background leave it out.");
     command->add_option("--camera", flags->camera, "The camera, kind:value,key=value")->required();
     command->add_option("--out", flags->out, "The file to write")->required();
-    command->add_option("--frames", flags->frames, "So many frames")
+    command->add_option("--frames", flags->frames, "Number of frames")
         ->capture_default_str()
         ->check(CLI::Range(1, 100000));
     command->add_flag("--overwrite", flags->overwrite, "Replace a file that is there");

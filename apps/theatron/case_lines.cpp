@@ -7,6 +7,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <string_view>
 
 #include "base/error.h"
 #include "base/hex_text.h"
@@ -44,9 +45,18 @@ double read_number(std::istream& words, double low, double high, const char* wha
     return value;
 }
 
-void open_by_name(client::Participant& participant, const std::string& name) {
+// "open NAME" asks, "open --yes NAME" opens. The question names no patient: lines and their answers
+// often go into files.
+void open_by_name(client::Participant& participant, std::string name) {
+    constexpr std::string_view meant = "--yes ";
+    const bool is_meant = name.starts_with(meant);
+    if (is_meant)
+        name.erase(0, name.find_first_not_of(' ', meant.size()));
     std::string names;
     for (const wire::OfferedCase& offered : participant.cases()) {
+        if (offered.name == name && !is_meant)
+            throw Error("Open the case '" + name + "' for all in the room? Say 'case open --yes " +
+                        name + "'.");
         if (offered.name == name) {
             viewer::open_case(participant, *to_content_hash(offered.hash), usual_place, usual_eye);
             return;
@@ -205,7 +215,8 @@ nlohmann::json screen_json(const session::CaseInRoom& room) {
 }  // namespace
 
 const char* case_lines_help() {
-    return "'case open NAME', 'case close', 'case hide PART', 'case show PART',\n"
+    return "'case open NAME' (asks), 'case open --yes NAME', 'case close', 'case hide PART', 'case "
+           "show PART',\n"
            "'case opacity PERCENT PART', 'case explode PERCENT', 'case together', 'case scale "
            "FACTOR',\n"
            "'case slice axial|coronal|sagittal [MM]', 'case slice MM', 'case window PRESET',\n"
@@ -252,7 +263,9 @@ nlohmann::json case_json(const client::Participant& participant) {
                          {"is_here", known && open->meshes[number] != nullptr}});
     }
     json["open"] = {{"hash", hex_text(open->id.bytes)},
-                    {"name", open->description ? open->description->name : ""},
+                    {"name", !room->name.empty() ? room->name
+                             : open->description ? open->description->name
+                                                 : ""},
                     {"complete", open->is_complete()},
                     {"got", open->progress.got},
                     {"all", open->progress.all},

@@ -156,6 +156,7 @@ void run(const Flags& flags) {
     host::Host host(options, cli::show_progress());
     const net::Link link = net::parse_link(host.link());
     const auto window = open_window(flags);
+    const auto watch = window ? std::make_unique<WindowWatch>(*window) : nullptr;
     const Meeting meeting(link);
 
     output::print(
@@ -171,6 +172,7 @@ void run(const Flags& flags) {
         shown.greeting =
             "You are in a generated operating room, with two scripted people. F1: keys";
         shown.seconds = flags.seconds;
+        shown.watch = watch.get();
         show(*window, std::move(shown));
     } else {
         show_pictures(flags, folder, link);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "entry.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "base/error.h"
 #include "base/steady_clock.h"
@@ -9,25 +11,44 @@
 #include "link_argument.h"
 #include "lobby_fields.h"
 #include "lobby_watch.h"
+#include "phrases/phrase.h"
+#include "wire/role.h"
+#include "wire/sentence.h"
 
 namespace theatron::app {
 namespace {
 
-constexpr const char* ask_for_link =
-    "Paste the link that the host printed or that somebody sent to you.";
+// Names of at most six, with what else is known of each: "table (live), lamp (live), and 1 more".
+std::string named_text(const std::vector<std::string>& names,
+                       const std::vector<std::string>& details) {
+    constexpr std::size_t named = 6;
+    std::string line;
+    for (std::size_t i = 0; i < std::min(names.size(), named); ++i)
+        line += (i > 0 ? ", " : "") + names[i] + " (" + details[i] + ")";
+    return names.size() > named
+               ? say(Phrase::form_and_more, line, std::to_string(names.size() - named))
+               : line;
+}
 
 // "3 cameras: table (live), lamp (live), and 1 more", from a list of the lobby.
-std::string list_text(const nlohmann::json& session, const char* list, const char* field,
-                      const char* one, const char* many) {
-    constexpr std::size_t named = 6;
+template <class DetailOf>
+std::string list_text(const nlohmann::json& session, const char* list, Phrase one, Phrase many,
+                      const DetailOf& detail_of) {
     if (!session.contains(list) || !session[list].is_array() || session[list].empty())
         return {};
-    const std::size_t count = session[list].size();
-    std::string line = std::to_string(count) + " " + (count == 1 ? one : many) + ": ";
-    for (std::size_t i = 0; i < std::min(count, named); ++i)
-        line += (i > 0 ? ", " : "") + text_field(session[list][i], "name") + " (" +
-                text_field(session[list][i], field) + ")";
-    return count > named ? line + ", and " + std::to_string(count - named) + " more" : line;
+    std::vector<std::string> names, details;
+    for (const nlohmann::json& entry : session[list]) {
+        names.push_back(text_field(entry, "name"));
+        details.push_back(detail_of(entry));
+    }
+    return say(names.size() == 1 ? one : many, named_text(names, details),
+               std::to_string(names.size()));
+}
+
+std::string role_text(const nlohmann::json& person) {
+    const std::string role = text_field(person, "role");
+    const auto known = wire::parse_role(role);
+    return known ? wire::spoken(*known) : role;
 }
 
 // A parsed link, or the reason why the typed text is none; neither where nothing was typed.
@@ -58,7 +79,7 @@ xr::EntryFacts facts_without_answer(const ReadLink& read) {
     if (!read.problem.empty())
         return problem_facts(read.problem);
     xr::EntryFacts facts;
-    facts.hint = read.link ? "Asking the host at " + read.link->host + "..." : ask_for_link;
+    facts.hint = read.link ? say(Phrase::form_asking, read.link->host) : say(Phrase::form_ask_link);
     return facts;
 }
 
@@ -71,66 +92,69 @@ std::vector<xr::EntryRecent> shown(const client::RecentLinks& recents) {
 
 std::string presence_text(const nlohmann::json& session) {
     if (is_field_set(session, "closed"))
-        return "not open";
+        return say(Phrase::form_not_open);
     const bool has_count =
         session.contains("people_count") && session["people_count"].is_number_integer();
     const auto people = has_count ? session["people_count"].get<std::int64_t>() : 0;
-    return people <= 0 ? "nobody" : people == 1 ? "1 person" : std::to_string(people) + " people";
+    return people <= 0   ? say(Phrase::form_nobody)
+           : people == 1 ? say(Phrase::form_person_count)
+                         : say(Phrase::form_people_count, std::to_string(people));
 }
 
 // "Also here: OR 4 (2 people), OR 5 (nobody), OR 6 (not open)", of the other sessions that the
 // link's bearer may see.
 std::string others_text(const nlohmann::json& sessions) {
-    constexpr std::size_t named = 6;
-    std::string line;
-    for (std::size_t i = 1; i < sessions.size() && i <= named; ++i) {
-        const nlohmann::json& session = sessions[i];
-        line += (line.empty() ? "Also here: " : ", ") + text_field(session, "name") + " (" +
-                presence_text(session) + ")";
+    std::vector<std::string> names, presences;
+    for (std::size_t i = 1; i < sessions.size(); ++i) {
+        names.push_back(text_field(sessions[i], "name"));
+        presences.push_back(presence_text(sessions[i]));
     }
-    return sessions.size() > named + 1
-               ? line + ", and " + std::to_string(sessions.size() - named - 1) + " more"
-               : line;
+    return names.empty() ? "" : say(Phrase::form_also_here, named_text(names, presences));
 }
 
 }  // namespace
 
 xr::EntryFacts entry_facts(const nlohmann::json& lobby) {
     if (!lobby.contains("sessions") || !lobby["sessions"].is_array() || lobby["sessions"].empty())
-        return problem_facts("The host has no session for this link.");
+        return problem_facts(say(Phrase::form_no_session));
     const nlohmann::json& session = lobby["sessions"][0];
     if (is_field_set(session, "ended"))
-        return problem_facts("This session has ended. Ask for a new link.");
+        return problem_facts(say(Phrase::form_ended));
     xr::EntryFacts facts;
     facts.title = text_field(session, "name");
     facts.can_enter = true;
     const std::string role = text_field(lobby, "role");
-    facts.lines.push_back("You come as " +
-                          std::string(role == "expert" || role == "operator" ? "an " : "a ") +
-                          (role.empty() ? "guest" : role) + ".");
-    if (role == "observer")
-        facts.lines.back() = "You come as an observer: you see and hear, and are not heard.";
-    const std::string people = list_text(session, "people", "role", "person", "people");
+    const auto known = wire::parse_role(role);
+    facts.lines.push_back(known == wire::Role::observer
+                              ? say(Phrase::form_as_observer)
+                              : say(Phrase::form_come_as, known ? wire::spoken_with_article(*known)
+                                                          : role.empty() ? say(Phrase::form_a_guest)
+                                                                         : role));
+    const std::string people =
+        list_text(session, "people", Phrase::form_one_person, Phrase::form_people, role_text);
     if (!people.empty())
         facts.lines.push_back(people);
     else if (session.contains("people"))
-        facts.lines.push_back("Nobody else is there yet.");
-    if (const std::string cameras = list_text(session, "cameras", "state", "camera", "cameras");
+        facts.lines.push_back(say(Phrase::form_nobody_yet));
+    // The states are words of the host, "live" for most.
+    if (const std::string cameras =
+            list_text(session, "cameras", Phrase::form_one_camera, Phrase::form_cameras,
+                      [](const nlohmann::json& camera) { return text_field(camera, "state"); });
         !cameras.empty())
         facts.lines.push_back(cameras);
     if (is_field_set(session, "held_back"))
-        facts.lines.push_back(held_back);
+        facts.lines.push_back(say(Phrase::form_held_back));
     if (const std::string others = others_text(lobby["sessions"]); !others.empty())
         facts.lines.push_back(others);
-    facts.hint = is_field_set(session, "asks") ? "An operator lets you in after you have knocked."
-                                               : "The session is open.";
+    facts.hint =
+        say(is_field_set(session, "asks") ? Phrase::form_must_knock : Phrase::form_is_open);
     return facts;
 }
 
 std::optional<Entered> ask_entry(xr::DesktopWindow& window, xr::EntryFields fields,
                                  const std::string& problem, client::RecentLinks recents,
                                  const std::function<void(const std::string& link)>& forget) {
-    window.set_title("Enter a session - Theatron");
+    window.set_title(say(Phrase::form_title) + " - Theatron");
     xr::EntryForm form(fields, {[&] { return window.clipboard(); },
                                 [&](const std::string& text) { window.set_clipboard(text); }});
     form.set_recents(shown(recents));
@@ -177,8 +201,15 @@ std::optional<Entered> ask_entry(xr::DesktopWindow& window, xr::EntryFields fiel
             must_draw = true;
         }
         fields = form.fields();
-        if (pressed == xr::EntryAnswer::enter && read.link)
+        if (pressed == xr::EntryAnswer::enter && read.link) {
+            // Opening sound and connection takes a while: the press is seen to have been taken.
+            facts.hint = say(Phrase::connecting);
+            facts.can_enter = false;
+            facts.is_problem = false;
+            form.draw(facts, {}, window.pixels(), window.text_pixels(), steady_now());
+            window.present();
             return Entered{*read.link, fields};
+        }
         window.present();
     }
     return std::nullopt;

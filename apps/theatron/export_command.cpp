@@ -304,10 +304,11 @@ void add_export_command(CLI::App& app) {
     const auto flags = std::make_shared<Flags>();
     CLI::App* command = app.add_subcommand("export", "Turn a recording into points or pictures");
     command->footer(
-        "Depth is exported as it was recorded, without loss. Of several cameras, each gets a\n"
+        "Depth is exported as it was recorded, without loss. With several cameras, each gets a\n"
         "folder of its own: DIR/camera-0 and so on. Where a camera was moved or adjusted, its "
         "later\n"
-        "pictures are in DIR.2 and so on, which have another calibration. Of a damaged recording\n"
+        "pictures are in DIR.2 and so on, which have another calibration. From a damaged "
+        "recording\n"
         "all that is whole is exported, and the exit code is 3.\n"
         "\nExamples:\n"
         "  theatron export operation.mkv --ply points --merged\n"
@@ -347,7 +348,9 @@ void add_export_command(CLI::App& app) {
         ->check(CLI::Range(0.0, longest));
     command->add_option("--to", flags->to, "Only frames before this second of the recording")
         ->check(CLI::Range(0.001, longest));
-    command->add_option("--every", flags->every, "Of these the first, and then one of so many")
+    command
+        ->add_option("--every", flags->every,
+                     "Only the first of these frames and then each of this count")
         ->check(CLI::Range(1, 1'000'000));
     command->add_flag("--overwrite", flags->overwrite,
                       "Replace an export that is there; other files in its folders stay");

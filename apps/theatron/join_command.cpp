@@ -440,7 +440,8 @@ void add_join_command(CLI::App& app) {
     cli::add_seconds_option(*command, flags->warmup, "Leave these first seconds out of the figures",
                             "--warmup");
     cli::add_seconds_option(*command, flags->every,
-                            "Print the figures as a JSON line every so many seconds", "--every");
+                            "Print the figures as a JSON line at this interval, in seconds",
+                            "--every");
     command
         ->add_option(
             "--target-latency", flags->target_latency_ms,
@@ -451,7 +452,7 @@ void add_join_command(CLI::App& app) {
         ->check(CLI::Range(0, 60'000));
     command
         ->add_option("--max-mbit", flags->max_mbit,
-                     "The host sends at most so many megabits a second to you; 0: no ceiling")
+                     "Most megabits a second that the host sends to you; 0: no ceiling")
         // The host is told whole kilobits.
         ->check(cli::number_check(
             [](double value) { return std::isfinite(value) && (value == 0 || value >= 0.001); },

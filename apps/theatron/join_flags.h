@@ -26,7 +26,7 @@ struct JoinFlags {
     std::string color_codec = best_color();
     std::string offscreen, depth_file;
     std::string save_to = ".";
-    std::optional<std::string> renderer;  // likewise, else viewer::automatic
+    std::optional<std::string> renderer;  // without: viewer::automatic
     std::string size = "1280x720";
     std::string view = "camera:0";
     std::string room = "on";

@@ -53,7 +53,7 @@ void join_in_window(const JoinFlags& flags) {
     use_kept_settings(shown, flags.name, flags.renderer, flags.quality);
     shown.viewer.scale = parse_render_scale(flags.render_scale);
     const bool is_named = flags.name || shown.settings.name != client::Settings().name;
-    const bool asks = flags.link.empty() || !is_named;
+    bool asks = flags.link.empty() || !is_named;
     if (!flags.link.empty())
         shown.join.link = parse_link_argument(flags.link);
     xr::EntryFields fields{flags.link,
@@ -64,8 +64,10 @@ void join_in_window(const JoinFlags& flags) {
                            !flags.webcam.empty()};
     cli::catch_stop_signals();
     xr::DesktopWindow window("Theatron", parse_size(flags.size));
+    WindowWatch watch(window);
     for (std::string problem;;) {
         if (asks) {
+            watch.rest();
             const auto entered = ask_entry(window, fields, problem, recent_links(), forget_link);
             if (!entered)
                 return;
@@ -97,6 +99,7 @@ void join_in_window(const JoinFlags& flags) {
             keep(client::with_newest(recent_links(), {link, session}));
         };
         voice.hear_by(now.join);
+        now.watch = &watch;
         now.voice = &voice;
         now.is_last = !asks;
         const auto publisher = open_own_cameras(flags, now.join);
@@ -112,6 +115,11 @@ void join_in_window(const JoinFlags& flags) {
             if (end == WindowEnd::closed || !asks)
                 return;
             fields.shows_face = face.is_wanted();
+        } catch (const SessionEnded& ended) {
+            // Its last picture makes way for the form.
+            asks = true;
+            problem = ended.what();
+            fields.link = net::format_link(shown.join.link);
         } catch (const Error& error) {
             if (!asks)
                 throw;

@@ -171,9 +171,10 @@ void add_link_command(CLI::App& app) {
             ->check(CLI::IsMember({"operator", "expert", "observer", "publisher"}));
     CLI::Option* hours =
         command
-            ->add_option("--hours", flags->hours,
-                         "It lets nobody in after so many hours; those who are in stay. Without "
-                         "it: until it is revoked")
+            ->add_option(
+                "--hours", flags->hours,
+                "After this number of hours it lets nobody in; those who are in stay. Without "
+                "it: until it is revoked")
             ->check(cli::number_check([](double value) { return value > 0 && value <= 10'000; },
                                       "is not a number of hours greater than 0 and up to 10000"));
     CLI::Option* label = command->add_option("--for", flags->label, "For whom it is, for --list");

@@ -12,6 +12,7 @@
 #include "link_argument.h"
 #include "phrases/phrase.h"
 #include "render/render_target.h"
+#include "window_watch.h"
 
 namespace theatron::app {
 namespace {
@@ -24,7 +25,7 @@ constexpr Duration step_interval = std::chrono::milliseconds(250);
 class Loop {
 public:
     Loop(xr::DesktopWindow& window, OrScreenWindow& options)
-        : window_(window), options_(options), began_(steady_now()) {}
+        : window_(window), watch_(window), options_(options), began_(steady_now()) {}
 
     bool is_over() const {
         return closed_ || cli::stop_requested() ||
@@ -42,8 +43,11 @@ public:
         const VoiceLine::Talking talking(options_.voice, participant);
         std::optional<TimePoint> ended;
         TimePoint next{};
+        watch_.rest();
         while (!is_over()) {
             const TimePoint now = wait_until(next);
+            if (screen.has_picture())
+                watch_.beat();
             const auto phase = participant.status().phase;
             using Phase = client::Participant::Phase;
             if (phase == Phase::joined)
@@ -98,6 +102,7 @@ private:
     }
 
     xr::DesktopWindow& window_;
+    WindowWatch watch_;
     OrScreenWindow& options_;
     const TimePoint began_;
     bool closed_ = false, redraw_ = true;
@@ -159,11 +164,22 @@ void OrScreenPicture::add_to(nlohmann::json& json) const {
                             {"sight", text_of(pointer.place.sight)},
                             {"x", pointer.place.pixel.x},
                             {"y", pointer.place.pixel.y}});
-    json["or_screen"] = {{"camera", content.camera},   {"age", content.age},
-                         {"warning", content.warning}, {"recording", content.playback},
-                         {"message", content.message}, {"people", people},
-                         {"pointers", pointers},       {"marks", content.marks.size()},
-                         {"slice", content.slice}};
+    json["or_screen"] = {{"camera", content.camera},
+                         {"age", content.age},
+                         {"warning", content.warning},
+                         {"recording", content.playback},
+                         {"message", content.message},
+                         {"people", people},
+                         {"pointers", pointers},
+                         {"marks", content.marks.size()},
+                         {"slice", content.slice ? content.slice->plane : ""}};
+    if (content.slice) {
+        const medical::EdgeLetters& letters = content.slice->letters;
+        json["or_screen"]["slice_letters"] = {letters.left, letters.right, letters.top,
+                                              letters.bottom};
+        json["or_screen"]["case"] = content.slice->case_name;
+        json["or_screen"]["window"] = content.slice->window;
+    }
 }
 
 }  // namespace theatron::app

@@ -343,7 +343,7 @@ void add_register_command(CLI::App& app) {
         ->needs("--touches")
         ->capture_default_str();
     add_board_options(*command, flags->board);
-    command->add_option("--poses", flags->poses, "So many places of the board for each camera")
+    command->add_option("--poses", flags->poses, "Number of places of the board for each camera")
         ->capture_default_str()
         ->check(CLI::Range(1, 1000));
     CLI::Option* refine =

@@ -108,9 +108,10 @@ void add_session_options(CLI::App& command, SessionFlags& flags) {
             "may change meanwhile; CAMERA=... for one camera, by number from 0 or name")
         ->allow_extra_args(false);
     command
-        .add_option("--link-hours", flags.link_hours,
-                    "The links let nobody in after so many hours; participants who are in stay. "
-                    "0: they always do")
+        .add_option(
+            "--link-hours", flags.link_hours,
+            "After this number of hours the links let nobody in; participants who are in stay. "
+            "0: they always do")
         ->check(cli::number_check([](double hours) { return hours >= 0 && hours <= 1000; },
                                   "is not a number of hours from 0 to 1000"));
     command

@@ -18,6 +18,7 @@
 #include "participant_json.h"
 #include "render/gl_driver.h"
 #include "saved_view.h"
+#include "session/permissions.h"
 #include "sound/device_watch.h"
 #include "source_remarks.h"
 #include "viewer/renderer_text.h"
@@ -46,6 +47,12 @@ private:
     std::vector<std::string> texts_;
 };
 
+// For somebody who was in.
+bool is_over(const client::Participant::Status& status) {
+    using Phase = client::Participant::Phase;
+    return status.joins > 0 && (status.phase == Phase::ended || status.phase == Phase::refused);
+}
+
 std::string title_of(const viewer::Facts& facts, const std::string& address) {
     const std::string& host = facts.received.status.host_name;
     return (host.empty() ? address : host) + " - " + facts.way.renderer + " - Theatron";
@@ -55,6 +62,8 @@ std::string title_of(const viewer::Facts& facts, const std::string& address) {
 // session is joined.
 class Leaving {
 public:
+    static constexpr Duration confirm_within = 3s;
+
     bool pressed(const client::Participant::Status& status, TimePoint now) {
         const bool again = now - pressed_at_ < confirm_within;
         pressed_at_ = now;
@@ -62,7 +71,6 @@ public:
     }
 
 private:
-    static constexpr Duration confirm_within = 3s;
     TimePoint pressed_at_ = TimePoint(-confirm_within);
 };
 
@@ -88,6 +96,20 @@ std::string change_push_to_talk(VoiceLine& voice, ViewerWindow& options) {
     if (options.keep)
         options.keep(options.settings);
     return text;
+}
+
+// A person who came without a microphone gets the one of the settings.
+std::string change_microphone(VoiceLine& voice, const client::Participant& participant,
+                              ViewerWindow& options) {
+    const auto state = voice.voices().microphone;
+    if (!session::may(participant.status().standing.role, session::Right::speak) ||
+        (state && state != viewer::Microphone::none && state != viewer::Microphone::missing))
+        return voice.toggle_microphone();
+    voice.use_microphone(options.settings.microphone);
+    options.settings.speaks = true;
+    if (options.keep)
+        options.keep(options.settings);
+    return say(Phrase::microphone_is_opening);
 }
 
 std::string change_voice_recording(client::Participant& participant, ViewerWindow& options) {
@@ -144,9 +166,46 @@ void follow_sound(VoiceLine& voice, sound::DeviceWatch& devices, viewer::Viewer&
         if (options.keep)
             options.keep(settings);
     }
-    if (!viewer.shows_panels())
+    if (!viewer.shows_sound())
         return;
     viewer.set_sound_choices(voice.sound_choices(devices.devices_at(now)));
+}
+
+// The keyboard's way through the buttons. Takes the keys that it uses out of `input`; returns the
+// button that was pressed.
+std::optional<std::size_t> follow_focus(xr::WindowInput& input, std::size_t controls,
+                                        std::optional<std::size_t>& focus) {
+    std::optional<std::size_t> pressed;
+    const auto step_of = [&](const xr::KeyPress& key) -> std::optional<xr::FocusStep> {
+        using Action = xr::Action;
+        if (key.action == Action::next_control)
+            return xr::FocusStep::next;
+        if (key.action == Action::previous_control)
+            return xr::FocusStep::previous;
+        if (!focus)
+            return std::nullopt;
+        if (key.action == Action::leave)
+            return xr::FocusStep::none;
+        if (key.action != Action::nudge)
+            return std::nullopt;
+        return key.nudge == xr::Nudge::left || key.nudge == xr::Nudge::farther
+                   ? xr::FocusStep::left
+                   : xr::FocusStep::right;
+    };
+    std::erase_if(input.keys, [&](const xr::KeyPress& key) {
+        if (const auto step = step_of(key)) {
+            focus = xr::moved_focus(focus, *step, controls);
+            return true;
+        }
+        const bool presses =
+            key.action == xr::Action::press_control || key.action == xr::Action::freeze;
+        if (focus && presses && *focus < controls)
+            pressed = focus;
+        return focus && presses;
+    });
+    // The key that presses buttons is that of push to talk.
+    input.talks = input.talks && !focus;
+    return pressed;
 }
 
 void print_end(viewer::Viewer& viewer, const client::Participant& participant,
@@ -230,6 +289,7 @@ WindowEnd show(xr::DesktopWindow& window, ViewerWindow options) {
     std::optional<VoiceLine::Talking> talking;
     if (options.voice)
         talking.emplace(*options.voice, participant);
+    options.viewer.one_panel = true;
     viewer::Viewer viewer(std::move(options.viewer), participant);
     const bool is_software = render::is_software(render::driver_name());
 
@@ -239,10 +299,15 @@ WindowEnd show(xr::DesktopWindow& window, ViewerWindow options) {
     SourceRemarks sources;
     TimePoint next_picture{}, next_texts{}, next_voices{};
     std::optional<xr::Overlay::Slider> slider;  // held with the mouse
+    std::optional<std::size_t> focus;           // the button that has the keyboard
     sound::DeviceWatch sound_devices;
     WindowEnd end = WindowEnd::closed;
+    std::string over;  // why the session is, for good
     while (!cli::stop_requested()) {
         const TimePoint before = steady_now();
+        // Before the first picture there is nothing that looks live.
+        if (options.watch && viewer.pictures() > 0)
+            options.watch->beat();
         const bool picture_is_due = before < next_picture || viewer.is_animated();
         window.wait((picture_is_due ? next_picture : next_texts) - before);
 
@@ -250,31 +315,9 @@ WindowEnd show(xr::DesktopWindow& window, ViewerWindow options) {
         const TimePoint now = steady_now();
         if (input.close)
             break;
-        bool left = false;
-        for (const xr::KeyPress& key : input.keys) {
-            const bool leave = key.action == xr::Action::leave;
-            if (key.action == xr::Action::full_screen || (leave && window.is_full_screen()))
-                window.toggle_full_screen();
-            else if (leave && leaving.pressed(participant.status(), now))
-                left = true;
-            else if (key.action == xr::Action::microphone && options.voice)
-                viewer.note(options.voice->toggle_microphone(), now);
-            else if (key.action == xr::Action::push_to_talk && options.voice)
-                viewer.note(change_push_to_talk(*options.voice, options), now);
-            else if (key.action == xr::Action::voice_recording)
-                viewer.note(change_voice_recording(participant, options), now);
-            else if (key.action == xr::Action::own_face && options.face)
-                viewer.note(change_face(*options.face, !options.face->is_wanted()), now);
-            else if (key.action == xr::Action::save_picture ||
-                     key.action == xr::Action::save_points)
-                viewer.note(save_seen(key.action, viewer, window.pixels(), options.save_to, now),
-                            now);
-            else if (leave)
-                viewer.note(say(Phrase::esc_again), now);
-        }
-        if (left) {
-            end = WindowEnd::left;
-            break;
+        if (const auto pressed = follow_focus(input, overlay.controls(), focus)) {
+            viewer.press(overlay.command_of(*pressed), now);
+            next_texts = now;
         }
         if (input.released)
             slider.reset();
@@ -285,7 +328,39 @@ WindowEnd show(xr::DesktopWindow& window, ViewerWindow options) {
             } else if (const auto command = overlay.command_at(*input.grabbed))
                 viewer.press(*command, now);
             input.grabbed.reset();
+            focus.reset();
             next_texts = now;
+        }
+        for (const xr::KeyPress& key : viewer.take_pressed())
+            input.keys.push_back(key);
+        bool left = false;
+        for (const xr::KeyPress& key : input.keys) {
+            const bool leave = key.action == xr::Action::leave;
+            const bool leaves_by_button = key.action == xr::Action::leave_session;
+            if (key.action == xr::Action::full_screen || (leave && window.is_full_screen()))
+                window.toggle_full_screen();
+            else if ((leave || leaves_by_button) && leaving.pressed(participant.status(), now))
+                left = true;
+            else if (key.action == xr::Action::microphone && options.voice)
+                viewer.note(change_microphone(*options.voice, participant, options), now);
+            else if (key.action == xr::Action::push_to_talk && options.voice)
+                viewer.note(change_push_to_talk(*options.voice, options), now);
+            else if (key.action == xr::Action::voice_recording)
+                viewer.note(change_voice_recording(participant, options), now);
+            else if (key.action == xr::Action::own_face && options.face)
+                viewer.note(change_face(*options.face, !options.face->is_wanted()), now);
+            else if (key.action == xr::Action::save_picture ||
+                     key.action == xr::Action::save_points)
+                viewer.note(save_seen(key.action, viewer, window.pixels(), options.save_to, now),
+                            now);
+            else if (leave || leaves_by_button) {
+                viewer.ask_leave(now, Leaving::confirm_within);
+                viewer.note(say(leave ? Phrase::esc_again : Phrase::bar_leave_again), now);
+            }
+        }
+        if (left) {
+            end = WindowEnd::left;
+            break;
         }
         if (slider && input.pointer) {
             viewer.slide(slider->value_at(*input.pointer));
@@ -307,6 +382,9 @@ WindowEnd show(xr::DesktopWindow& window, ViewerWindow options) {
                 options.voice->note(status.standing);
             if (options.entered)
                 std::exchange(options.entered, nullptr)(status.host_name);
+        } else if (is_over(status)) {
+            over = say(Phrase::enter_again_later, status.problem);
+            break;
         }
         if (options.voice)
             options.voice->hold(input.talks, now);
@@ -327,7 +405,7 @@ WindowEnd show(xr::DesktopWindow& window, ViewerWindow options) {
         if (viewer.first_picture_at() != TimePoint{} && !options.greeting.empty())
             viewer.note(std::exchange(options.greeting, {}), now);
         for (const std::string& text : remarks.take())
-            viewer.note(text, now);
+            viewer.remark(text, now);
         if (options.publisher)
             for (const std::string& text : sources.take(*options.publisher, now))
                 viewer.note(text, now);
@@ -338,11 +416,16 @@ WindowEnd show(xr::DesktopWindow& window, ViewerWindow options) {
         // The eye's pose has y down.
         if (options.voice && viewer.first_picture_at() != TimePoint{})
             options.voice->place(viewer.told_eye() * Pose{Quat{0, 1, 0, 0}, {}}, participant);
-        bool texts_changed = false;
+        const auto hovered = input.pointer ? overlay.control_at(*input.pointer) : std::nullopt;
+        bool texts_changed = texts.hovered != hovered || texts.focused != focus;
+        texts.hovered = hovered;
+        texts.focused = focus;
         if (now >= next_texts || !input.keys.empty()) {
             const viewer::Facts facts = viewer.facts(now);
             xr::OverlayContent content = viewer::overlay_of(facts, address, host::shown_filter);
-            texts_changed = content != texts;
+            content.hovered = hovered;
+            content.focused = focus;
+            texts_changed = texts_changed || content != texts;
             texts = std::move(content);
             next_texts = now + (texts.pictures.empty() ? texts_every : camera_pictures_every);
             if (const auto settings = viewer.settings(options.settings);
@@ -364,6 +447,8 @@ WindowEnd show(xr::DesktopWindow& window, ViewerWindow options) {
             viewer.on_presented(now, (is_software ? steady_now() : submitted) - now, steady_now());
     }
     print_end(viewer, participant, window);
+    if (!over.empty())
+        throw SessionEnded(over);
     if (options.is_last || end == WindowEnd::closed)
         cli::begin_end();
     return end;

@@ -7,10 +7,12 @@
 #include <optional>
 #include <string>
 
+#include "base/error.h"
 #include "publish/camera_publisher.h"
 #include "publish/own_face.h"
 #include "viewer/viewer.h"
 #include "voice_line.h"
+#include "window_watch.h"
 #include "xr/desktop_window_native.h"
 
 namespace theatron::app {
@@ -19,6 +21,7 @@ struct ViewerWindow {
     client::Participant::Options join;
     publish::CameraPublisher* publisher = nullptr;  // of own cameras, if there are any
     publish::OwnFace* face = nullptr;               // its events must be in `join`; may be null
+    WindowWatch* watch = nullptr;                   // of the window; may be null
     VoiceLine* voice = nullptr;                     // its packets must come by `join`; may be null
     viewer::Viewer::Options viewer;
     // Called with the person's settings whenever they have changed from `settings`.
@@ -46,11 +49,18 @@ void use_kept_settings(ViewerWindow& window, const std::optional<std::string>& n
                        const std::optional<std::string>& quality);
 
 enum class WindowEnd {
-    left,    // the person left the session, or it ended
+    left,    // the person left the session
     closed,  // the person closed the window, or the program must end
 };
 
-// Throws Error if the host refused to let the person in.
+// The session is over for this person, for good; with the reason as a sentence.
+class SessionEnded : public Error {
+public:
+    using Error::Error;
+};
+
+// Throws Error if the host refused to let the person in, and SessionEnded if a session that the
+// person was in is over: its last picture does not stay.
 WindowEnd show(xr::DesktopWindow& window, ViewerWindow options);
 
 }  // namespace theatron::app

@@ -121,13 +121,14 @@ private:
     bool may_speak_ = true;     // the role, as it was said last
     bool is_heard_ = true;      // the role may speak, and nobody has muted this person
     voice::Speakers speakers_;  // under mixer_mutex_
-    voice::Mixer mixer_;
-    // The rest likewise. Null until a loudspeaker plays in space.
+    voice::Mixer mixer_;        // under mixer_mutex_
+    // Under mixer_mutex_. Null until a loudspeaker plays in space.
     std::unique_ptr<sound::SpatialVoices> spatial_;
-    std::optional<Pose> head_from_room_;
-    std::map<ParticipantId, Vec3> heads_;            // in the room
-    client::Participant* participant_ = nullptr;     // of the present Talking
-    std::unique_ptr<sound::KeptDevice> microphone_;  // likewise; its thread uses the talker
+    std::optional<Pose> head_from_room_;          // under mixer_mutex_
+    std::map<ParticipantId, Vec3> heads_;         // in the room; under mixer_mutex_
+    client::Participant* participant_ = nullptr;  // of the present Talking
+    std::unique_ptr<sound::KeptDevice>
+        microphone_;  // of the present Talking; its thread uses the talker
     void take(std::span<const float> samples);
     std::unique_ptr<sound::EchoCanceller> canceller_;  // null: off
     std::atomic<bool> cleans_ = false;                 // the present microphone is treated

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "page_state.h"
+#include "session/whose_camera.h"
 #include "viewer/meeting.h"
 #include "viewer/playing.h"
 #include "wire/no_codec.h"
@@ -37,9 +38,10 @@ void FlatView::next_camera() {
 void FlatView::follow_cameras() {
     std::uint64_t generation = 0;
     names_.clear();
+    const auto room = participant_.room();
     for (const auto& camera : participant_.cameras(generation))
         if (camera.description.has_color)
-            names_[camera.description.id] = camera.description.name;
+            names_[camera.description.id] = session::whose_camera(camera.description, room.objects);
     if (!camera_ || !names_.contains(*camera_)) {
         camera_.reset();
         next_camera();
@@ -109,6 +111,9 @@ viewer::Facts FlatView::facts(TimePoint now) {
     facts.received = client::figures_of(participant_);
     // That little comes is this view's own wish.
     facts.received.status.delivery = {};
+    const auto room = participant_.room();
+    for (client::CameraFigures& one : facts.received.cameras)
+        one.camera.description.name = session::whose_camera(one.camera.description, room.objects);
     facts.has_picture = shown_.has_value();
     const TimePoint session_time = participant_.session_time(now);
     if (shown_ && facts.received.status.clock_known)
@@ -135,7 +140,7 @@ void FlatView::add_people(viewer::Facts& facts, TimePoint now) {
          .followed = {},
          .is_operator = role == wire::Role::operator_,
          .visitors = facts.visitors,
-         .asked_removal = removal_.asked(now)});
+         .asked = removal_.asked(now)});
     // Ways to people need the room's view.
     for (xr::Panel& one : panel.panels)
         for (xr::PanelRow& row : one.rows)

@@ -126,6 +126,7 @@ EMSCRIPTEN_KEEPALIVE const char* theatron_state() {
         web::guarded([&] {
             web::Visit& visit = *page().visit;
             viewer::Facts facts = visit.viewer.facts(now);
+            facts.line = true;  // the page itself decides where it shows them
             web::follow_color(visit, facts.received, now);
             state =
                 web::page_state(visit.viewer, std::move(facts), visit.participant, visit.address);

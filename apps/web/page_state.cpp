@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "page_state.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "client/decoder_pool_web.h"
 #include "phrases/phrase.h"
 #include "session/permissions.h"
@@ -16,10 +19,36 @@ std::string filter_name(const std::string& filter) {
     return filter.empty() ? say(Phrase::none) : filter == "default" ? say(Phrase::usual) : filter;
 }
 
+// The page shows one kind at a time. The panel of the case has the case's name.
+const char* kind_of(const xr::Panel& panel) {
+    constexpr std::pair<Phrase, const char*> kinds[] = {
+        {Phrase::people, "people"},    {Phrase::places, "places"},
+        {Phrase::at_the_door, "door"}, {Phrase::calls_you, "call"},
+        {Phrase::screens, "screens"},  {Phrase::sound, "sound"},
+        {Phrase::cameras, "cameras"},  {Phrase::look_back_alone, "past"},
+        {Phrase::marks, "marks"},
+    };
+    for (const auto& [title, kind] : kinds)
+        if (panel.title == say(title))
+            return kind;
+    return "case";
+}
+
+// The facts that a page shows also while it hides the others; "": none of them.
+const char* kind_of(const xr::Fact& fact) {
+    return fact.label == say(Phrase::recording)     ? "recording"
+           : fact.label == say(Phrase::at_the_door) ? "door"
+           : fact.label == say(Phrase::not_live)    ? "not_live"
+                                                    : "";
+}
+
 json to_json(const xr::OverlayContent& overlay) {
     json facts = json::array(), panels = json::array();
     for (const xr::Fact& fact : overlay.facts)
-        facts.push_back({{"label", fact.label}, {"value", fact.value}, {"warning", fact.warning}});
+        facts.push_back({{"label", fact.label},
+                         {"value", fact.value},
+                         {"warning", fact.warning},
+                         {"kind", kind_of(fact)}});
     for (const xr::Panel& panel : overlay.panels) {
         json rows = json::array();
         for (const xr::PanelRow& row : panel.rows) {
@@ -28,13 +57,24 @@ json to_json(const xr::OverlayContent& overlay) {
                 buttons.push_back({{"label", button.label}, {"command", button.command}});
             rows.push_back({{"text", row.text}, {"detail", row.detail}, {"buttons", buttons}});
         }
-        panels.push_back({{"title", panel.title}, {"rows", rows}});
+        panels.push_back({{"title", panel.title}, {"kind", kind_of(panel)}, {"rows", rows}});
     }
     return {
         {"facts", facts},           {"message", overlay.message},
         {"detail", overlay.detail}, {"warning", overlay.warning},
         {"notice", overlay.notice}, {"panels", panels},
+        {"cover", overlay.cover},
     };
+}
+
+// A camera that stands still for a moment, or goes on: under load that happens all the time.
+bool is_of_camera(const std::string& notice, const client::ParticipantFigures& received) {
+    return std::any_of(received.cameras.begin(), received.cameras.end(),
+                       [&](const client::CameraFigures& one) {
+                           const std::string& name = one.camera.description.name;
+                           return notice.starts_with(say(Phrase::camera_stale, name, "")) ||
+                                  notice == say(Phrase::camera_live_again, name);
+                       });
 }
 
 // Null before the first frame since the session's time is known.
@@ -132,6 +172,13 @@ json state_of(const viewer::Facts& facts, const client::Participant& participant
             {"host", status.host_name},
             {"joins", status.joins},
             {"has_picture", facts.has_picture},
+            // The age of the picture that is shown; null: not known.
+            {"age_ms", facts.age_ms ? json(*facts.age_ms) : json()},
+            {"is_past", !facts.past.empty()},
+            {"is_not_live", facts.frozen || !facts.past.empty() || !facts.played.empty()},
+            {"is_slow", overlay.warning == say(Phrase::slow_press_m) ||
+                            overlay.warning == say(Phrase::slow_not_connection)},
+            {"is_of_camera", is_of_camera(overlay.notice, facts.received)},
             {"drawn_per_second", facts.drawn_per_second},
             {"renderer", facts.way.renderer},
             {"depth_step", facts.way.depth_step},
@@ -143,6 +190,9 @@ json state_of(const viewer::Facts& facts, const client::Participant& participant
             {"is_heard",
              session::may(status.standing.role, session::Right::speak) && !status.standing.muted},
             {"is_muted", status.standing.muted},
+            {"may_speak", session::may(status.standing.role, session::Right::speak)},
+            {"may_point", session::may(status.standing.role, session::Right::point)},
+            {"may_be_seen", session::may(status.standing.role, session::Right::be_seen)},
             {"may_handle", session::may(status.standing.role, session::Right::handle)},
             // Null where the host does not ask.
             {"voice_may_record", asks_consent ? json(participant.voice_may_record()) : json()},

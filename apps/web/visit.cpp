@@ -51,6 +51,7 @@ viewer::Viewer::Options viewer_options(const client::Participant::Options& join,
     options.depth_codec = join.depth_codec;
     options.color_codec = join.color_codec;
     options.shows_people = true;
+    options.shows_facts = false;  // so that no age flickers over hands and instruments
     options.room.in_steps = true;
     options.scale = scale;
     options.has_gpu = !render::is_software(render::driver_name());
@@ -79,7 +80,13 @@ Visit::Visit(client::Participant::Options join, std::string host_address, PageCo
       color(std::move(asked)),
       options(viewer_options(join, scale)),
       participant(with_faces(std::move(join), face)),
-      viewer(options, participant) {}
+      viewer(options, participant) {
+    // The page has all panels at any time, and shows one of them.
+    constexpr Size any{16, 9};
+    xr::WindowInput input;
+    input.keys.push_back({xr::Action::show_case});
+    viewer.on_input(input, std::nullopt, any, steady_now());
+}
 
 Page& page() {
     static auto* const only = new Page;

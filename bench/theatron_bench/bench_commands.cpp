@@ -83,7 +83,7 @@ CLI::App* add_codec_bench(CLI::App& bench, const char* name, const char* help, C
         ->required();
     command->add_option("--codecs", flags.codecs,
                         "Names of codecs, separated by blanks (default: all)");
-    command->add_option("--frames", flags.frames, "At most so many frames of each")
+    command->add_option("--frames", flags.frames, "Most frames of each")
         ->capture_default_str()
         ->check(CLI::Range(1, 100000));
     command->add_option("--json", flags.json,
@@ -204,7 +204,8 @@ void add_pipeline(CLI::App& bench) {
         "Example: theatron bench pipeline --camera folder:recordings/table,loop=1,preload=1 "
         "--cameras 4 --seconds 20");
     cli::add_camera_option(*command, flags->bench.cameras)->required();
-    command->add_option("--cameras", flags->cameras, "So many in all, by using those given again");
+    command->add_option("--cameras", flags->cameras,
+                        "Number of cameras in all, by using those given again");
     command->add_option("--viewers", flags->bench.viewers, "Participants")
         ->capture_default_str()
         ->check(CLI::Range(1, 64));
@@ -271,7 +272,7 @@ void add_interaction(CLI::App& bench) {
         "Example: theatron bench interaction --cameras 4 --json -\n"
         "tests/end_to_end/interaction_run.py puts a slow link between host and viewer.");
     cli::add_camera_option(*command, b.cameras);
-    command->add_option("--cameras", flags->generated, "So many generated cameras, made before")
+    command->add_option("--cameras", flags->generated, "Number of generated cameras, made before")
         ->check(CLI::Range(1, 16));
     command->add_option("--people", b.people, "Participants that move; two more move and act")
         ->capture_default_str()
@@ -353,7 +354,7 @@ void add_render(CLI::App& bench) {
         ->check(CLI::Range(1, 16));
     command
         ->add_option("--depth-step", flags->depth_step,
-                     "Draw the depth pixels of every so many columns and rows only, as a window "
+                     "Draw the depth pixels of one column and row in this number only, as a window "
                      "does that is too slow otherwise")
         ->capture_default_str()
         ->check(CLI::Range(1, 8));
@@ -462,7 +463,7 @@ void add_registration(CLI::App& bench) {
     };
     std::vector<CLI::Option*> amounts{
         add("--images", flags->options.images, "Single images for detection", 4, 100000),
-        add("--seeds", flags->options.seeds, "So many sets of cameras and poses", 1, 1000),
+        add("--seeds", flags->options.seeds, "Number of sets of cameras and poses", 1, 1000),
         add("--frames", flags->options.frames, "Frames averaged for a view", 1, 90)};
     add("--threads", flags->options.threads, "Seeds at once; changes no result", 1, 256);
     CLI::Option* quick = command->add_flag(

@@ -115,7 +115,7 @@ void add_filter_bench(CLI::App& bench) {
         bench.add_subcommand("filter", "Depth filters: speed, or quality; checked, one thread");
     command->add_option("folder", flags->folder,
                         "A folder with depth/*.png instead of a generated scene");
-    command->add_option("--frames", flags->frames, "So many frames")
+    command->add_option("--frames", flags->frames, "Number of frames")
         ->capture_default_str()
         ->check(CLI::Range(1, 1000));
     command->add_flag("--quality", flags->quality,

@@ -16,7 +16,7 @@ using client::Participant;
 namespace request = session::request;
 
 constexpr Duration patience = std::chrono::seconds(10), lost_after = std::chrono::seconds(1);
-// One of so many actions is a grab or a release: a host answers 40 requests a second.
+// Moves for each grab or release: a host answers 40 requests a second.
 constexpr std::uint32_t moves_per_grab = 6;
 constexpr double step_m = 1.0 / 1024, range_m = 8;
 

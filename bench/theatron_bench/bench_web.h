@@ -26,7 +26,7 @@ struct WebBench {
 // Medians of the runs. Times in ms unless named _s:
 // {first_picture_s, transferred_bytes, cameras, decoders, fps_min, color_fps_min, color,
 //  color_reason, color_decode_ms, mbit_per_s, dropped, pictures_per_s,
-//  age_ms:{p50,p95,p99}, native_age_ms and age_over_native_ms likewise, longest_task_ms,
+//  age_ms:{p50,p95,p99}, native_age_ms:{...}, age_over_native_ms:{...}, longest_task_ms,
 //  longest_loading_task_ms, renderer, problems, and those of bench_web_decoding.h}.
 // A picture is complete with depth and colour of all cameras, and counts when the GPU finished it.
 // Tasks of the page's thread below 50 ms count as 0, because browsers do not tell them.

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/shown_address.h"
+#include "base/wrong_options.h"
 
 namespace theatron {
 namespace {
@@ -107,7 +108,7 @@ std::string Options::problem() const {
 
 void Options::require_no_problem() const {
     if (const std::string wrong = problem(); !wrong.empty())
-        throw Error(wrong);
+        throw WrongOptions(wrong);
 }
 
 void Options::note(std::string problem) {

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/wrong_options.h"
 #include "capture/folder_calibration.h"
 #include "capture/folder_files.h"
 #include "capture/playback.h"
@@ -211,7 +212,7 @@ Size parse_tile_size(const std::string& text) {
     char rest = 0;
     if (std::sscanf(text.c_str(), "%dx%d%c", &size.width, &size.height, &rest) != 2 ||
         !is_valid(size))
-        throw Error("tile=" + text + " is not WIDTHxHEIGHT, for example tile=640x576.");
+        throw WrongOptions("tile=" + text + " is not WIDTHxHEIGHT, for example tile=640x576.");
     return size;
 }
 
@@ -224,8 +225,9 @@ std::unique_ptr<Camera> open_folder_camera(Options& options, const Progress& pro
     const PlaybackOptions playback = take_playback_options(options);
     options.require_no_problem();
     if (options.value().empty())
-        throw Error("The camera 'folder' needs a folder, as in folder:DIR.");
+        throw WrongOptions("The camera 'folder' needs a folder, as in folder:DIR.");
 
+    const Size tile_size = tile.empty() ? Size{} : parse_tile_size(tile);
     // Removes a trailing slash, which would leave no name.
     fs::path folder = fs::path(options.value()).lexically_normal();
     if (!folder.has_filename())
@@ -244,7 +246,7 @@ std::unique_ptr<Camera> open_folder_camera(Options& options, const Progress& pro
     std::size_t bytes = frames->bytes();
     std::unique_ptr<Recording> recording = std::move(frames);
     if (!tile.empty()) {
-        const Size size = parse_tile_size(tile);
+        const Size size = tile_size;
         recording = std::make_unique<TiledRecording>(std::move(recording), size);
         info.calibration.depth = tiled(info.calibration.depth, size);
         info.calibration.color = tiled(info.calibration.color, size);

@@ -15,8 +15,8 @@ namespace theatron::capture {
 // An order of all texts in which numbers count by their value: 2, 02, 9, 10, 10a.
 bool precedes_naturally(const std::string& a, const std::string& b);
 
-// The time that a file's name states (without its ending): seconds with a fraction, or so many
-// milliseconds, microseconds or nanoseconds since 1970 that their number of digits tells the unit.
+// The time that a file's name states (without its ending): seconds with a fraction, or
+// milliseconds, microseconds or nanoseconds since 1970, told apart by their number of digits.
 std::optional<Duration> time_in_name(const std::string& stem);
 
 // The files of one frame. `color` may be empty.

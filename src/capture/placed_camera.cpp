@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "capture/placed_camera.h"
-
-#include "base/error.h"
+#include "base/wrong_options.h"
 
 namespace theatron::capture {
 namespace {
@@ -44,9 +43,10 @@ std::optional<Pose> take_place_option(Options& options) {
         return {};
     const auto place = parse_place(text);
     if (!place)
-        throw Error("place=" + text +
-                    " is not X:Y:Z or X:Y:Z:YAW:PITCH:ROLL in metres and degrees, for example "
-                    "place=0:1.5:2:180.");
+        throw WrongOptions(
+            "place=" + text +
+            " is not X:Y:Z or X:Y:Z:YAW:PITCH:ROLL in metres and degrees, for example "
+            "place=0:1.5:2:180.");
     return place;
 }
 

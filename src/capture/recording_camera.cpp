@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/wrong_options.h"
 #include "record/remarks.h"
 #include "video/depth_codecs.h"
 #include "video/jpeg_header.h"
@@ -401,7 +402,7 @@ std::unique_ptr<Camera> open_recording_camera(Options& options, const Progress& 
     const PlaybackOptions playback = take_playback_options(options);
     options.require_no_problem();
     if (options.value().empty())
-        throw Error("The camera 'recording' needs a file, as in recording:FILE.mkv.");
+        throw WrongOptions("The camera 'recording' needs a file, as in recording:FILE.mkv.");
     const std::string& file = options.value();
     const std::shared_ptr<const record::RecordingFile> opened = record::RecordingFile::open(file);
     for (const std::string& remark : record::remarks_on_files(*opened))

@@ -72,7 +72,8 @@ public:
 
     // The next frame's header as recorded. Precondition: offset() returned a value.
     wire::MediaHeader upcoming() const;
-    // The time of day at which it was captured; the epoch: not known. Likewise.
+    // The time of day at which it was captured; the epoch: not known.
+    // Precondition: offset() returned a value.
     UtcTime upcoming_utc() const;
 
 private:

@@ -36,7 +36,8 @@ constexpr std::size_t most_stray_bytes = std::size_t(64) << 10;
 // "$", the channel and the number of bytes.
 constexpr std::size_t packet_head = 4;
 constexpr int packet_bytes = 65536;
-// A picture older than this is left out while more has arrived, but not more than so many in a row.
+// A picture older than `most_behind` is left out while more has arrived; at most `most_left_out` in
+// a row.
 constexpr Duration most_behind = 100ms;
 constexpr int most_left_out = 10;
 constexpr int rtp_ticks_per_ms = 90;  // of all video

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "capture/synthetic_camera.h"
 
-#include "base/error.h"
 #include "base/time.h"
+#include "base/wrong_options.h"
 #include "capture/playback.h"
 #include "synthetic/frame_cache.h"
 
@@ -44,8 +44,8 @@ Size color_size(const std::string& name, const std::string& specification) {
         return {640, 360};
     if (name == "off")
         return {};
-    throw Error("In the camera '" + specification +
-                "', color must be 720, 1080, depth or off, not '" + name + "'.");
+    throw WrongOptions("In the camera '" + specification +
+                       "', color must be 720, 1080, depth or off, not '" + name + "'.");
 }
 
 // Accepts noise=off as well as noise=0.
@@ -55,14 +55,15 @@ bool take_switch(Options& options, const std::string& name) {
         return true;
     if (value == "off" || value == "0")
         return false;
-    throw Error("In the camera '" + options.text() + "', " + name + " must be on or off.");
+    throw WrongOptions("In the camera '" + options.text() + "', " + name + " must be on or off.");
 }
 
 synthetic::LoopOptions take_loop_options(Options& options) {
     synthetic::LoopOptions loop;
     const std::string variant = options.value();
     if (!variant.empty() && variant != "room" && variant != "surgeon")
-        throw Error("There is no synthetic scene '" + variant + "'; there are room and surgeon.");
+        throw WrongOptions("There is no synthetic scene '" + variant +
+                           "'; there are room and surgeon.");
     loop.variant = variant == "surgeon" ? synthetic::Variant::surgeon : synthetic::Variant::room;
     loop.cameras = options.take_int("cameras", 2, 1, synthetic::max_viewpoints);
     loop.camera = options.take_int("camera", 0, 0, loop.cameras - 1);
@@ -80,7 +81,8 @@ synthetic::LoopOptions take_loop_options(Options& options) {
         if (loop.color.area() > 0)
             loop.color = {640, 360};
     } else if (quality != "full") {
-        throw Error("In the camera '" + options.text() + "', quality must be full or quick.");
+        throw WrongOptions("In the camera '" + options.text() +
+                           "', quality must be full or quick.");
     }
     return loop;
 }

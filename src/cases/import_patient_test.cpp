@@ -36,6 +36,74 @@ TEST_F(Import, ImagesOfTwoPatientsAreRefused) {
     EXPECT_EQ(import().manifest.series.size(), 2u) << "the same, as another program writes it";
 }
 
+// As on a disc of a hospital: an index of its own beside folders of images.
+void write_dicomdir(const fs::path& file, const fs::path& any_image) {
+    gdcm::Reader reader;
+    reader.SetFileName(any_image.c_str());
+    ASSERT_TRUE(reader.Read());
+    gdcm::DataSet& set = reader.GetFile().GetDataSet();
+    const auto text = [](gdcm::Tag tag, gdcm::VR vr, const std::string& value) {
+        gdcm::DataElement element(tag);
+        element.SetVR(vr);
+        element.SetByteValue(value.data(), std::uint32_t(value.size()));
+        return element;
+    };
+    // Media Storage Directory Storage.
+    set.Replace(text({0x0008, 0x0016}, gdcm::VR::UI, "1.2.840.10008.1.3.10"));
+    reader.GetFile().GetHeader().Replace(
+        text({0x0002, 0x0002}, gdcm::VR::UI, "1.2.840.10008.1.3.10"));
+    // All that describes pixels.
+    while (set.FindNextDataElement({0x0028, 0}).GetTag().GetGroup() == 0x0028)
+        set.Remove(set.FindNextDataElement({0x0028, 0}).GetTag());
+    set.Remove({0x7fe0, 0x0010});
+    gdcm::SmartPointer<gdcm::SequenceOfItems> records = new gdcm::SequenceOfItems;
+    records->SetLengthToUndefined();
+    for (const char* id : {"4711", "4712"}) {
+        gdcm::Item record;
+        record.SetVLToUndefined();
+        record.GetNestedDataSet().Insert(text({0x0004, 0x1430}, gdcm::VR::CS, "PATIENT "));
+        record.GetNestedDataSet().Insert(text({0x0010, 0x0020}, gdcm::VR::LO, id));
+        records->AddItem(record);
+    }
+    gdcm::DataElement sequence(gdcm::Tag(0x0004, 0x1220));
+    sequence.SetVR(gdcm::VR::SQ);
+    sequence.SetValue(*records);
+    sequence.SetVLToUndefined();
+    set.Replace(sequence);
+    gdcm::Writer writer;
+    writer.SetFileName(file.c_str());
+    writer.SetFile(reader.GetFile());
+    ASSERT_TRUE(writer.Write());
+}
+
+TEST_F(Import, ADiscOfTwoPatientsIsRefused) {
+    write_series(source() / "IMAGES/P1");
+    write_dicomdir(source() / "DICOMDIR", source() / "IMAGES/P1/image0.dcm");
+    EXPECT_EQ(import().manifest.series.size(), 1u) << "the index is no image";
+    fs::remove_all(target());
+    fs::create_directories(source() / "IMAGES/P2");
+    DicomSlice other = image(0);
+    other.series_uid = "1.2.3.9";
+    write_image(source() / "IMAGES/P2/I0000001", other, 9, "Beispiel^Max", "4712");
+    const std::string text = refusal();
+    EXPECT_THAT(text, HasSubstr("more than one patient"));
+    EXPECT_THAT(text, HasSubstr("P1/image0.dcm'"));
+    EXPECT_THAT(text, HasSubstr("P2/I0000001'"));
+}
+
+TEST_F(Import, FoldersOfTwoPatientsAreRefusedHoweverDeepTheyLie) {
+    write_series(source() / "2026/march/Mustermann");
+    fs::create_directories(source() / "2026/april/scan");
+    DicomSlice other = image(0);
+    other.series_uid = "1.2.3.9";
+    write_image(source() / "2026/april/scan/1.dcm", other, 9);
+    EXPECT_EQ(import().manifest.series.size(), 2u) << "two folders of one patient";
+    fs::remove_all(target());
+    write_image(source() / "2026/april/scan/1.dcm", other, 9, "Beispiel^Max", "4712");
+    EXPECT_THAT(sentence([&] { import(); }), HasSubstr("more than one patient"));
+    EXPECT_FALSE(fs::exists(target()));
+}
+
 TEST_F(Import, APatientIsOneHoweverProgramsWriteTheName) {
     DicomSlice other = image(0);
     other.series_uid = "1.2.3.9";

@@ -5,12 +5,12 @@
 #include <utility>
 
 #include "base/error.h"
-#include "cases/folded_text.h"
 #include "cases/foreign_files.h"
 #include "cases/import_parts.h"
 #include "cases/left_out.h"
 #include "cases/manifest.h"
 #include "cases/quoted_path.h"
+#include "cases/same_patient.h"
 #include "cases/series_builder.h"
 #include "cases/series_parts.h"
 
@@ -24,56 +24,6 @@ std::string modality_of(const DicomSlice& slice) {
         if (slice.modality == known)
             return known;
     return "OT";
-}
-
-std::string value_of(const DicomSlice& slice, const char* name) {
-    for (const Identifier& identifier : slice.identifiers)
-        if (identifier.name == name)
-            return identifier.value;
-    return "";
-}
-
-// The spellings of a name: in letters, in ideographs, by sound (DICOM PS3.5, 6.2.1).
-std::vector<std::string> spellings_of(const std::string& name) {
-    std::vector<std::string> spellings(1);
-    for (const char c : name)
-        if (c == '=')
-            spellings.emplace_back();
-        else
-            spellings.back() += c;
-    return spellings;
-}
-
-bool may_be_one_name(const std::string& a, const std::string& b) {
-    if (a.empty() || b.empty())
-        return true;
-    for (const std::string& one : spellings_of(a))
-        for (const std::string& other : spellings_of(b))
-            if (!one.empty() && !other.empty() && is_same_name(one, other))
-                return true;
-    return false;
-}
-
-// The parts of a number stay apart: 1-11 is not 11-1.
-std::vector<std::string> words_of_number(const std::string& number) {
-    return folded_words(number, Umlaut::as_one_letter, Split::at_separators);
-}
-
-// False only if it is certain: both have a number that differs, or the same one with another name
-// and another date of birth, or one of them has none and names or dates of birth differ.
-bool may_be_one_patient(const DicomSlice& a, const DicomSlice& b) {
-    const auto of_both = [&](const char* name) {
-        return std::pair(value_of(a, name), value_of(b, name));
-    };
-    const auto [name_a, name_b] = of_both("PatientName");
-    const auto [born_a, born_b] = of_both("PatientBirthDate");
-    const bool may_be_name = may_be_one_name(name_a, name_b);
-    const bool may_be_date = born_a.empty() || born_b.empty() || born_a == born_b;
-    const auto [number_a, number_b] = of_both("PatientID");
-    if (number_a.empty() || number_b.empty())
-        return may_be_name && may_be_date;
-    // Hospitals use the same numbers, and a person may take another name.
-    return words_of_number(number_a) == words_of_number(number_b) && (may_be_name || may_be_date);
 }
 
 struct Slices {
@@ -98,7 +48,7 @@ void add_identifiers(const fs::path& file, const std::vector<Identifier>& of_fil
 // `first` and `first_file`: the first image of all, to which the others are compared.
 void require_one_patient(const fs::path& file, const DicomSlice& slice,
                          std::optional<DicomSlice>& first, fs::path& first_file) {
-    if (first && !may_be_one_patient(*first, slice))
+    if (first && !may_be_one_patient(first->identifiers, slice.identifiers))
         throw Error("The images are of more than one patient: " + quoted_path(first_file) +
                     " is of another one than " + quoted_path(file) +
                     "; import those of each patient by themselves.");

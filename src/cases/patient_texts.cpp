@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <vector>
 
-#include "base/error.h"
 #include "base/outside_text.h"
 #include "cases/case_folder.h"
+#include "cases/same_patient.h"
 #include "files/private_file.h"
 
 namespace theatron::cases {
@@ -70,39 +72,70 @@ bool is_well_formed(const json& all) {
     return std::all_of(all["series"].begin(), all["series"].end(), is_series);
 }
 
+// A series is compared with all others: one that says little may be of each of two patients.
+bool names_two_patients(const json& all) {
+    std::vector<std::vector<Identifier>> patients;
+    for (const json& series : all["series"]) {
+        std::vector<Identifier> texts;
+        for (const char* name : {"PatientName", "PatientBirthDate", "PatientID"})
+            if (std::string text = text_of(series, name); !text.empty())
+                texts.push_back({name, std::move(text)});
+        for (const std::vector<Identifier>& other : patients)
+            if (!may_be_one_patient(other, texts))
+                return true;
+        patients.push_back(std::move(texts));
+    }
+    return false;
+}
+
 }  // namespace
 
 std::optional<PatientTexts> parse_patient_texts(const std::string& text) {
     const json all = json::parse(text, nullptr, false);
-    if (!is_well_formed(all))
+    if (!is_well_formed(all) || names_two_patients(all))
         return std::nullopt;
     PatientTexts fullest;
+    std::set<std::string> dates;
     for (const json& series : all["series"]) {
         PatientTexts one{readable_name(text_of(series, "PatientName")),
                          readable_date(text_of(series, "PatientBirthDate")),
-                         text_of(series, "PatientID")};
+                         text_of(series, "PatientID"),
+                         {}};
         if (texts_in(one) > texts_in(fullest))
             fullest = std::move(one);
+        if (std::string date = readable_date(text_of(series, "StudyDate")); !date.empty())
+            dates.insert(std::move(date));
     }
-    return fullest == PatientTexts{} ? std::nullopt : std::optional(std::move(fullest));
+    if (fullest == PatientTexts{})
+        return std::nullopt;
+    std::string joined;
+    for (const std::string& date : dates)
+        joined += (joined.empty() ? "" : ", ") + date;
+    fullest.study_dates = clean_text(joined, max_patient_characters);
+    return fullest;
 }
 
 std::optional<PatientTexts> read_patient_texts(const std::filesystem::path& folder) {
     std::error_code failed;
-    const auto status = std::filesystem::symlink_status(folder / identifiers_name, failed);
+    const std::filesystem::path file = folder / identifiers_name;
+    const auto status = std::filesystem::symlink_status(file, failed);
     if (!std::filesystem::exists(status))
         return std::nullopt;
     if (!std::filesystem::is_regular_file(status))
-        throw Error("'" + clean_text((folder / identifiers_name).string(), 300) +
+        throw Error("'" + clean_text(file.string(), 300) +
                     "' is not a regular file; replace it with one, or remove it.");
-    const auto text = files::read_private_file(folder / identifiers_name, files::Privacy::secret,
-                                               max_identifiers_bytes);
+    const auto text = files::read_private_file(file, files::Privacy::secret, max_identifiers_bytes);
     if (!text)
         return std::nullopt;
-    if (!is_well_formed(json::parse(*text, nullptr, false)))
-        throw Error("'" + clean_text((folder / identifiers_name).string(), 300) +
+    const json all = json::parse(*text, nullptr, false);
+    if (!is_well_formed(all))
+        throw Error("'" + clean_text(file.string(), 300) +
                     "' is not what `theatron case import` writes; import the case anew, or remove "
                     "the file.");
+    if (names_two_patients(all))
+        throw MoreThanOnePatient("'" + clean_text(file.string(), 300) +
+                                 "' names more than one patient; import the images of each by "
+                                 "themselves.");
     return parse_patient_texts(*text);
 }
 

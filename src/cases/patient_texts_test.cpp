@@ -20,7 +20,7 @@ std::optional<PatientTexts> of_series(const std::string& series) {
 }
 
 TEST(PatientTexts, AreReadable) {
-    const PatientTexts jane{"Doe, Jane Mary Dr.", "1961-02-03", "AB-4711"};
+    const PatientTexts jane{"Doe, Jane Mary Dr.", "1961-02-03", "AB-4711", ""};
     EXPECT_EQ(of_series(R"({"file": "series_1.thvolume", "PatientName": "Doe^Jane^Mary^Dr.",
                             "PatientBirthDate": "19610203", "PatientID": " AB-4711 "})"),
               jane);
@@ -32,14 +32,30 @@ TEST(PatientTexts, AreReadable) {
 }
 
 TEST(PatientTexts, AreOfOneSeriesTheFirstOfThoseThatSayMost) {
-    EXPECT_EQ(of_series(
-                  R"({"PatientName": "", "PatientID": ""}, {"PatientName": "Doe", "PatientID": "1"},
-                     {"PatientName": "Roe", "PatientBirthDate": "19610203"})"),
-              (PatientTexts{"Doe", "", "1"}))
-        << "Doe is not born when Roe is";
+    EXPECT_EQ(of_series(R"({"PatientName": "", "PatientID": ""},
+                           {"PatientName": "Doe", "PatientID": "1"},
+                           {"PatientName": "DOE^", "PatientBirthDate": "19610203"})"),
+              (PatientTexts{"Doe", "", "1", ""}));
     EXPECT_EQ(of_series(R"({"PatientID": "1"},
                            {"PatientName": "Roe", "PatientBirthDate": "19610203"})"),
-              (PatientTexts{"Roe", "1961-02-03", ""}));
+              (PatientTexts{"Roe", "1961-02-03", "", ""}));
+}
+
+TEST(PatientTexts, HaveTheDatesOfAllStudies) {
+    EXPECT_EQ(of_series(R"({"PatientName": "Doe", "StudyDate": "20260301"},
+                           {"PatientName": "Doe", "StudyDate": "20251107"},
+                           {"PatientName": "Doe", "StudyDate": "20260301"}, {"PatientName": "Doe"})")
+                  ->study_dates,
+              "2025-11-07, 2026-03-01");
+    EXPECT_EQ(of_series(R"({"StudyDate": "20260301"})"), std::nullopt) << "a date names nobody";
+}
+
+TEST(PatientTexts, OfTwoPatientsNameNobody) {
+    for (const char* two :
+         {R"({"PatientName": "Doe", "PatientID": "1"}, {"PatientName": "Roe", "PatientID": "2"})",
+          R"({"PatientName": "Doe"}, {}, {"PatientName": "Roe"})",
+          R"({"PatientID": "1"}, {"PatientName": "Doe"}, {"PatientID": "2"})"})
+        EXPECT_EQ(of_series(two), std::nullopt) << two;
 }
 
 TEST(PatientTexts, OtherContentNamesNobody) {
@@ -69,6 +85,9 @@ TEST(PatientTexts, AreReadFromAFileOfThisUserAlone) {
         std::ofstream(file) << damaged;
         EXPECT_THAT(refusal(), ::testing::HasSubstr("import the case anew")) << damaged;
     }
+    std::ofstream(file) << R"({"series": [{"PatientName": "Doe"}, {"PatientName": "Roe"}]})";
+    EXPECT_THROW((void)read_patient_texts(folder.path()), MoreThanOnePatient);
+    EXPECT_THAT(refusal(), ::testing::Not(::testing::HasSubstr("Doe")));
     fs::permissions(file, fs::perms(0640));
     EXPECT_THAT(refusal(), ::testing::HasSubstr("chmod 600"));
     EXPECT_THAT(refusal(), ::testing::Not(::testing::HasSubstr("Doe")));

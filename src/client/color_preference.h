@@ -31,7 +31,7 @@ struct ColorMeasure {
 // Counts how often a decoder fails, whatever number of pictures it loses each time.
 class DecoderFailures {
 public:
-    // A decoder with so many failures within this time is given up.
+    // A decoder with `most` failures within `window` is given up.
     static constexpr std::size_t most = 3;
     static constexpr Duration window = 30s;
 

@@ -13,7 +13,7 @@
 
 namespace theatron::client {
 
-// To a worker: these cameras are its own. `anew`: no decoder of before is kept.
+// To a worker: these cameras are its own. `anew`: no earlier decoder is kept.
 struct WorkerCameras {
     std::uint64_t generation = 0;
     bool anew = false;

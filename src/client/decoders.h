@@ -51,7 +51,7 @@ public:
     // Figures of a short time ago, except for age_now_ms, which is of now.
     std::vector<receive::StreamFigures> figures();
     void reset_figures();
-    // The session's time has become known: ages of before meant nothing.
+    // The session's time has become known: earlier ages meant nothing.
     void forget_ages();
     // In a browser's workers, whose frames cost the page a copy: from the first call on,
     // Events::frame follows for the next frame of each camera alone, again after each call.

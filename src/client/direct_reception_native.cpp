@@ -204,7 +204,7 @@ struct DirectReception::Impl {
     std::uint64_t next = 1;
     std::mutex mutex;
     std::map<std::uint64_t, std::shared_ptr<Link>> links;  // guarded by mutex
-    std::map<ParticipantId, std::shared_ptr<Pace>> paces;  // likewise
+    std::map<ParticipantId, std::shared_ptr<Pace>> paces;  // guarded by mutex
 };
 
 bool DirectReception::is_possible() {

@@ -39,7 +39,7 @@ std::vector<wire::Feature> features_of(const Participant::Options& options) {
     if (options.keeps_cases)
         features.push_back(wire::Feature::cases);
     if (options.shows_patient)
-        features.push_back(wire::Feature::patient);
+        features.insert(features.end(), {wire::Feature::patient, wire::Feature::asks_patient});
     features.push_back(wire::Feature::voice_consent);
     if (options.takes_faces || options.face.published)
         features.push_back(wire::Feature::webcam);
@@ -164,7 +164,7 @@ bool Participant::begin_connection(net::Client& client) {
 std::optional<Duration> Participant::end_connection(const net::Client::End& end) {
     std::unique_lock lock(shared_->mutex);
     shared_->client = nullptr;
-    shared_->patient = {};
+    shared_->patient = shared_->asked_patient = {};
     shared_->media_waiting = 0;
     if (shared_->stopping)
         return std::nullopt;
@@ -353,6 +353,7 @@ void Participant::on_control(ByteView message) {
             on_playback();
             break;
         case Change::patient:
+        case Change::asked_patient:
             on_patient();
             break;
         case Change::direct:

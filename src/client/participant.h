@@ -235,6 +235,11 @@ public:
     // The patient of the open case; empty: not known, or this person may not know it. Show
     // it to this person alone, and keep it nowhere else: neither in files nor in figures or logs.
     wire::Patient patient() const;
+    // Asks whose case this offered one is, before it is opened. False, and there will be no answer:
+    // not joined, without Options::shows_patient, or the host is of an earlier version.
+    bool ask_patient(const ContentHash& offered);
+    // The newest answer; its texts are empty where this person may not know them. As patient().
+    wire::Patient asked_patient() const;
 
     // For operators, from any thread: the people who wait for admission now.
     std::vector<wire::Visitor> visitors() const;
@@ -244,7 +249,8 @@ public:
     // Adjusts a camera for all; kept within its limits. The answer is a Managed, too. Returns its
     // number; 0 while not joined, or where the host cannot do this.
     std::uint32_t adjust(CameraId camera, const session::CameraAdjustment& adjustment);
-    // Plays the recording that the host shows, for all; likewise.
+    // Plays the recording that the host shows, for all. The answer is a Managed, too. Returns its
+    // number; 0 while not joined, or where the host cannot do this.
     std::uint32_t play(wire::PlayAction action, Duration position = {});
     // Where that recording is; empty: the host plays none.
     std::optional<wire::Playback> playback() const;
@@ -344,7 +350,7 @@ private:
     std::unique_ptr<DirectSender> direct_sender_;        // null: it does not listen
     std::unique_ptr<DirectReception> direct_reception_;  // null without Options::direct
     std::unique_ptr<Decoders> decoders_;                 // its threads use all above
-    std::unique_ptr<CaseKeeper> cases_;                  // likewise; may be null
+    std::unique_ptr<CaseKeeper> cases_;                  // its threads use all above; may be null
     Attempts attempts_;
 
     // The thread, in a browser the page's events: participant_loop_native.cpp, _web.cpp.

@@ -58,7 +58,8 @@ void Participant::on_welcome() {
     shared_->can_look_back = session_.has(wire::Feature::look_back);
     shared_->status.has_room = session_.has(wire::Feature::room);
     shared_->playback.reset();
-    shared_->patient = {};
+    shared_->patient = shared_->asked_patient = {};
+    shared_->may_ask_patient = session_.has(wire::Feature::asks_patient);
     shared_->renderer_command = wire::SetRenderer{};
     shared_->room.begin(session_.welcome().participant);
     shared_->status.joins += is_new;

@@ -147,6 +147,7 @@ void Participant::on_patient() {
     {
         const std::lock_guard lock(shared_->mutex);
         shared_->patient = session_.patient();
+        shared_->asked_patient = session_.asked_patient();
     }
     announce();
 }
@@ -154,6 +155,22 @@ void Participant::on_patient() {
 wire::Patient Participant::patient() const {
     const std::lock_guard lock(shared_->mutex);
     return shared_->patient;
+}
+
+bool Participant::ask_patient(const ContentHash& offered) {
+    const std::lock_guard lock(shared_->mutex);
+    if (!shared_->client || shared_->status.phase != Phase::joined || !shared_->may_ask_patient)
+        return false;
+    shared_->asked_patient = {};
+    const wire::AskPatient question{Bytes(offered.bytes.begin(), offered.bytes.end())};
+    shared_->client->post(
+        [this, question] { shared_->client->send_control(wire::encode(question)); });
+    return true;
+}
+
+wire::Patient Participant::asked_patient() const {
+    const std::lock_guard lock(shared_->mutex);
+    return shared_->asked_patient;
 }
 
 std::optional<wire::Playback> Participant::playback() const {

@@ -65,6 +65,8 @@ struct Participant::Shared {
     std::optional<wire::Playback> playback;                  // of the host's recording
     bool can_look_back = false;                              // the host keeps the last minute
     wire::Patient patient;                                   // empty: not known
+    wire::Patient asked_patient;                             // the newest answer
+    bool may_ask_patient = false;                            // the host answers
     std::map<CameraId, wire::ChooseCodecs> camera_wishes;    // the same for single cameras
     std::array<std::vector<wire::OfferedCamera>, 2> offers;  // by Participant::Offer
     std::size_t media_waiting = 0;                           // for the participant's thread

@@ -12,7 +12,7 @@
 namespace theatron::client {
 namespace {
 
-// Never the same twice in a page: replies that a worker owes to a participant of before are known
+// Never the same twice in a page: replies that a worker owes to an earlier participant are known
 // by it.
 std::uint64_t next_number() {
     static std::uint64_t last = 0;

@@ -10,7 +10,10 @@
 #include "base/shown_name.h"
 #include "files/private_file.h"
 #include "net/link.h"
+#include "phrases/phrase.h"
 #include "wire/control.h"
+#include "wire/role.h"
+#include "wire/sentence.h"
 
 namespace theatron::client {
 namespace {
@@ -57,9 +60,12 @@ std::string recent_link_text(const RecentLink& recent) {
     if (!link)
         return "";
     const bool is_ipv6 = link->host.find(':') != std::string::npos;
-    return clean_text((link->role.empty() ? "" : link->role + " ") + "at " +
-                          (is_ipv6 ? "[" + link->host + "]" : link->host) + ":" +
-                          std::to_string(link->port),
+    const std::string place =
+        (is_ipv6 ? "[" + link->host + "]" : link->host) + ":" + std::to_string(link->port);
+    const auto role = wire::parse_role(link->role);
+    return clean_text(link->role.empty() ? say(Phrase::form_recent_host, place)
+                                         : say(Phrase::form_recent_place,
+                                               role ? wire::spoken(*role) : link->role, place),
                       max_shown_text);
 }
 

@@ -19,7 +19,7 @@ struct RecentLink {
 };
 using RecentLinks = std::vector<RecentLink>;  // the newest first
 
-// One that is entered when there are so many replaces the oldest.
+// A link that is entered when the list is full replaces the oldest.
 inline constexpr std::size_t max_recent_links = 5;
 
 // The same with this one first. Another one with its host and token is replaced.

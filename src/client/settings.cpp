@@ -55,7 +55,7 @@ std::string settings_text(const Settings& settings) {
     const std::string name = clean_text(settings.name, wire::max_name);
     return (name.empty() ? "" : "name " + name + "\n") + "renderer " + settings.renderer +
            "\nsits " + text_of(settings.sits) + "\npeople " + text_of(settings.shows_people) +
-           "\nfacts " + text_of(settings.shows_facts) + "\nhears " + text_of(settings.hears) +
+           "\ndetails " + text_of(settings.shows_facts) + "\nhears " + text_of(settings.hears) +
            "\nspeaks " + text_of(settings.speaks) + "\npush_to_talk " +
            text_of(settings.push_to_talk) + "\nvoice_recorded " +
            text_of(settings.voice_may_record) + device_line("microphone", settings.microphone) +
@@ -75,7 +75,7 @@ ParsedSettings parse_settings(const std::string& text) {
                               : name == "renderer"       ? read_text(value, settings.renderer)
                               : name == "sits"           ? read(value, settings.sits)
                               : name == "people"         ? read(value, settings.shows_people)
-                              : name == "facts"          ? read(value, settings.shows_facts)
+                              : name == "details"        ? read(value, settings.shows_facts)
                               : name == "hears"          ? read(value, settings.hears)
                               : name == "speaks"         ? read(value, settings.speaks)
                               : name == "push_to_talk"   ? read(value, settings.push_to_talk)

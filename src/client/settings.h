@@ -13,12 +13,12 @@ struct Settings {
     std::string renderer = "auto";
     bool sits = false;                    // the eyes' height after a teleport
     bool shows_people = false;            // the panel of people and places
-    bool shows_facts = true;              // the line at the bottom
+    bool shows_facts = false;             // the details of picture and connection
     std::string quality = "auto";         // of the virtual room: auto, low or high
     bool hears = false;                   // the others' voices, where no command line says more
-    bool speaks = false;                  // likewise: to the others
+    bool speaks = false;                  // to the others, where no command line says more
     std::string microphone = "default";   // as in sound::open_microphone()
-    std::string loudspeaker = "default";  // likewise
+    std::string loudspeaker = "default";  // as in sound::open_speaker()
     bool push_to_talk = false;            // the microphone is open only while a key is held
     bool voice_may_record = false;        // the person agrees that others record the voice
     bool operator==(const Settings&) const = default;

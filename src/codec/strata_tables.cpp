@@ -183,7 +183,7 @@ const SlotTable& Slots::of(const Levels& levels) {
                 slot[i] = t | i << 8 | of[t] << 20;
             slot += of[t];
         }
-        // A context without a table likewise.
+        // The slots of a context without a table are all holes.
         for (std::uint32_t i = 0; slot != end; ++i)
             *slot++ = hole_token | i << 8 | sum << 20;
     }

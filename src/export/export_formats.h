@@ -14,7 +14,7 @@ namespace theatron::exporting {
 // The frames to export.
 struct Selection {
     Duration from{0}, to = Duration::max();  // since the beginning of the recording; without `to`
-    std::size_t every = 1;                   // of these the first, and then one of so many
+    std::size_t every = 1;                   // 1: all of these; N: the first and then each Nth
 };
 
 // The cameras to export, each at its first frame.

@@ -17,7 +17,7 @@
 namespace theatron::exporting {
 namespace {
 
-// RFC 7845, 4.2: an encoder's output is later than its input by so many samples.
+// RFC 7845, 4.2: samples by which an encoder's output is later than its input.
 constexpr std::int64_t opus_delay = 312;
 // The head of a WAV file has sizes of 32 bits.
 constexpr Duration longest_wav = std::chrono::hours(12);

@@ -17,7 +17,7 @@ constexpr double rail_low_m = 0.98, rail_high_m = 1.12;
 constexpr double skirting_m = 0.12;
 constexpr double tile_m = 0.6;
 constexpr double light_step_m = 0.1;
-// A step of so many takes some milliseconds, also in a browser.
+// A step of this size takes some milliseconds, also in a browser.
 constexpr int points_at_once = 1000, pixels_at_once = 100'000;
 
 // The frame of a side: its picture's left upper corner, and the edges along u and v.

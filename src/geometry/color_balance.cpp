@@ -9,7 +9,7 @@ namespace theatron {
 namespace {
 
 constexpr int depth_steps = 53;              // samples across a depth image, ...
-constexpr int least_depth_step = 6;          // with so many pixels from one to the next, or more
+constexpr int least_depth_step = 6;          // least pixels from one to the next
 constexpr int color_step = 8;                // pixels that are averaged
 constexpr std::size_t most_places = 20'000;  // looked at in one estimate
 constexpr double least_places = 30;          // for two cameras to be compared

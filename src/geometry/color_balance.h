@@ -19,7 +19,7 @@ namespace theatron {
 
 class ColorBalance {
 public:
-    // Looks at one of so many images of a camera: two a second.
+    // Looks at one image of a camera in this number: two a second.
     static constexpr int usual_images_per_copy = 15;
     explicit ColorBalance(int images_per_copy = usual_images_per_copy)
         : images_per_copy_(unsigned(images_per_copy)) {}

@@ -13,6 +13,7 @@
 #include "base/outside_text.h"
 #include "base/thread_name.h"
 #include "cases/manifest.h"
+#include "host/cases_folder.h"
 #include "net/content_digest.h"
 
 namespace theatron::host {
@@ -69,6 +70,8 @@ CaseShelf::CaseShelf(fs::path directory, Changed changed)
     if (!fs::is_directory(directory_, failed))
         throw Error("There is no folder '" + clean_text(directory_.string(), 300) +
                     "' for cases; make it, or name another with --cases.");
+    if (const std::string advice = advice_on_cases_folder(directory_); !advice.empty())
+        log::say(advice);
     thread_ = std::thread([this] { run(); });
 }
 
@@ -186,6 +189,10 @@ bool CaseShelf::look_at(const std::string& name, Folder& folder) {
 void CaseShelf::read_patient(const fs::path& path, Folder& folder) {
     try {
         folder.patient = cases::read_patient_texts(path);
+    } catch (const cases::MoreThanOnePatient& error) {
+        log::say(std::string(error.what()) + " This case is not offered.");
+        folder.shared.reset();
+        folder.is_refused = true;
     } catch (const std::exception& error) {
         log::say(std::string(error.what()) + " Nobody is told who the patient is.");
         folder.hides_its_patient = true;
@@ -195,11 +202,12 @@ void CaseShelf::read_patient(const fs::path& path, Folder& folder) {
 // A case of this content may lie in two folders. If they name two patients, neither is known.
 void CaseShelf::add_patient(const Folder& folder, std::vector<wire::Patient>& patients) {
     const auto& id = folder.shared->id.bytes;
-    wire::Patient patient{Bytes(id.begin(), id.end()), {}, {}, {}};
+    wire::Patient patient{Bytes(id.begin(), id.end()), {}, {}, {}, {}};
     if (folder.patient) {
         patient.name = folder.patient->name;
         patient.birth_date = folder.patient->birth_date;
         patient.id = folder.patient->id;
+        patient.study_date = folder.patient->study_dates;
     }
     const auto known = std::find_if(patients.begin(), patients.end(), [&](const auto& other) {
         return other.of_case == patient.of_case;
@@ -207,7 +215,7 @@ void CaseShelf::add_patient(const Folder& folder, std::vector<wire::Patient>& pa
     if (known == patients.end())
         patients.push_back(std::move(patient));
     else if (*known != patient)
-        *known = {known->of_case, {}, {}, {}};
+        *known = {known->of_case, {}, {}, {}, {}};
 }
 
 std::vector<std::string> CaseShelf::problems() const {

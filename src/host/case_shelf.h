@@ -79,10 +79,10 @@ private:
     const std::filesystem::path directory_;
     const Changed changed_;
     std::map<std::string, Folder> folders_;             // the thread's only; by name
-    std::map<std::string, OfferedName> offered_names_;  // likewise; by the folder's name
-    std::string listing_problem_;                       // likewise
-    bool has_too_many_ = false;                         // likewise
-    int looks_ = 0;                                     // likewise; the second one reads
+    std::map<std::string, OfferedName> offered_names_;  // the thread's only; by the folder's name
+    std::string listing_problem_;                       // the thread's only
+    bool has_too_many_ = false;                         // the thread's only
+    int looks_ = 0;                                     // the thread's only; the second one reads
     mutable std::mutex mutex_;                          // guards all below
     std::condition_variable stop_;
     std::map<ContentHash, std::shared_ptr<const Bytes>> content_;

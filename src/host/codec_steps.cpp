@@ -20,7 +20,7 @@ struct Size {
 constexpr Size jpeg_steps[] = {{60, 0.52}, {40, 0.39}, {20, 0.25}};
 constexpr Size jpeg_sizes[] = {{97, 2.6},  {93, 1.7},  {88, 1.2},  {84, 1.0},  {76, 0.84},
                                {66, 0.65}, {56, 0.52}, {36, 0.39}, {16, 0.25}, {0, 0.15}};
-// Uncompressed colour, likewise.
+// The size of uncompressed colour on the same scale.
 constexpr double raw_size = 18;
 // Added to the rate factor of H.264; six halve the bits.
 constexpr Size h264_steps[] = {{6, 0.5}, {12, 0.25}};

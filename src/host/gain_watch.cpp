@@ -22,8 +22,8 @@ constexpr Duration round_length = std::chrono::seconds(1);
 // Soon at first, so that viewers get gains before they have settled on their own.
 constexpr Duration first_pause = std::chrono::seconds(1), later_pause = std::chrono::seconds(10);
 constexpr int first_rounds = 30;
-// The pause is so many times as long as the round took of a core: 1 % at most, with pictures of any
-// size.
+// The pause, in multiples of the processor time of the round: at most 1 % of a core is used, with
+// pictures of any size.
 constexpr int idle_share = 100;
 
 bool is_comparable(const Calibration& calibration) {

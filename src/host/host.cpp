@@ -36,23 +36,27 @@ session::HostSession::CheckedCodec check_color(const std::string& text) {
 
 // A file of places that names none of the cameras is a mistake; two cameras of one name would stand
 // on each other.
+// `all_there`: none of the cameras is missing, which may be one that has its place there.
 void check_places(const std::string& file, const capture::CameraPlaces& places,
-                  const std::vector<std::unique_ptr<capture::Camera>>& cameras) {
+                  const std::vector<std::unique_ptr<capture::Camera>>& cameras, bool all_there) {
     std::set<std::string> named;
     std::string names;
     for (const auto& camera : cameras) {
+        if (!camera)
+            continue;
         const std::string& name = camera->info().name;
         names += (names.empty() ? "" : ", ") + name;
         if (places.find(name) && !named.insert(name).second)
             throw Error("Two cameras are called '" + name + "', so '" + file +
                         "' cannot say where each is; give one its place by hand, with place=.");
     }
-    if (named.empty())
+    if (named.empty() && all_there)
         throw Error("'" + file + "' has no place of a camera that is opened (" + names +
                     "); register these with 'theatron register'.");
 }
 
-// `people_are_replayed`: the people whom the recording has are in the room.
+}  // namespace
+
 wire::Camera describe(const capture::CameraInfo& info, bool people_are_replayed) {
     wire::Camera camera;
     camera.name = info.name;
@@ -62,8 +66,6 @@ wire::Camera describe(const capture::CameraInfo& info, bool people_are_replayed)
                                                                 : without_person(info.calibration));
     return camera;
 }
-
-}  // namespace
 
 void Host::Impl::open(const SessionOptions& options, const capture::Progress& progress) {
     // First, since cameras may take long to open.
@@ -78,24 +80,27 @@ void Host::Impl::open(const SessionOptions& options, const capture::Progress& pr
     std::vector<std::unique_ptr<capture::Camera>> cameras;
     if (!options.places.empty())
         places = capture::load_places(options.places);
-    for (const std::string& specification : specifications)
-        cameras.push_back(capture::open_camera_at(specification, places, progress));
+    for (std::size_t i = 0; i < specifications.size(); ++i)
+        cameras.push_back(open_or_miss(i, specifications[i], progress));
+    require_any(cameras);
     if (!options.places.empty())
-        check_places(options.places, places, cameras);
+        check_places(options.places, places, cameras, missing.empty());
 
     std::vector<std::string> names;
-    for (const auto& camera : cameras)
-        names.push_back(camera->info().name);
+    for (std::size_t i = 0; i < cameras.size(); ++i)
+        names.push_back(cameras[i] ? cameras[i]->info().name : missing.at(i).name);
     filters = filter_sources(options.filters, names, usual_filter);
     std::vector<LoadedFilter> loaded;
     for (std::size_t i = 0; i < filters.size(); ++i) {
-        depth_sizes.push_back(cameras[i]->info().calibration.depth.size);
         loaded.push_back(filters[i].load());
-        check_background(loaded.back(), depth_sizes.back());
+        if (cameras[i])
+            check_background(loaded.back(), cameras[i]->info().calibration.depth.size);
+        else
+            missing.at(i).filter = loaded.back();
     }
 
     for (std::size_t i = 0; played && i < cameras.size(); ++i)
-        if (plays(*played, specifications[i])) {
+        if (cameras[i] && plays(*played, specifications[i])) {
             cameras[i]->follow(played->transport);
             const std::size_t number = camera_in_recording(specifications[i]);
             const Bytes& first = played->recording->cameras()[number].parts.front().calibration;
@@ -141,27 +146,35 @@ void Host::Impl::open(const SessionOptions& options, const capture::Progress& pr
     config.streams.usual = {check_depth(usual.depth_codec).codec,
                             check_color(usual.color_codec).codec};
     for (std::size_t i = 0; i < cameras.size(); ++i)
-        config.cameras.push_back(
-            describe(cameras[i]->info(), has_room && plays(*played, specifications[i])));
+        if (cameras[i])
+            config.cameras.push_back(
+                describe(cameras[i]->info(), has_room && plays(*played, specifications[i])));
+        else
+            config.absent.insert(CameraId(i));
 
     session = std::make_unique<session::HostSession>(std::move(config));
     server = std::make_unique<SessionPort>(*port, in_port());
     port->open();
     audit_beginning();
 
-    // The lanes never change once the server's thread runs.
+    // Nothing is known of a missing one: it is not watched.
     std::vector<capture::CameraInfo> infos;
-    for (const auto& camera : cameras)
-        infos.push_back(camera->info());
+    double fps = 1;
+    for (const auto& camera : cameras) {
+        infos.push_back(camera ? camera->info() : capture::CameraInfo());
+        fps = std::max(fps, infos.back().frames_per_second);
+    }
     place_watch = std::make_unique<PlaceWatch>(
         infos, [this](CameraId camera, const wire::Text& problem) { take_place(camera, problem); });
     gain_watch = std::make_unique<GainWatch>(
         infos, [this](const SettledGains::Gains& gains) { take_gains(gains); });
     for (const CameraId camera : session->streams().cameras().of(session::host_publisher))
         correct_place(*session->streams().cameras().find(camera));
-    start_lanes(specifications, std::move(cameras));
-    for (std::size_t i = 0; i < lanes.size(); ++i)
-        lanes[i]->set_filter(loaded[i].settings, loaded[i].background);
+    moments = std::make_shared<send::SharedMoments>(fps);
+    lanes.set_size(cameras.size());
+    for (std::size_t i = 0; i < cameras.size(); ++i)
+        if (cameras[i])
+            start_lane(i, specifications[i], std::move(cameras[i]), loaded[i]);
     for (const CameraId camera : session->streams().cameras().of(session::host_publisher))
         crop(*session->streams().cameras().find(camera));
     if (!options.cases.empty())
@@ -169,6 +182,7 @@ void Host::Impl::open(const SessionOptions& options, const capture::Progress& pr
             server->post([this, offer = std::move(offer)] { take_cases(offer); });
         });
     server->begin();
+    start_searches();
     if (has_room)
         start_replay();
 }
@@ -177,7 +191,8 @@ void Host::Impl::start_replay() {
     replay = std::make_unique<RoomReplay>(
         *played,
         [this, camera = played->camera] {
-            return camera >= lanes.size() || lanes[camera]->figures().frames > 0;
+            const send::CameraLane* lane = lanes.find(camera);
+            return !lane || lane->figures().frames > 0;
         },
         [this](RoomReplay::Change change) {
             server->post([this, change = std::move(change)] { replay_room(change); });
@@ -187,41 +202,35 @@ void Host::Impl::start_replay() {
         });
 }
 
-void Host::Impl::start_lanes(const std::vector<std::string>& specifications,
-                             std::vector<std::unique_ptr<capture::Camera>> cameras) {
-    double fps = 1;
-    for (const auto& camera : cameras)
-        fps = std::max(fps, camera->info().frames_per_second);
-    const auto moments = std::make_shared<send::SharedMoments>(fps);
-    for (std::size_t i = 0; i < cameras.size(); ++i) {
-        send::CameraLane::Events events;
-        events.media = [this](send::EncodedMedia encoded) { take_media(std::move(encoded)); };
-        events.state = [this](wire::CameraState state) { take_camera_state(std::move(state)); };
-        events.keeps_up = [this, camera = CameraId(i)](SettingId setting, bool keeps_up,
-                                                       Duration cpu) {
-            server->post([this, camera, setting, keeps_up, cpu] {
-                session->on_encoding(camera, setting, keeps_up, to_ms(cpu));
-                carry_out();
-            });
-        };
-        events.frame = [this, i](const FramePtr& frame) {
-            place_watch->offer(i, frame);
-            gain_watch->offer(i, frame);
-            if (i == 0)
-                thumbnail.on_frame(frame, steady_now());
-        };
-        send::CameraLane::Options lane;
-        lane.cameras = cameras.size();
-        lane.open_again = [this, specification = specifications[i]] {
-            return capture::open_camera_at(specification, places);
-        };
-        lane.make_color = color_watch.make_color();
-        lane.moments = moments;
-        lane.one_per_moment = true;
-        lanes.push_back(std::make_unique<send::CameraLane>(CameraId(i), std::move(cameras[i]),
-                                                           std::move(events), port->workers(),
-                                                           std::move(lane)));
-    }
+void Host::Impl::start_lane(std::size_t i, const std::string& specification,
+                            std::unique_ptr<capture::Camera> camera, const LoadedFilter& filter) {
+    send::CameraLane::Events events;
+    events.media = [this](send::EncodedMedia encoded) { take_media(std::move(encoded)); };
+    events.state = [this](wire::CameraState state) { take_camera_state(std::move(state)); };
+    events.keeps_up = [this, number = CameraId(i)](SettingId setting, bool keeps_up, Duration cpu) {
+        server->post([this, number, setting, keeps_up, cpu] {
+            session->on_encoding(number, setting, keeps_up, to_ms(cpu));
+            carry_out();
+        });
+    };
+    events.frame = [this, i](const FramePtr& frame) {
+        place_watch->offer(i, frame);
+        gain_watch->offer(i, frame);
+        if (i == 0)
+            thumbnail.on_frame(frame, steady_now());
+    };
+    send::CameraLane::Options lane;
+    lane.cameras = lanes.size();
+    lane.open_again = [this, specification] {
+        return capture::open_camera_at(specification, places);
+    };
+    lane.make_color = color_watch.make_color();
+    lane.moments = moments;
+    lane.one_per_moment = true;
+    auto started = std::make_unique<send::CameraLane>(
+        CameraId(i), std::move(camera), std::move(events), port->workers(), std::move(lane));
+    started->set_filter(filter.settings, filter.background);
+    lanes.put(i, std::move(started));
 }
 
 Host::Host(const HostOptions& options, const capture::Progress& progress)
@@ -266,14 +275,14 @@ std::uint16_t Host::port() const {
 
 std::vector<std::string> Host::camera_names() const {
     std::vector<std::string> names;
-    for (const auto& lane : impl_->lanes)
-        names.push_back(lane->info().name);
+    for (std::size_t i = 0; i < impl_->lanes.size(); ++i)
+        names.push_back(impl_->camera_name(i));
     return names;
 }
 
 std::vector<std::string> Host::unregistered_cameras() const {
     std::vector<std::string> names;
-    for (const auto& lane : impl_->lanes)
+    for (const send::CameraLane* lane : impl_->lanes.all())
         if (!lane->info().calibration.registered && !is_screen(lane->info().calibration))
             names.push_back(lane->info().name);
     return names;
@@ -281,7 +290,10 @@ std::vector<std::string> Host::unregistered_cameras() const {
 
 void Host::set_region(std::size_t camera, codec::strata::Region region) {
     namespace strata = codec::strata;
-    const auto& lane = impl_->lanes.at(camera);
+    send::CameraLane* lane = impl_->lanes.find(camera);
+    if (!lane)
+        throw Error("The camera '" + impl_->camera_name(camera) +
+                    "' is missing; draw its region when it is there.");
     if (!strata::is_valid(region))
         throw Error("A region has at most " + std::to_string(strata::max_polygons) + " parts.");
     const Size size = lane->info().calibration.depth.size;
@@ -335,8 +347,13 @@ void Host::follow_filter_files() {
             const auto changed = impl_->filters[i].changed();
             if (!changed)
                 continue;
-            check_background(*changed, impl_->depth_sizes[i]);
-            impl_->lanes[i]->set_filter(changed->settings, changed->background);
+            if (send::CameraLane* lane = impl_->lanes.find(i)) {
+                check_background(*changed, lane->info().calibration.depth.size);
+                lane->set_filter(changed->settings, changed->background);
+            } else {
+                const std::lock_guard lock(impl_->missing_mutex);
+                impl_->missing.at(i).filter = *changed;
+            }
             log::info("host", "filter changed",
                       {{"camera", int(i)}, {"filter", changed->settings.spelling()}});
         } catch (const Error& e) {
@@ -352,7 +369,7 @@ HostFigures Host::figures() const {
 
 std::string Host::status_line() const {
     std::string line = std::to_string(participants()) + " participant(s)";
-    for (const auto& lane : impl_->lanes) {
+    for (const send::CameraLane* lane : impl_->lanes.all()) {
         const send::LaneFigures f = lane->figures();
         char text[160];
         std::snprintf(text, sizeof(text), "  %s %.1f fps", f.name.c_str(), f.frames_per_second);

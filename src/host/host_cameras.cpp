@@ -63,7 +63,8 @@ void Host::Impl::crop(const session::CameraStreams& camera) {
     std::optional<capture::Crop> kept;
     if (const auto& region = camera.adjustment().region)
         kept = capture::Crop{region->x, region->y, {region->width, region->height}};
-    lanes[std::size_t(camera.description().id)]->set_crop(kept);
+    if (send::CameraLane* lane = lanes.find(std::size_t(camera.description().id)))
+        lane->set_crop(kept);
 }
 
 void Host::Impl::correct_place(const session::CameraStreams& camera) {

@@ -9,6 +9,7 @@
 
 #include "base/hex_text.h"
 #include "host/filter_choice.h"
+#include "host/whose_published.h"
 #include "wire/condition_text.h"
 
 namespace theatron::host {
@@ -189,6 +190,7 @@ nlohmann::json to_json(const HostFigures& figures) {
         published.push_back({{"id", int(camera.id)},
                              {"name", camera.name},
                              {"publisher", int(camera.publisher)},
+                             {"whose", whose_camera(figures, camera)},
                              {"state", wire::text_of(camera.condition)},
                              {"adjusted", figures.adjustment(camera.id)},
                              {"dropped_slow", camera.dropped_slow},

@@ -104,7 +104,7 @@ struct PortFigures {
 // "color_gain":{"red","green","blue","estimated"},
 // "fps","age_ms","stages":[…],"dropped":{…},"lost_pictures",…}],"participants":[{"id","name","age_ms",
 // "renderer","refused_requests","denied_messages","refused_faces","role","muted","direct",…}],"visitors":[{"id","name",
-// "person","role","records"}],"published":[{"id","name","publisher","state",
+// "person","role","records"}],"published":[{"id","name","publisher","whose","state",
 // "adjusted","dropped_slow","bytes"}],"overlaps":[{"a","b","apart_mm","alarm"}],
 // "registration":{"made","method","problem"},"case_problems":[…],"past_bytes","turned_away",
 // "faults","page_problem","problems":{"audit_log","room","links"},

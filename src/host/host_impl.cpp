@@ -79,7 +79,7 @@ net::Server::Handler Host::Impl::handler() {
         session->on_tick(steady_now());
         follow_playback("");
         carry_out();
-        color_watch.on_tick(lanes, steady_now());
+        color_watch.on_tick(lanes.all(), steady_now());
         note_participants();
         room_file->on_tick(session->room(), session->streams().cameras().adjustments(),
                            steady_now());
@@ -157,9 +157,8 @@ void Host::Impl::carry_out(const session::action::Joined& a) {
 }
 
 void Host::Impl::carry_out(const session::action::RequestKey& a) {
-    const auto camera = std::size_t(camera_of(a.key.stream));
-    if (camera < lanes.size())
-        lanes[camera]->request_key(a.key.stream, a.key.setting);
+    if (send::CameraLane* lane = lanes.find(std::size_t(camera_of(a.key.stream))))
+        lane->request_key(a.key.stream, a.key.setting);
 }
 
 void Host::Impl::carry_out(const session::action::ChangeSettings& a) {
@@ -170,10 +169,11 @@ void Host::Impl::carry_out(const session::action::ChangeSettings& a) {
         return result;
     };
     const auto camera = std::size_t(a.camera);
-    if (camera >= lanes.size())
+    send::CameraLane* lane = lanes.find(camera);
+    if (!lane)
         return;
-    lanes[camera]->set_settings(convert(session->depth_settings(a.camera)),
-                                convert(session->color_settings(a.camera)));
+    lane->set_settings(convert(session->depth_settings(a.camera)),
+                       convert(session->color_settings(a.camera)));
     hold_lane(camera);
 }
 
@@ -261,12 +261,14 @@ void Host::Impl::hold_lane(std::size_t camera) {
         held.insert(camera);
     else
         held.erase(camera);
-    lanes[camera]->hold(hold);
+    if (send::CameraLane* lane = lanes.find(camera))
+        lane->hold(hold);
 }
 
 void Host::Impl::hold_lanes() {
     for (std::size_t camera = 0; camera < lanes.size(); ++camera)
-        hold_lane(camera);
+        if (lanes.find(camera))
+            hold_lane(camera);
 }
 
 // A frame that leaves can only end a wait.
@@ -503,10 +505,11 @@ HostFigures Host::Impl::figures() const {
     figures.utc = utc_now();
     figures.seconds = to_seconds(figures.session_time - begun);
     figures.automatic_color = color_watch.reason();
-    for (const auto& lane : lanes) {
-        const auto dropped = dropped_slow_figures.find(lane->id());
-        figures.cameras.push_back(
-            {lane->figures(), dropped == dropped_slow_figures.end() ? 0 : dropped->second});
+    for (std::size_t i = 0; i < lanes.size(); ++i) {
+        const auto dropped = dropped_slow_figures.find(CameraId(i));
+        const send::CameraLane* lane = lanes.find(i);
+        figures.cameras.push_back({lane ? lane->figures() : figures_of_missing(i),
+                                   dropped == dropped_slow_figures.end() ? 0 : dropped->second});
     }
     figures.participants = participant_figures;
     figures.published = published_figures;

@@ -19,7 +19,9 @@
 #include "host/host.h"
 #include "host/host_identity.h"
 #include "host/host_port.h"
+#include "host/lane_slots.h"
 #include "host/link_keeper.h"
+#include "host/missing_camera.h"
 #include "host/place_watch.h"
 #include "host/room_file.h"
 #include "host/room_replay.h"
@@ -34,6 +36,9 @@
 #include "session/voice_floor.h"
 
 namespace theatron::host {
+
+// `people_are_replayed`: the people whom the recording has are in the room.
+wire::Camera describe(const capture::CameraInfo& info, bool people_are_replayed);
 
 // For the outbox of a receiver.
 net::Media media_of(const wire::MediaHeader& header, std::shared_ptr<const Bytes> message);
@@ -56,12 +61,21 @@ struct Host::Impl {
     std::unique_ptr<SessionPort> server;
     capture::CameraPlaces places;  // does not change once lanes run
     Thumbnail thumbnail;           // of the first camera
-    std::vector<std::unique_ptr<send::CameraLane>> lanes;
+    LaneSlots lanes;
+    std::shared_ptr<send::SharedMoments> moments;  // of all lanes
+    // A camera that was missing when the host began, by its number.
+    struct Missing {
+        std::string specification, name;  // as expected_name()
+        LoadedFilter filter;
+        std::string refused;  // why it is not taken although it is there; empty: it is tried
+        std::unique_ptr<MissingCamera> search;
+    };
+    mutable std::mutex missing_mutex;
+    std::map<std::size_t, Missing> missing;   // guarded by missing_mutex
     std::unique_ptr<PlaceWatch> place_watch;  // does not change once lanes run
-    std::unique_ptr<GainWatch> gain_watch;    // likewise
+    std::unique_ptr<GainWatch> gain_watch;    // does not change once lanes run
     send::ColorWatch color_watch;             // on the thread of the server
     std::vector<FilterSource> filters;        // by camera; used by the owner of the host
-    std::vector<Size> depth_sizes;            // by camera; the same way
     send::MediaQueue media;                   // from the lanes to the server's thread
     std::mutex states_mutex;
     std::map<CameraId, wire::CameraState> new_states;   // the same way; the newest of each
@@ -86,7 +100,8 @@ struct Host::Impl {
     std::optional<TimePoint> alarm_at;    // of the server; server's thread
     // Frames dropped per camera because a receiver was too slow; server's thread.
     std::map<CameraId, std::uint64_t> dropped_slow;
-    std::map<CameraId, std::uint64_t> received;  // bytes of participants' cameras; likewise
+    // Bytes of participants' cameras; server's thread.
+    std::map<CameraId, std::uint64_t> received;
     mutable std::mutex figures_mutex;
     std::vector<HostFigures::Participant> participant_figures;
     std::vector<HostFigures::Published> published_figures;
@@ -118,7 +133,7 @@ struct Host::Impl {
     std::unique_ptr<RoomReplay> replay;             // uses the lanes and the server
     std::unique_ptr<CaseShelf> cases;               // its thread posts to the server; may be null
     std::optional<CaseShelf::Offer> offered_cases;  // the newest; server's thread
-    std::string said_lost_case;                     // likewise
+    std::string said_lost_case;                     // server's thread
 
     explicit Impl(std::atomic<std::size_t>& count) : participants(count) {}
     ~Impl() {
@@ -126,6 +141,7 @@ struct Host::Impl {
         if (has_begun)
             (void)contain("the goodbye of a session", [&] { say_goodbye(); });
         replay.reset();
+        drop_missing();
         // The server's thread uses the lanes: it leaves them first. The lanes use the watches,
         // whose threads post to the server.
         if (server)
@@ -146,10 +162,23 @@ struct Host::Impl {
     net::Server::Handler handler();
     PortSession in_port();
     void start_replay();
-    void start_lanes(const std::vector<std::string>& specifications,
-                     std::vector<std::unique_ptr<capture::Camera>> cameras);
+    // The camera of this number gets its lane.
+    void start_lane(std::size_t number, const std::string& specification,
+                    std::unique_ptr<capture::Camera> camera, const LoadedFilter& filter);
+    std::unique_ptr<capture::Camera> open_or_miss(std::size_t number,
+                                                  const std::string& specification,
+                                                  const capture::Progress& progress);
+    void require_any(const std::vector<std::unique_ptr<capture::Camera>>& cameras) const;
+    // Tries to open those that are in `missing`.
+    void start_searches();
+    void drop_missing();
+    // The name of a camera, also of a missing one.
+    std::string camera_name(std::size_t camera) const;
 
     // All below on the server's thread.
+    // A camera that was missing is there.
+    void take_found(std::size_t number, std::unique_ptr<capture::Camera> camera);
+    void add_found(std::size_t number, std::unique_ptr<capture::Camera> camera);
     void carry_out();
     void carry_out(const session::action::Send& a);
     void carry_out(const session::action::Close& a);
@@ -220,6 +249,7 @@ struct Host::Impl {
     // True if somebody who came by the link of this token was removed and is kept out.
     bool is_held_back(const std::string& secret) const;
     HostFigures figures() const;
+    send::LaneFigures figures_of_missing(std::size_t camera) const;
     HostFigures::Problems problems() const;
 };
 

@@ -76,8 +76,11 @@ std::string to_table(const nlohmann::json& figures) {
     if (const std::string color = text_field(figures, "automatic_color"); !color.empty())
         table += "automatic colour is " + color + "\n";
     for (const auto& camera : list_field(figures, "published")) {
-        std::snprintf(line, sizeof(line), "camera %.0f %.100s of participant %.0f: %.7s",
-                      number_field(camera, "id"), text_field(camera, "name").c_str(),
+        // Hosts of version 0.1.0 do not say whose it is.
+        const std::string whose = text_field(camera, "whose");
+        std::snprintf(line, sizeof(line), "camera %.0f %.200s of participant %.0f: %.7s",
+                      number_field(camera, "id"),
+                      (whose.empty() ? text_field(camera, "name") : whose).c_str(),
                       number_field(camera, "publisher"), text_field(camera, "state").c_str());
         const std::string adjusted = text_field(camera, "adjusted");
         table += line + (adjusted.empty() ? adjusted : "; by operators: " + adjusted) + "\n";

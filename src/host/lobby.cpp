@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "files/json_text.h"
 #include "host/host_http.h"
+#include "host/whose_published.h"
 #include "wire/condition_text.h"
 
 namespace theatron::host {
@@ -42,7 +43,7 @@ nlohmann::json lobby_session(const HostFigures& figures, const LobbyGuest& guest
                            {"adjusted", figures.adjustment(CameraId(i))}});
     for (const auto& camera : figures.published)
         if (!camera.is_face)
-            cameras.push_back({{"name", camera.name},
+            cameras.push_back({{"name", whose_camera(figures, camera)},
                                {"state", wire::text_of(camera.condition)},
                                {"adjusted", figures.adjustment(camera.id)}});
     session["people"] = people;

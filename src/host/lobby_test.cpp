@@ -36,6 +36,20 @@ TEST(Lobby, NamesPeopleAndCameras) {
     EXPECT_EQ(session["thumbnail"], "/thumbnail");
 }
 
+TEST(Lobby, NamesWhoseTheCameraOfAParticipantIs) {
+    HostFigures of_two = figures();
+    of_two.participants[0].id = ParticipantId{7};
+    HostFigures::Published webcam;
+    webcam.name = "webcam";
+    webcam.publisher = ParticipantId{7};
+    of_two.published.push_back(webcam);
+    const auto lobby = lobby_json(of_two, {wire::Role::expert});
+    EXPECT_EQ(lobby["sessions"].at(0)["cameras"].at(0)["name"], "lamp");
+    EXPECT_EQ(lobby["sessions"].at(0)["cameras"].at(1)["name"], "Ada: webcam");
+    const std::string table = to_table(to_json(of_two));
+    EXPECT_NE(table.find(" Ada: webcam of participant 7: "), std::string::npos) << table;
+}
+
 TEST(Lobby, TellsSomeoneWhoMustAskOnlyTheNumberOfPeople) {
     const auto lobby = lobby_json(figures(), {wire::Role::observer, true});
     EXPECT_EQ(lobby["sessions"].at(0)["people_count"], 1);

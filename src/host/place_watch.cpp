@@ -19,7 +19,7 @@ namespace {
 using registration::RigWatch;
 
 constexpr int niceness = 15;
-// Another size of an alarm is told once so many images of each camera have shown it.
+// Images of each camera that must show another size of an alarm before it is told.
 constexpr int images_to_tell = 4;
 
 // A camera in the room whose place is known. The depth of a screen shows nothing of the room.

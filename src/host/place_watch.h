@@ -75,13 +75,13 @@ private:
         double size_m = 0;
         int images_of_another = 0;  // size, in a row
     };
-    std::vector<Told> told_;     // likewise; by the watch's numbers
-    std::vector<int> renewals_;  // likewise; that the log has
+    std::vector<Told> told_;     // the thread's only; by the watch's numbers
+    std::vector<int> renewals_;  // the thread's only; that the log has
     mutable std::mutex mutex_;   // guards all below
     std::condition_variable changed_;
     std::map<std::size_t, FramePtr> waiting_;  // by the watch's numbers
-    std::map<std::size_t, Pose> corrected_;    // likewise
-    std::set<std::size_t> accepted_;           // likewise
+    std::map<std::size_t, Pose> corrected_;    // by the watch's numbers
+    std::set<std::size_t> accepted_;           // the watch's numbers
     std::vector<TimePoint> taken_;             // captured times of frames taken last
     Figures figures_;
     bool stopping_ = false;

@@ -19,7 +19,7 @@ public:
     // Settled estimates differ by at most this share in each channel. From one to the next they
     // differ by some thousandths, more where people move.
     static constexpr double agreement = 0.015;
-    // So many agree before they are published: two may have seen the same person pass.
+    // Estimates that must agree before they are published: two may have seen the same person pass.
     static constexpr int enough_estimates = 4;
     // A change by this share is 5 of 255 steps on a grey wall; blended into each other, two cameras
     // whose colours differ by less show no border.

@@ -13,8 +13,8 @@ namespace theatron::net {
 
 struct HttpRequest {
     std::string target;                // path and query
-    std::string authorization;         // that header
-    std::string accept_encoding = {};  // likewise
+    std::string authorization;         // the header Authorization
+    std::string accept_encoding = {};  // the header Accept-Encoding
 };
 struct HttpAnswer {
     int status = 200;

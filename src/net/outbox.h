@@ -74,7 +74,7 @@ public:
     static constexpr std::size_t max_kept_voice = 500, max_kept_voices = 4000;
     // Parts of content that may wait; further ones are dropped, and the peer asks again.
     static constexpr std::size_t max_waiting_content = 4;
-    // While pictures wait too, one of so many bytes is content.
+    // While pictures wait too, one byte in this number is content.
     static constexpr std::size_t content_share = 8;
     // Longest time in which a peer takes nothing although something waits: see stands_still().
     static constexpr Duration give_up_after = std::chrono::seconds(30);

@@ -454,7 +454,7 @@ struct Sent {
     std::vector<char> order;                        // 'm', 'c', 'p'
 };
 
-// Takes envelopes until nothing leaves any more, at most so many.
+// Takes envelopes until nothing leaves any more, at most `most`.
 Sent take(Outbox& outbox, int most, Bytes* content = nullptr) {
     Sent sent;
     Bytes envelope;

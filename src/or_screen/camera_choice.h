@@ -26,9 +26,9 @@ struct CameraScore {
 // Reads no clock. The picture does not jump between cameras that see about equally well.
 class CameraChoice {
 public:
-    // Another camera must have been so many times as good as the shown one for so long, and the
-    // shown one must have been shown for a while. Where the shown one sees nothing of it, half of
-    // the time suffices.
+    // Another camera must have been better than the shown one by this factor for some time, and
+    // the shown one must have been shown for a while. Where the shown one sees nothing of it, half
+    // of the time suffices.
     static constexpr double much_better = 1.4;
     static constexpr Duration better_for = std::chrono::seconds(2);
     static constexpr Duration shown_for = std::chrono::seconds(6);

@@ -7,6 +7,7 @@
 #include "room/people.h"
 #include "room/srgb.h"
 #include "viewer/age_text.h"
+#include "xr/drawing_watch.h"
 
 namespace theatron::or_screen {
 namespace {
@@ -88,8 +89,7 @@ void describe_picture(const client::CameraFigures& camera, double age_ms, Conten
     const wire::CameraState& state = camera.camera.state;
     content.camera = camera.camera.description.name;
     const bool is_live = state.condition == wire::CameraCondition::live;
-    constexpr double frozen_ms = 2000;
-    const bool stands_still = !is_live || age_ms > frozen_ms;
+    const bool stands_still = !is_live || age_ms >= to_ms(xr::still_after);
     if (!content.playback.empty()) {
         if (stands_still)
             content.warning =

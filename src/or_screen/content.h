@@ -12,6 +12,7 @@
 #include "image/view.h"
 #include "or_screen/picture_place.h"
 #include "session/mark.h"
+#include "viewer/slice_texts.h"
 
 namespace theatron::or_screen {
 
@@ -87,7 +88,7 @@ struct Content {
     std::vector<PointerMark> pointers;
     std::vector<PictureMark> marks;
     std::vector<HeadMark> heads;
-    std::string slice;  // text below the monitor's slice; empty: there is no slice
+    std::optional<viewer::SliceTexts> slice;  // around the monitor's slice; none: there is no slice
     std::vector<PointerMark> slice_pointers;  // pixels of the slice
 };
 

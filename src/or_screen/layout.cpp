@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 
 namespace theatron::or_screen {
 namespace {
@@ -15,6 +14,8 @@ constexpr std::size_t least_columns = 3, most_columns = 4;
 // The share of the width that the column of room and monitor has at least, and at most where the
 // picture leaves more.
 constexpr double least_side = 0.2;
+// The monitor's part of the column: images have letters and lines of text.
+constexpr double monitor_share = 0.62;
 constexpr Size usual_picture{16, 9};
 
 // The cards of people along the lower edge; takes their space away from `area`.
@@ -43,10 +44,12 @@ void place_side(Layout& layout, const Rect& area, bool has_monitor) {
         return;
     layout.monitor = area;
     if (area.height > area.width) {
-        layout.room.height = layout.monitor.height = (area.height - apart) / 2;
+        layout.monitor.height = monitor_share * (area.height - apart);
+        layout.room.height = area.height - apart - layout.monitor.height;
         layout.monitor.y += layout.room.height + apart;
     } else {
-        layout.room.width = layout.monitor.width = (area.width - apart) / 2;
+        layout.monitor.width = monitor_share * (area.width - apart);
+        layout.room.width = area.width - apart - layout.monitor.width;
         layout.monitor.x += layout.room.width + apart;
     }
 }
@@ -59,45 +62,6 @@ Rect fitted(Size proportions, const Rect& room) {
     const double scale = std::min(room.width / proportions.width, room.height / proportions.height);
     const double width = proportions.width * scale, height = proportions.height * scale;
     return {room.x + (room.width - width) / 2, room.y + (room.height - height) / 2, width, height};
-}
-
-Rect label_place(Vec2 at, Vec2 size, double apart, const Rect& area,
-                 const std::vector<Rect>& there) {
-    const auto kept = [](double value, double least, double most) {
-        return std::clamp(value, least, std::max(least, most));
-    };
-    const auto covered = [&](const Rect& label) {
-        double sum = 0;
-        for (const Rect& other : there) {
-            const double width =
-                std::min(label.right(), other.right()) - std::max(label.x, other.x);
-            const double height =
-                std::min(label.bottom(), other.bottom()) - std::max(label.y, other.y);
-            if (width > 0 && height > 0)
-                sum += width * height;
-        }
-        return sum;
-    };
-    std::optional<Rect> best;
-    double least = 0;
-    // Near places first; at each distance below and to the right first.
-    for (const double reach : {1.0, 2.5, 4.0})
-        for (const int down : {1, 0, -1})
-            for (const int right : {1, -1, 0}) {
-                if (down == 0 && right == 0)
-                    continue;
-                const auto begin = [&](double middle, double length, int side) {
-                    return middle + side * reach * apart - (1 - side) * length / 2;
-                };
-                const Rect label{kept(begin(at.x, size.x, right), area.x, area.right() - size.x),
-                                 kept(begin(at.y, size.y, down), area.y, area.bottom() - size.y),
-                                 size.x, size.y};
-                if (const double covers = covered(label); !best || covers < least) {
-                    best = label;
-                    least = covers;
-                }
-            }
-    return *best;
 }
 
 Layout layout(const LayoutFacts& facts) {
@@ -128,6 +92,37 @@ Layout layout(const LayoutFacts& facts) {
     layout.caption = {main.x, layout.picture.bottom(), main.width, caption};
     place_side(layout, side, facts.has_monitor);
     return layout;
+}
+
+MonitorPlaces monitor_places(const Rect& monitor, Size slice, std::size_t lines, double letter) {
+    // In letters' heights.
+    constexpr double line_height = 1.55, least_width = 5.4, least_height = 3.6;
+    MonitorPlaces places;
+    const double below = double(lines) * line_height * letter;
+    const Rect area{monitor.x, monitor.y, monitor.width, monitor.height - below};
+    places.picture = fitted(slice, area);
+    places.letters.width =
+        std::max(places.picture.width, std::min(area.width, least_width * letter));
+    places.letters.height =
+        std::max(places.picture.height, std::min(area.height, least_height * letter));
+    places.letters.x = area.x + (area.width - places.letters.width) / 2;
+    places.letters.y = area.y + (area.height - places.letters.height) / 2;
+    for (std::size_t i = 0; i < lines; ++i)
+        places.lines.push_back({monitor.x,
+                                monitor.bottom() - below + double(i) * line_height * letter,
+                                monitor.width, line_height * letter});
+    return places;
+}
+
+Rect letters_place(const Rect& area, Vec2 towards, std::size_t letters, double letter) {
+    constexpr double high = 1.44, wide = 1.0, beside = 0.7, apart = 0.15;  // in letters' heights
+    const Vec2 size{(double(letters) * wide + beside) * letter, high * letter};
+    const double free = apart * letter;
+    const auto begin = [&](double from, double whole, double side, double way) {
+        return from + (whole - side) / 2 + way * ((whole - side) / 2 - free);
+    };
+    return {begin(area.x, area.width, size.x, towards.x),
+            begin(area.y, area.height, size.y, towards.y), size.x, size.y};
 }
 
 Vec2 drift(TimePoint now) {

@@ -10,23 +10,15 @@
 #include "base/time.h"
 #include "geometry/vec.h"
 #include "image/view.h"
+#include "render/label_place.h"
 
 namespace theatron::or_screen {
 
-struct Rect {
-    double x = 0, y = 0, width = 0, height = 0;
-    double right() const { return x + width; }
-    double bottom() const { return y + height; }
-    bool operator==(const Rect&) const = default;
-};
+using render::label_place;
+using render::Rect;
 
 // The largest rectangle of these proportions in the middle of `room`.
 Rect fitted(Size proportions, const Rect& room);
-
-// The place for a label of this size beside `at`: inside of `area`, so far away, and where it
-// covers the least of what is there already.
-Rect label_place(Vec2 at, Vec2 size, double apart, const Rect& area,
-                 const std::vector<Rect>& there);
 
 struct LayoutFacts {
     Size screen;
@@ -52,6 +44,18 @@ struct Layout {
 };
 
 Layout layout(const LayoutFacts& facts);
+
+// The places of the monitor's slice, with the proportions of `slice`, and of this number of lines
+// of text below it.
+struct MonitorPlaces {
+    Rect picture;
+    Rect letters;  // at whose edges the letters of sides stand: around a picture that is too flat
+    std::vector<Rect> lines;
+};
+MonitorPlaces monitor_places(const Rect& monitor, Size slice, std::size_t lines, double letter);
+// The place of this number of letters inside of `area`, at its edge in the direction `towards`, of
+// which one coordinate is 0 and the other -1 or 1.
+Rect letters_place(const Rect& area, Vec2 towards, std::size_t letters, double letter);
 
 // By how much all of it is moved at this moment, in units of Layout::letter, at most
 // largest_drift along each axis; layout() keeps that much free at the edges. It moves slower than

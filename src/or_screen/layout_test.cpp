@@ -92,6 +92,39 @@ TEST(OrScreenLayout, EverythingDriftsSlowlyAndNowhereForLong) {
     EXPECT_LT(at_home, 0.2 * seconds);
 }
 
+TEST(OrScreenLayout, ASliceHasItsLettersInsideAndItsTextsBelow) {
+    for (const Size screen : {Size{1920, 1080}, Size{1280, 1024}, Size{1080, 1920}})
+        for (const Size slice : {Size{512, 512}, Size{512, 200}, Size{200, 512}}) {
+            const Layout one = layout({screen, {1280, 720}, 3, true});
+            const MonitorPlaces places = monitor_places(one.monitor, slice, 4, one.letter);
+            EXPECT_NEAR(places.picture.width / places.picture.height,
+                        double(slice.width) / slice.height, 1e-9);
+            std::vector<Rect> below(places.lines.begin(), places.lines.end());
+            for (const Rect& line : below) {
+                EXPECT_FALSE(overlap(line, places.picture));
+                EXPECT_GT(line.height, 1.4 * one.letter);
+                EXPECT_LE(line.bottom(), one.monitor.bottom() + 1e-9);
+            }
+            std::vector<Rect> letters;
+            for (const Vec2 towards : {Vec2{-1, 0}, Vec2{1, 0}, Vec2{0, -1}, Vec2{0, 1}}) {
+                const Rect place = letters_place(places.letters, towards, 1, one.letter);
+                EXPECT_GE(place.x, one.monitor.x);
+                EXPECT_GE(place.y, one.monitor.y);
+                EXPECT_LE(place.right(), one.monitor.right());
+                EXPECT_LE(place.bottom(), below[0].y + 1e-9);
+                // At the side that they name.
+                const double right = place.x + place.width / 2 - places.picture.x -
+                                     places.picture.width / 2,
+                             down = place.y + place.height / 2 - places.picture.y -
+                                    places.picture.height / 2;
+                EXPECT_GT(right * towards.x + down * towards.y, 0);
+                for (const Rect& other : letters)
+                    EXPECT_FALSE(overlap(place, other)) << screen.width << " " << slice.width;
+                letters.push_back(place);
+            }
+        }
+}
+
 TEST(OrScreenLayout, LabelsStandBesideTheirPlaceAndCoverNoOther) {
     const Rect area{0, 0, 1000, 500};
     const Rect first = label_place({500, 250}, {100, 30}, 20, area, {});

@@ -3,15 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <utility>
 
 #include "phrases/phrase.h"
-#include "room/mark_mesh.h"
+#include "room/mark_shape.h"
 #include "room/people.h"
 #include "room/srgb.h"
 #include "session/room_bytes.h"
+#include "session/whose_camera.h"
 #include "viewer/placed_marks.h"
 #include "viewer/playing.h"
 
@@ -24,8 +24,6 @@ constexpr int room_part = 4;  // of the time: the room is drawn in one part of f
 constexpr Rgb room_ground{24, 26, 30};
 // Where nobody points: the middle of the operating table (docs/room.md).
 constexpr Vec3 table{0, 1, 0};
-constexpr Phrase orientation_names[] = {Phrase::slice_axial, Phrase::slice_coronal,
-                                        Phrase::slice_sagittal};
 
 // The clouds in the small picture of the room need fewer points.
 constexpr int room_depth_step = 2;
@@ -35,10 +33,7 @@ std::string label_of(session::Mark mark) {
     if (mark.kind != session::MarkKind::pin && mark.kind != session::MarkKind::distance)
         return "";
     mark.initials.clear();
-    std::string label = room::label_of(mark);
-    while (label.ends_with(' '))
-        label.pop_back();
-    return label;
+    return room::label_of(mark);
 }
 
 viewer::RoomChoice shown_room() {
@@ -66,6 +61,8 @@ bool OrScreen::step(client::Participant& participant, const std::set<Participant
         live_.clear();
         for (client::CameraFigures& one : client::figures_of(participant).cameras) {
             const CameraId id = one.camera.description.id;
+            one.camera.description.name =
+                session::whose_camera(one.camera.description, scene_.meeting().room().objects);
             if (one.camera.state.condition == wire::CameraCondition::live)
                 live_.insert(id);
             figures_.emplace(id, std::move(one));
@@ -81,7 +78,7 @@ bool OrScreen::step(client::Participant& participant, const std::set<Participant
     if (facts || meeting)
         describe(participant, speaking, now);
     layout_ = layout({screen_, content_.picture, content_.people.size() + content_.people_left_out,
-                      !content_.slice.empty()});
+                      content_.slice.has_value()});
     return changed || (room_changed_ && now >= next_room_);
 }
 
@@ -134,7 +131,7 @@ void OrScreen::take_slice() {
         slice_of_ = nullptr;
         slice_shown_.reset();
         slice_plane_.reset();
-        content_.slice.clear();
+        content_.slice.reset();
         return;
     }
     const session::CaseScreen& wanted = room->screen->facts;
@@ -145,9 +142,9 @@ void OrScreen::take_slice() {
     slice_plane_ = slice.plane;
     slice_of_ = volume;
     slice_shown_ = wanted;
-    char text[60];
-    std::snprintf(text, sizeof(text), " %.0f mm", wanted.position_mm);
-    content_.slice = say(orientation_names[wanted.orientation]) + text;
+    const medical::SharedCase& about = *scene.content()->description;
+    content_.slice =
+        viewer::slice_texts(slice.plane, wanted, about.name, about.series[wanted.series].name);
 }
 
 std::optional<Vec2> OrScreen::slice_pixel(Vec3 place) const {
@@ -362,8 +359,7 @@ void OrScreen::draw(const render::DrawTarget& target, TimePoint now) {
     const Vec2 by = drift(now);
     drawing_.draw(
         content_, layout_, {std::round(by.x * layout_.letter), std::round(by.y * layout_.letter)},
-        {&picture_, room_ ? &room_->color() : nullptr, content_.slice.empty() ? nullptr : &slice_},
-        target);
+        {&picture_, room_ ? &room_->color() : nullptr, content_.slice ? &slice_ : nullptr}, target);
 }
 
 void OrScreen::on_drawn(Duration took, TimePoint now) {

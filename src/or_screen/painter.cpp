@@ -16,6 +16,7 @@ namespace colors = xr::colors;
 
 constexpr ImU32 shade_color = colors::with_opacity(colors::shade, 190);
 constexpr ImU32 outline_color = IM_COL32(0, 0, 0, 170);
+constexpr ImU32 slice_ink = IM_COL32(255, 220, 90, 255);  // as in the room
 
 // A person's colour as the ground of a card, dark enough for white letters.
 ImU32 tinted(Rgb c) {
@@ -63,6 +64,18 @@ std::string Painter::shortened(const ImFont* font, const std::string& words, flo
     while (!part.empty() && part.back() == ' ')
         part.pop_back();
     return part + dots;
+}
+
+std::vector<std::string> Painter::in_lines(const ImFont* font, const std::string& words,
+                                           float width) const {
+    if (measure(font, words).x <= width)
+        return {words};
+    // Names of cases often differ in their ends.
+    for (std::size_t end = words.rfind(' '); end != std::string::npos && end > 0;
+         end = words.rfind(' ', end - 1))
+        if (measure(font, words.substr(0, end)).x <= width)
+            return {words.substr(0, end), shortened(font, words.substr(end + 1), width)};
+    return {shortened(font, words, width)};
 }
 
 void Painter::text(const ImFont* font, ImVec2 place, ImU32 color, const std::string& words,
@@ -266,16 +279,34 @@ void Painter::room(const Content& content, const Rect& rect, const render::Textu
 void Painter::monitor(const Content& content, const Rect& rect,
                       const render::PictureTexture* slice) {
     list_.AddRectFilled(from(rect), to(rect), IM_COL32(0, 0, 0, 255), 0.25f * letter_);
-    const double text_height = 1.7 * letter_;
-    Rect below{rect.x, rect.bottom() - text_height, rect.width, text_height};
-    centred(fonts_.small, below, colors::label, content.slice);
-    if (!slice || slice->size().area() == 0)
+    if (!content.slice || !slice || slice->size().area() == 0)
         return;
-    const Rect area =
-        fitted(slice->size(), {rect.x, rect.y, rect.width, rect.height - text_height});
-    list_.AddImage(xr::texture_of(slice->texture()), from(area), to(area));
+    const viewer::SliceTexts& texts = *content.slice;
+    std::vector<std::string> lines =
+        in_lines(fonts_.small, texts.case_name, float(rect.width) - letter_);
+    const std::size_t of_name = lines.size();
+    lines.insert(lines.end(), {texts.plane, texts.window});
+    const MonitorPlaces places = monitor_places(rect, slice->size(), lines.size(), letter_);
+    list_.AddImage(xr::texture_of(slice->texture()), from(places.picture), to(places.picture));
     there_.clear();
-    pointers(content.slice_pointers, area, slice->size());
+    const auto put = [&](const std::string& letters, Vec2 towards) {
+        const Rect place = letters_place(places.letters, towards, letters.size(), letter_);
+        there_.push_back(place);
+        list_.AddRectFilled(from(place), to(place), shade_color, 0.35f * letter_);
+        const ImVec2 size = measure(fonts_.small, letters);
+        text(fonts_.small,
+             {float(place.x + (place.width - size.x) / 2),
+              float(place.y + (place.height - size.y) / 2)},
+             slice_ink, letters);
+    };
+    pointers(content.slice_pointers, places.picture, slice->size());
+    put(texts.letters.left, {-1, 0});
+    put(texts.letters.right, {1, 0});
+    put(texts.letters.top, {0, -1});
+    put(texts.letters.bottom, {0, 1});
+    for (std::size_t i = 0; i < lines.size(); ++i)
+        centred(fonts_.small, places.lines[i], i < of_name ? colors::text : colors::label,
+                lines[i]);
 }
 
 void Painter::card(const PersonCard& card, bool two_lines, const Rect& rect) {

@@ -36,6 +36,9 @@ private:
     ImVec2 measure(const ImFont* font, const std::string& text, float wrap = 0) const;
     // The beginning of the text that fits, with dots if it is not all.
     std::string shortened(const ImFont* font, const std::string& text, float width) const;
+    // The text in as few lines as hold it, at most two: only the second one is ever shortened.
+    std::vector<std::string> in_lines(const ImFont* font, const std::string& text,
+                                      float width) const;
     void text(const ImFont* font, ImVec2 place, ImU32 color, const std::string& words,
               float wrap = 0);
     void centred(const ImFont* font, const Rect& rect, ImU32 color, const std::string& words);

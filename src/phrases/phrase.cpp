@@ -10,7 +10,9 @@ namespace {
 
 constexpr Sentence phrases[] = {
 #define PHRASE(key, english, german) {english, german},
+#include "phrases/bar.inc"
 #include "phrases/connection.inc"
+#include "phrases/form.inc"
 #include "phrases/meeting.inc"
 #include "phrases/pictures.inc"
 #include "phrases/window.inc"

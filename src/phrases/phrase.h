@@ -17,7 +17,9 @@ namespace theatron {
 
 enum class Phrase : std::uint16_t {
 #define PHRASE(key, english, german) key,
+#include "phrases/bar.inc"
 #include "phrases/connection.inc"
+#include "phrases/form.inc"
 #include "phrases/meeting.inc"
 #include "phrases/pictures.inc"
 #include "phrases/window.inc"

@@ -285,7 +285,10 @@ void CameraPublisher::on_media(std::size_t camera, const send::EncodedMedia& enc
     const auto number = number_of(camera);
     if (!participant_ || !number)
         return;
-    color_watch_.on_tick(lanes_, steady_now());
+    std::vector<const send::CameraLane*> lanes;
+    for (const auto& lane : lanes_)
+        lanes.push_back(lane.get());
+    color_watch_.on_tick(lanes, steady_now());
     const Duration offset = participant_->now() - steady_now();
     wire::MediaHeader header = encoded.header;
     header.stream = is_depth(header.stream) ? depth_stream(*number) : color_stream(*number);

@@ -56,8 +56,8 @@ struct Block {
     std::int64_t reference_us = 0;  // unless key: the time of the frame referred to
     ByteView payload;
     ByteView side;     // stored beside the payload, unseen by players; may be empty
-    std::string note;  // likewise
-    std::optional<EncodedCheck> check;  // likewise
+    std::string note;  // stored beside the payload; may be empty
+    std::optional<EncodedCheck> check;  // stored beside the payload
 };
 
 // Block additions with these numbers hold a block's `side`, `note` and `check`.

@@ -50,8 +50,8 @@ struct FoundHead {
     // empty: none), the time of the last block that was
     // certainly on the disk (0: unknown), and the end of the segment (0: it was never closed).
     std::string early_end;
-    std::string lacks;               // likewise: letters of lacks.h
-    std::uint32_t next_segment = 0;  // likewise: the number of the one that follows; 0: none
+    std::string lacks;               // from there, too: letters of lacks.h
+    std::uint32_t next_segment = 0;  // from there, too: the number of the next segment; 0: none
     std::int64_t duration_us = 0;
     std::uint64_t segment_end = 0;
     bool closed = false;            // the segment has a size, and ends within the file

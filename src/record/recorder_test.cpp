@@ -151,8 +151,7 @@ TEST(Recording, AFullDiskEndsItWithASentenceAndKeepsWhatCameBefore) {
     const auto recording = RecordingFile::open(path);
     EXPECT_TRUE(recording->complete()) << "it was closed, if early";
     EXPECT_EQ(remarks_on(recording->segments()[0]),
-              std::vector<std::string>{
-                  "it ends earlier than was wanted: the system allowed no larger file"});
+              std::vector<std::string>{"it stopped early: the system allowed no larger file"});
     EXPECT_GT(frames_in(*recording), 10u);
     EXPECT_EQ(count_equal(*recording, messages), frames_in(*recording));
 }

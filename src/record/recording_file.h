@@ -106,7 +106,7 @@ struct Segment {
     // Its first block, and its last picture, or without any its last block: since the recording's
     // first block.
     Duration begin{}, end{};
-    Duration last{};           // its last block, likewise
+    Duration last{};           // its last block, on the same scale
     Duration origin{};         // its own time 0, on the same scale
     TimePoint first_captured;  // session time of the first frame in the file
     std::uint64_t frames = 0;  // pictures

@@ -185,8 +185,7 @@ TEST(Recording, WhoseEndIsCutSaysHowMuchMayBeMissing) {
     const Duration whole = opened()->duration();
     EXPECT_EQ(end_of(opened()->segments()[0]), "");
     bytes.resize(bytes.size() - 100);  // the last copy of the head
-    EXPECT_EQ(end_of(opened()->segments()[0]),
-              "it ends without its end: only its index is missing");
+    EXPECT_EQ(end_of(opened()->segments()[0]), "it was not closed: only its index is missing");
     bytes.resize(bytes.size() / 2);
     const auto half = opened();
     EXPECT_FALSE(half->complete());
@@ -226,7 +225,7 @@ TEST(Recording, ThatWasNeverClosedKnowsWhatWasOnTheDisk) {
     ASSERT_EQ(writer.sync(), "");
     const auto killed = RecordingFile::open(path);
     EXPECT_FALSE(killed->segments()[0].closed);
-    EXPECT_EQ(end_of(killed->segments()[0]), "it ends without its end: 1.0 s may be missing");
+    EXPECT_EQ(end_of(killed->segments()[0]), "it was not closed: 1.0 s may be missing");
     fs::resize_file(path, fs::file_size(path) / 2);
     const auto cut = RecordingFile::open(path);
     EXPECT_EQ(cut->segments()[0].missing_end, killed->duration() - cut->duration() + 1s);

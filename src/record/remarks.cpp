@@ -50,7 +50,7 @@ std::string remark_on_foreign(const Segment& segment) {
 std::string end_of(const Segment& segment) {
     if (segment.closed)
         return "";
-    const std::string begin = "it ends without its end: ";
+    const std::string begin = "it was not closed: ";
     if (!segment.missing_end)
         return begin + "nobody knows how much is missing";
     if (segment.unread_end > 0)
@@ -65,7 +65,7 @@ std::string end_of(const Segment& segment) {
 }
 
 std::string early_end_of(const Segment& segment) {
-    const std::string begin = "it ends earlier than was wanted: ";
+    const std::string begin = "it stopped early: ";
     if (segment.early_end == disk_full)
         return begin + "the disk was full";
     if (segment.early_end == file_too_large)

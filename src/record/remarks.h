@@ -10,9 +10,9 @@
 
 namespace theatron::record {
 
-// For example "it ends without its end: 2.5 s may be missing"; empty if it was closed.
+// For example "it was not closed: 2.5 s may be missing"; empty if it was closed.
 std::string end_of(const Segment& segment);
-// For example "it ends earlier than was wanted: the disk was full"; empty if writing did not fail.
+// For example "it stopped early: the disk was full"; empty if writing did not fail.
 std::string early_end_of(const Segment& segment);
 // For example "it is not complete: the host did not come back"; empty if nothing was noted.
 std::string lacks_of(const Segment& segment);

@@ -80,7 +80,7 @@ private:
     std::map<std::uint32_t, Member> waiting_;
     std::uint32_t last_ = 0;  // number of the segment that was taken last
     std::uint64_t taken_ = 0;
-    bool has_next_ = false;      // likewise: it says that another one follows
+    bool has_next_ = false;      // that segment says that another one follows
     bool knows_extent_ = false;  // segments say which one follows them
     std::vector<std::string> unreadable_, foreign_;
 };

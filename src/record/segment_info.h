@@ -32,7 +32,7 @@ struct SegmentInfo {
 };
 
 inline constexpr std::size_t segment_info_size = 48;
-// Names have room for more digits, but so many changes of cameras are not expected.
+// Names have room for more digits, but more changes of cameras are not expected.
 inline constexpr std::uint32_t max_segments = 9999;
 
 // Layout of docs/formats/recording.md.

@@ -140,7 +140,7 @@ inline std::size_t frames_in(const RecordingFile& recording) {
     return count;
 }
 
-// Returns when `recorder` has written so many frames or has ended.
+// Returns when `recorder` has written `frames` frames or has ended.
 inline void wait_until_written(const Recorder& recorder, std::uint64_t frames) {
     while (recorder.figures().frames < frames && recorder.figures().problem.empty())
         std::this_thread::sleep_for(1ms);

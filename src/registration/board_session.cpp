@@ -8,7 +8,7 @@
 namespace theatron::registration {
 namespace {
 
-// Detection takes longer than averaging: only every so many frames are searched.
+// Detection takes longer than averaging: only one frame in this number is searched.
 constexpr int frames_between_looks = 6;
 constexpr double still_m = 0.004, still_rad = 0.006;
 constexpr double moved_m = 0.05, moved_rad = 0.09;  // a new place of the board

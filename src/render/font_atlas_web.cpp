@@ -36,7 +36,7 @@ namespace {
 constexpr int cell = 2 * glyph_pixels;  // of a canvas that holds any letter
 constexpr int pen_x = glyph_pixels / 2, base_line = cell - glyph_pixels / 2;
 
-// A step of so many letters takes some milliseconds.
+// A step of this number of letters takes some milliseconds.
 constexpr int letters_at_once = 4;
 
 class Letters {

@@ -13,8 +13,8 @@ constexpr Rgb background{32, 34, 38};
 void draw(const RoomPicture& picture, ScenePasses* passes) {
     for (const DrawnClouds& clouds : picture.clouds)
         check_renderer_name(clouds.renderer);
-    if (picture.scene)
-        passes->prepare(*picture.scene);
+    if (picture.scene && !picture.eyes.empty())
+        passes->prepare(*picture.scene, picture.eyes[0].view, picture.eyes[0].target.size);
     for (const EyePicture& eye : picture.eyes) {
         if (picture.scene)
             passes->draw_opaque(*picture.scene, eye.view, eye.target);

@@ -13,6 +13,7 @@
 #include "geometry/vec.h"
 #include "image/image.h"
 #include "render/draw_target.h"
+#include "render/scene_lines.h"
 
 namespace theatron::render {
 
@@ -125,6 +126,18 @@ struct SceneText {
     Rgb color{255, 255, 255};
 };
 
+// A line that is seen at any distance (scene_lines.h). It casts no shadow.
+struct SceneLine {
+    const SceneLineMesh* mesh = nullptr;
+    Pose room_from_line;
+    Rgb color;
+    // Surfaces hide it only where they are so much nearer to the eye, plus these metres a metre
+    // of distance: a measured surface's noise does not cut it.
+    double nearer_m = 0, nearer_per_distance = 0;
+    double hidden_opacity = 0;  // behind surfaces
+    std::optional<Cut> cut = std::nullopt;
+};
+
 // A lamp that lights a round place, brightest in its middle. It casts no shadows.
 struct Spotlight {
     Vec3 place, target;
@@ -138,17 +151,21 @@ enum class SceneQuality { low, high };
 struct SceneFrame {
     std::vector<SceneObject> objects;
     std::vector<SceneText> texts;
-    Vec3 to_light{0.3, 1, 0.2};    // a direction
-    double surroundings = 1;       // of the light from all around
-    double light = 2.2;            // of white light, beside the surroundings' 1
-    std::vector<Spotlight> spots;  // seen on high quality alone, the first two of them
+    std::vector<SceneLine> lines;    // before translucent surfaces
+    std::vector<SceneLabel> labels;  // after everything else
+    Vec3 to_light{0.3, 1, 0.2};      // a direction
+    double surroundings = 1;         // of the light from all around
+    double light = 2.2;              // of white light, beside the surroundings' 1
+    std::vector<Spotlight> spots;    // seen on high quality alone, the first two of them
     // All objects that cast shadows (the opaque ones that do, without the backdrop) lie in this
     // ball.
     Vec3 shadow_middle{0, 1, 0};
     double shadow_radius_m = 2.5;
     SceneQuality quality = SceneQuality::high;
 
-    bool empty() const { return objects.empty() && texts.empty(); }
+    bool empty() const {
+        return objects.empty() && texts.empty() && lines.empty() && labels.empty();
+    }
 };
 
 }  // namespace theatron::render

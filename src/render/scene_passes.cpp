@@ -9,6 +9,8 @@
 
 #include "render/environment.h"
 #include "render/gl_driver.h"
+#include "render/label_pass.h"
+#include "render/line_pass.h"
 #include "render/matrix.h"
 #include "render/scene_mesh.h"
 #include "render/text_pass.h"
@@ -153,7 +155,9 @@ struct ScenePasses::Parts {
     Texture scene_depth;
     Size scene_depth_size;
     Framebuffer scene_depth_target;
+    LinePass line;
     std::optional<TextPass> text;
+    LabelPass label;
 
     explicit Parts(const FontAtlas* atlas) {
         glActiveTexture(GL_TEXTURE0 + environment_unit);
@@ -336,6 +340,7 @@ BegunScenePrograms::BegunScenePrograms(SceneQuality quality)
     };
     shadow_files(begin);
     baked_files(begin);
+    line_files(begin);
     for (const Surface surface : {Surface::plain, Surface::textured, Surface::unlit})
         lit_files(quality == SceneQuality::high, surface, false, begin);
 }
@@ -350,8 +355,10 @@ ScenePasses::~ScenePasses() = default;
 ScenePasses::ScenePasses(ScenePasses&&) noexcept = default;
 ScenePasses& ScenePasses::operator=(ScenePasses&&) noexcept = default;
 
-void ScenePasses::prepare(const SceneFrame& frame) {
+void ScenePasses::prepare(const SceneFrame& frame, const CameraView& first, Size picture) {
     Parts& p = *parts_;
+    if (p.text)
+        p.label.place(frame.labels, *p.text, first, picture);
     p.make_shadow_map(frame.quality == SceneQuality::high ? 2048 : 1024);
     glActiveTexture(GL_TEXTURE0 + shadow_unit);
     glBindTexture(GL_TEXTURE_2D, 0);  // a texture that is drawn into must not be read
@@ -427,8 +434,11 @@ void ScenePasses::draw_translucent(const SceneFrame& frame, const CameraView& vi
         p.draw(picture, *side.object);
     }
     glDisable(GL_CULL_FACE);
-    if (p.text)
+    p.line.draw(frame.lines, view, target);
+    if (p.text) {
         p.text->draw(frame.texts, view);
+        p.label.draw(frame.labels, *p.text, view, target);
+    }
     glDisable(GL_BLEND);
     glDepthMask(GL_TRUE);
     glBindVertexArray(0);

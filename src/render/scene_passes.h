@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws a SceneFrame: shadows, lit opaque surfaces, texts, and translucent surfaces.
+// Draws a SceneFrame: shadows, lit opaque surfaces, translucent surfaces, lines, texts, labels.
 //
 // draw() of room_picture.h draws a picture with clouds in this order: prepare, then for each eye
 // draw_opaque, CloudSet::draw, draw_translucent.
@@ -40,12 +40,13 @@ public:
     ScenePasses(ScenePasses&&) noexcept;
     ScenePasses& operator=(ScenePasses&&) noexcept;
 
-    // Draws the maps that both eyes share: shadows. Changes framebuffer and viewport.
-    void prepare(const SceneFrame& frame);
+    // Draws and computes what both eyes share: shadows, and the places of labels, which are those
+    // of the first eye's picture. Changes framebuffer and viewport.
+    void prepare(const SceneFrame& frame, const CameraView& first, Size picture);
     void draw_opaque(const SceneFrame& frame, const CameraView& view, const DrawTarget& target);
     // Draws from back to front: the far sides of objects by their farthest, the near sides by their
     // nearest places, so that an object inside of another one is drawn between the other's sides.
-    // Correct for objects that do not intersect.
+    // Correct for objects that do not intersect. Lines, texts and labels follow.
     void draw_translucent(const SceneFrame& frame, const CameraView& view,
                           const DrawTarget& target);
 

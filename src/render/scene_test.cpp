@@ -40,7 +40,7 @@ protected:
         const RenderTarget target(size);
         target.clear({20, 22, 26});
         const CameraView view = view_towards({0.2, 1.1, 2.2}, {0, 0.3, 0}, 45, size);
-        passes.prepare(frame);
+        passes.prepare(frame, view, size);
         passes.draw_opaque(frame, view, target.target());
         passes.draw_translucent(frame, view, target.target());
         return target.read();

@@ -3,12 +3,13 @@
 
 #include "base/utf8.h"
 #include "render/glyphs.h"
-#include "render/matrix.h"
 
 namespace theatron::render {
 namespace {
 
 constexpr int atlas_unit = 2;
+// In place of a letter that the atlas lacks, in heights of a capital letter.
+constexpr double missing_width = 0.5;
 
 }  // namespace
 
@@ -32,49 +33,67 @@ TextPass::TextPass(const FontAtlas& atlas) : atlas_(atlas), size_(atlas.distance
     glBindVertexArray(0);
 }
 
-void TextPass::draw(const std::vector<SceneText>& texts, const CameraView& view) {
+const FontAtlas::Glyph* TextPass::glyph_of(char32_t letter) const {
+    auto known = atlas_.glyphs.find(letter);
+    if (known == atlas_.glyphs.end())
+        known = atlas_.glyphs.find(unknown_glyph);
+    return known == atlas_.glyphs.end() ? nullptr : &known->second;
+}
+
+double TextPass::length_of(std::string_view utf8) const {
+    double pixels = 0;
+    while (!utf8.empty()) {
+        const Utf8Character letter = first_character(utf8);
+        utf8.remove_prefix(letter.bytes);
+        const FontAtlas::Glyph* glyph = glyph_of(letter.code);
+        pixels += glyph ? glyph->advance : missing_width * atlas_.capital_height;
+    }
+    return pixels / atlas_.capital_height;
+}
+
+void TextPass::draw_line(std::string_view utf8, const Mat4& clip_from_text, double height,
+                         Rgb color) {
     program_.use();
     glActiveTexture(GL_TEXTURE0 + atlas_unit);
     glBindTexture(GL_TEXTURE_2D, distances_.name());
     glBindVertexArray(attributes_.name());
     glBindBuffer(GL_ARRAY_BUFFER, vertices_.name());
-    const Mat4 clip_from_room = projection(view) * matrix(inverse(view.room_from_eye));
-    for (const SceneText& text : texts) {
-        const double scale = text.height_m / atlas_.capital_height;
-        std::vector<float> corners;
-        double pen = 0;
-        std::string_view rest = text.utf8;
-        while (!rest.empty()) {
-            const Utf8Character letter = first_character(rest);
-            rest.remove_prefix(letter.bytes);
-            auto known = atlas_.glyphs.find(letter.code);
-            if (known == atlas_.glyphs.end())
-                known = atlas_.glyphs.find(unknown_glyph);
-            if (known == atlas_.glyphs.end()) {
-                pen += 0.5 * atlas_.capital_height;
-                continue;
-            }
-            const FontAtlas::Glyph& g = known->second;
-            for (const int corner : {0, 1, 2, 2, 1, 3}) {
-                const int right = corner & 1, low = corner >> 1;
-                corners.push_back(float((pen + g.left + right * g.width) * scale));
-                corners.push_back(float((-g.top + low * g.height) * scale));
-                corners.push_back(float(g.x + right * g.width) / float(size_.width));
-                corners.push_back(float(g.y + low * g.height) / float(size_.height));
-            }
-            pen += g.advance;
+    const double scale = height / atlas_.capital_height;
+    std::vector<float> corners;
+    double pen = 0;
+    while (!utf8.empty()) {
+        const Utf8Character letter = first_character(utf8);
+        utf8.remove_prefix(letter.bytes);
+        const FontAtlas::Glyph* glyph = glyph_of(letter.code);
+        if (!glyph) {
+            pen += missing_width * atlas_.capital_height;
+            continue;
         }
-        const Mat4 clip = clip_from_room * matrix(text.room_from_text);
-        float values[16];
-        for (std::size_t i = 0; i < 16; ++i)
-            values[i] = float(clip.m[i]);
-        glUniformMatrix4fv(program_.uniform("clip_from_text"), 1, GL_FALSE, values);
-        glUniform3f(program_.uniform("color"), float(text.color.r) / 255, float(text.color.g) / 255,
-                    float(text.color.b) / 255);
-        glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(corners.size() * sizeof(float)), corners.data(),
-                     GL_STREAM_DRAW);
-        glDrawArrays(GL_TRIANGLES, 0, GLsizei(corners.size() / 4));
+        const FontAtlas::Glyph& g = *glyph;
+        for (const int corner : {0, 1, 2, 2, 1, 3}) {
+            const int right = corner & 1, low = corner >> 1;
+            corners.push_back(float((pen + g.left + right * g.width) * scale));
+            corners.push_back(float((-g.top + low * g.height) * scale));
+            corners.push_back(float(g.x + right * g.width) / float(size_.width));
+            corners.push_back(float(g.y + low * g.height) / float(size_.height));
+        }
+        pen += g.advance;
     }
+    float values[16];
+    for (std::size_t i = 0; i < 16; ++i)
+        values[i] = float(clip_from_text.m[i]);
+    glUniformMatrix4fv(clip_from_text_, 1, GL_FALSE, values);
+    glUniform3f(color_, float(color.r) / 255, float(color.g) / 255, float(color.b) / 255);
+    glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(corners.size() * sizeof(float)), corners.data(),
+                 GL_STREAM_DRAW);
+    glDrawArrays(GL_TRIANGLES, 0, GLsizei(corners.size() / 4));
+}
+
+void TextPass::draw(const std::vector<SceneText>& texts, const CameraView& view) {
+    const Mat4 clip_from_room = projection(view) * matrix(inverse(view.room_from_eye));
+    for (const SceneText& text : texts)
+        draw_line(text.utf8, clip_from_room * matrix(text.room_from_text), text.height_m,
+                  text.color);
     glBindVertexArray(0);
 }
 

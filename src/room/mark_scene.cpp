@@ -4,29 +4,45 @@
 #include <algorithm>
 #include <utility>
 
-#include "room/facing.h"
-#include "room/mark_mesh.h"
+#include "room/mark_shape.h"
 #include "room/people.h"
 #include "room/srgb.h"
 
 namespace theatron::room {
 
 using session::Mark;
+using session::MarkedSurface;
+using session::MarkKind;
 using session::MarkPoint;
 
 namespace {
 
-// Labels have about the same size in the picture, within limits.
-constexpr double least_label_m = 0.006, largest_label_m = 0.05, label_per_distance = 0.018;
+// A line through an organ, where the organ hides it.
+constexpr double hidden_opacity = 0.35;
+
+// A measured surface has noise, which grows with its distance, and moves; others stand still.
+constexpr double before_cloud_m = 0.02, before_cloud_per_distance = 0.01;
+constexpr double before_organ_m = 0.004, before_organ_per_distance = 0.001;
+
+bool is_in_picture(Vec3 place, const render::CameraView& view) {
+    const Vec3 p = inverse(view.room_from_eye) * place;
+    return p.z > view.near_m && p.x > view.left * p.z && p.x < view.right * p.z &&
+           p.y > view.top * p.z && p.y < view.bottom * p.z;
+}
+
+render::LabelRank rank_of(MarkKind kind) {
+    return kind == MarkKind::distance ? render::LabelRank::number
+           : kind == MarkKind::pin    ? render::LabelRank::name
+                                      : render::LabelRank::author;
+}
 
 }  // namespace
 
 void MarkScene::add_to(render::SceneFrame& frame, const std::vector<PlacedMark>& marks,
                        const render::CameraView& view) {
-    std::map<Bytes, render::SceneMesh> before = std::exchange(meshes_, {});
-    const Vec3 eye = view.room_from_eye.translation;
+    std::map<Bytes, render::SceneLineMesh> before = std::exchange(meshes_, {});
     for (const PlacedMark& placed : marks) {
-        // Scaled points, but tubes and pins of the usual thickness.
+        // Scaled points, but lines and pins of the usual thickness.
         Mark mark = placed.mark;
         for (MarkPoint& point : mark.points)
             point.position = point.position * placed.scale;
@@ -36,24 +52,29 @@ void MarkScene::add_to(render::SceneFrame& frame, const std::vector<PlacedMark>&
             if (auto node = before.extract(key))
                 known = meshes_.insert(std::move(node)).position;
             else
-                known = meshes_.emplace(key, render::SceneMesh(make_mark_mesh(mark))).first;
+                known = meshes_.emplace(key, render::SceneLineMesh(mark_line(mark))).first;
         }
-        const Vec3 color = color_of(ParticipantId{mark.color});
-        frame.objects.push_back({&known->second,
-                                 placed.room_from_points,
-                                 {color, 0, 0.6},
-                                 false,
-                                 render::ObjectId::none,
-                                 1,
-                                 placed.cut});
+        const Rgb color = srgb_of(color_of(ParticipantId{mark.color}));
+        const bool is_measured = mark.surface == MarkedSurface::cloud;
+        frame.lines.push_back({&known->second, placed.room_from_points, color,
+                               is_measured ? before_cloud_m : before_organ_m,
+                               is_measured ? before_cloud_per_distance : before_organ_per_distance,
+                               mark.kind == MarkKind::distance ? hidden_opacity : 0, placed.cut});
 
-        const Vec3 at = placed.room_from_points * label_place(mark);
-        if (placed.cut && dot(placed.cut->normal, at) > placed.cut->distance_m)
-            continue;
-        const double height =
-            std::clamp(label_per_distance * length(at - eye), least_label_m, largest_label_m);
+        std::vector<Vec3> places;
+        for (const Vec3 in_frame : label_places(mark)) {
+            const Vec3 place = placed.room_from_points * in_frame;
+            if (!placed.cut || dot(placed.cut->normal, place) <= placed.cut->distance_m)
+                places.push_back(place);
+        }
         // The length in the organ, also where that is shown larger.
-        frame.texts.push_back({label_of(placed.mark), facing(at, eye), height, srgb_of(color)});
+        const std::string text = label_of(placed.mark);
+        if (places.empty() || text.empty())
+            continue;
+        const auto seen = std::find_if(places.begin(), places.end(),
+                                       [&](Vec3 place) { return is_in_picture(place, view); });
+        frame.labels.push_back(
+            {text, seen == places.end() ? places[0] : *seen, color, rank_of(mark.kind)});
     }
 }
 

@@ -22,13 +22,13 @@ struct PlacedMark {
 // Needs the GL context current in which its first marks were added.
 class MarkScene {
 public:
-    // Appends the marks; labels face the eye and have the same height in the picture at any
-    // distance, within bounds. Keeps the meshes of these marks for the next call and no others.
+    // Appends the marks as lines with labels. Keeps the meshes of these marks for the next call and
+    // no others.
     void add_to(render::SceneFrame& frame, const std::vector<PlacedMark>& marks,
                 const render::CameraView& view);
 
 private:
-    std::map<Bytes, render::SceneMesh> meshes_;  // by the marks' properties and scale
+    std::map<Bytes, render::SceneLineMesh> meshes_;  // by the marks' properties and scale
 };
 
 }  // namespace theatron::room

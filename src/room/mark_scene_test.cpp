@@ -75,20 +75,24 @@ TEST_F(MarkSceneTest, EveryMarkIsSeenOnItsSurfaceInItsAuthorsColor) {
     render::SceneFrame frame;
     frame.objects.push_back({&ball, place, {{0.5, 0.5, 0.5}}});
     scene.add_to(frame, marks(), view);
-    ASSERT_EQ(frame.texts.size(), 4u);
-    EXPECT_EQ(frame.texts[2].utf8, "1 AL");
-    EXPECT_NEAR(frame.texts[0].color.g, 180, 2);
-    frame.texts.clear();
+    ASSERT_EQ(frame.labels.size(), 4u);
+    EXPECT_EQ(frame.labels[2].utf8, "1 AL");
+    EXPECT_NEAR(frame.labels[0].color.g, 180, 2);
     render::ScenePasses passes(nullptr);
     const render::Picture picture = render::draw_and_read(&frame, {}, {view}, size, &passes);
     for (const std::uint8_t color : {1, 2, 3, 4})
         EXPECT_GT(pixels_of(picture, color), 60) << int(color);
 
-    // From behind, the ball hides what lies on it; the arrow and the pin stand out at its edge.
+    // From behind, the ball hides what lies on it; the arrow and the pin stand out at its edge, and
+    // a distance, which leads through the ball, shows faintly.
     const render::CameraView behind = render::view_towards({0, 1.25, -0.45}, {0, 1.2, 0}, 40, size);
+    render::SceneFrame without_distance = frame;
+    without_distance.lines.pop_back();
     const render::Picture back = render::draw_and_read(&frame, {}, {behind}, size, &passes);
     EXPECT_EQ(pixels_of(back, 1), 0);
-    EXPECT_EQ(pixels_of(back, 4), 0);
+    EXPECT_NE(back.color,
+              render::draw_and_read(&without_distance, {}, {behind}, size, &passes).color);
+    EXPECT_LT(pixels_of(back, 4), pixels_of(picture, 4));
 }
 
 TEST_F(MarkSceneTest, MeshesAreKeptWhileTheirMarksStay) {
@@ -97,9 +101,9 @@ TEST_F(MarkSceneTest, MeshesAreKeptWhileTheirMarksStay) {
     const auto meshes = [&] {
         render::SceneFrame frame;
         scene.add_to(frame, list, view);
-        std::vector<const render::SceneMesh::Buffers*> buffers;
-        for (const render::SceneObject& object : frame.objects)
-            buffers.push_back(&object.mesh->buffers());
+        std::vector<const render::SceneLineMesh::Buffers*> buffers;
+        for (const render::SceneLine& line : frame.lines)
+            buffers.push_back(&line.mesh->buffers());
         return buffers;
     };
     const auto first = meshes();
@@ -118,9 +122,41 @@ TEST_F(MarkSceneTest, ScaledOrgansHaveLongerMarksOfTheSameThicknessAndLength) {
     scene.add_to(small, list, view);
     list[0].scale = 2;
     scene.add_to(large, list, view);
-    EXPECT_EQ(small.texts[0].utf8, large.texts[0].utf8);
-    EXPECT_GT(length(large.texts[0].room_from_text.translation - place.translation),
-              1.5 * length(small.texts[0].room_from_text.translation - place.translation));
+    EXPECT_EQ(small.labels[0].utf8, large.labels[0].utf8);
+    EXPECT_GT(length(large.labels[0].place - place.translation),
+              1.5 * length(small.labels[0].place - place.translation));
+}
+
+TEST_F(MarkSceneTest, ALabelStandsWhereItsMarkIsSeenWhenTheMiddleIsOutOfThePicture) {
+    Mark distance;
+    distance.kind = MarkKind::distance;
+    distance.points = {{{0, 0, 0}, {0, 0, 1}}, {{2, 0, 0}, {0, 0, 1}}};
+    render::SceneFrame frame;
+    MarkScene().add_to(frame, {{distance, place, 1}}, view);
+    EXPECT_EQ(frame.labels.at(0).place, place.translation);
+}
+
+TEST_F(MarkSceneTest, NoiseOfAMeasuredSurfaceDoesNotCutALineOnIt) {
+    Mark stroke;
+    stroke.color = 1;
+    stroke.points = {{{-0.06, 0, 0}, {0, 0, 1}}, {{0.06, 0, 0}, {0, 0, 1}}};
+    render::SceneFrame frame;
+    MarkScene scene;
+    scene.add_to(frame, {{stroke, place, 1}}, view);
+    render::ScenePasses passes(nullptr);
+    const int alone = pixels_of(render::draw_and_read(&frame, {}, {view}, size, &passes), 1);
+    EXPECT_GT(alone, 300);
+    // Bumps of a centimetre, as a depth camera measures them two metres away; and a hand.
+    const render::SceneMesh bump(render::make_box_mesh({-0.01, -0.01, -0.01}, {0.01, 0.01, 0.01}));
+    for (const double x : {-0.04, 0.0, 0.04})
+        frame.objects.push_back(
+            {&bump, {{}, place.translation + Vec3{x, 0, 0}}, {{0.5, 0.5, 0.5}}});
+    const auto seen = [&] {
+        return pixels_of(render::draw_and_read(&frame, {}, {view}, size, &passes), 1);
+    };
+    EXPECT_EQ(seen(), alone);
+    frame.objects.push_back({&bump, {{}, place.translation + Vec3{0, 0, 0.08}}, {{0.5, 0.5, 0.5}}});
+    EXPECT_LT(seen(), alone - 50);
 }
 
 }  // namespace

@@ -1,54 +1,48 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "room/pointers.h"
 
-#include <algorithm>
-#include <cmath>
-
-#include "room/facing.h"
 #include "room/people.h"
+#include "room/srgb.h"
 
 namespace theatron::room {
 namespace {
 
 constexpr double ball_m = 0.01;  // of the mesh, scaled below
 constexpr double dots_apart_m = 0.04, dot_m = 0.004;
-constexpr double end_per_distance = 0.006, least_end_m = 0.006, largest_end_m = 0.02;
-constexpr double name_per_distance = 0.016, least_name_m = 0.012, largest_name_m = 0.05;
+// The dot at the end.
+constexpr double end_m = 0.006, end_half_widths = 3;
+// Tested so much nearer than it is, as marks are: the surface's noise does not cover it.
+constexpr double before_m = 0.02, before_per_distance = 0.01;
 
 }  // namespace
 
-Pointers::Pointers() : ball_(render::make_sphere_mesh(ball_m, 8)) {}
+Pointers::Pointers()
+    : ball_(render::make_sphere_mesh(ball_m, 8)),
+      end_({{{}, {}, end_m, end_m, end_half_widths, end_half_widths}}) {}
 
-void Pointers::add_to(render::SceneFrame& frame, const std::vector<Pointer>& pointers,
-                      const render::CameraView& view) const {
-    const Vec3 eye = view.room_from_eye.translation;
+void Pointers::add_to(render::SceneFrame& frame, const std::vector<Pointer>& pointers) const {
     for (const Pointer& pointer : pointers) {
         render::SurfaceLook look{color_of(pointer.id), 0, 0.6};
         look.unlit = true;
-        const auto add = [&](Vec3 place, double radius_m) {
-            frame.objects.push_back(
-                {&ball_, {{}, place}, look, false, render::ObjectId::none, radius_m / ball_m});
-        };
         const double reach = pointer.reach_m.value_or(free_reach_m);
         for (int i = 1; i * dots_apart_m < reach; ++i)
-            add(pointer.from + pointer.direction * (i * dots_apart_m), dot_m);
+            frame.objects.push_back({&ball_,
+                                     {{}, pointer.from + pointer.direction * (i * dots_apart_m)},
+                                     look,
+                                     false,
+                                     render::ObjectId::none,
+                                     dot_m / ball_m});
         if (!pointer.reach_m)
             continue;
-        const auto radius_at = [&](Vec3 place) {
-            return std::clamp(end_per_distance * length(place - eye), least_end_m, largest_end_m);
+        const Rgb color = srgb_of(look.base_color);
+        const auto add_end = [&](Vec3 place) {
+            frame.lines.push_back({&end_, {{}, place}, color, before_m, before_per_distance});
         };
         const Vec3 end = pointer.from + pointer.direction * reach;
-        const double distance = length(end - eye), radius = radius_at(end);
-        add(end, radius);
+        add_end(end);
         if (pointer.twin)
-            add(*pointer.twin, radius_at(*pointer.twin));
-        const double height =
-            std::clamp(name_per_distance * distance, least_name_m, largest_name_m);
-        const Pose place = facing(end, eye);
-        frame.texts.push_back({pointer.name,
-                               place * Pose{{}, {radius * 1.6, -radius * 1.2, -radius * 1.5}},
-                               height,
-                               {235, 240, 240}});
+            add_end(*pointer.twin);
+        frame.labels.push_back({pointer.name, end, color, render::LabelRank::name});
     }
 }
 

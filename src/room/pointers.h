@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "base/ids.h"
-#include "render/camera_view.h"
 #include "render/scene_frame.h"
 
 namespace theatron::room {
@@ -29,11 +28,11 @@ public:
     static constexpr double free_reach_m = 3;
 
     Pointers();
-    void add_to(render::SceneFrame& frame, const std::vector<Pointer>& pointers,
-                const render::CameraView& view) const;
+    void add_to(render::SceneFrame& frame, const std::vector<Pointer>& pointers) const;
 
 private:
     render::SceneMesh ball_;
+    render::SceneLineMesh end_;
 };
 
 }  // namespace theatron::room

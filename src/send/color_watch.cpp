@@ -32,11 +32,11 @@ std::string ColorWatch::reason() const {
     return reason_;
 }
 
-ColorLoad ColorWatch::measure(const std::vector<std::unique_ptr<CameraLane>>& lanes) {
+ColorLoad ColorWatch::measure(const std::vector<const CameraLane*>& lanes) {
     ColorLoad load;
     load.busy = machine_.since_last();
     double cores = 0;
-    for (const auto& lane : lanes) {
+    for (const CameraLane* lane : lanes) {
         const auto& info = lane->info();
         double picture_s = double(info.calibration.color.size.area()) * seconds_per_pixel;
         load.lost += lane->dropped_newest();
@@ -53,7 +53,7 @@ ColorLoad ColorWatch::measure(const std::vector<std::unique_ptr<CameraLane>>& la
     return load;
 }
 
-void ColorWatch::on_tick(const std::vector<std::unique_ptr<CameraLane>>& lanes, TimePoint now) {
+void ColorWatch::on_tick(const std::vector<const CameraLane*>& lanes, TimePoint now) {
     if (now - measured_ < measured_every)
         return;
     const bool first = measured_ == TimePoint{};

@@ -28,13 +28,13 @@ public:
         const;
 
     // From one thread, at any rate: measures and decides once a second. A change is logged.
-    void on_tick(const std::vector<std::unique_ptr<CameraLane>>& lanes, TimePoint now);
+    void on_tick(const std::vector<const CameraLane*>& lanes, TimePoint now);
 
     // The choice and why, one sentence. From any thread.
     std::string reason() const;
 
 private:
-    ColorLoad measure(const std::vector<std::unique_ptr<CameraLane>>& lanes);
+    ColorLoad measure(const std::vector<const CameraLane*>& lanes);
 
     const std::shared_ptr<AutoColor> is_h264_ = std::make_shared<AutoColor>(false);
     ColorChoice choice_;

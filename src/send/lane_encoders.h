@@ -114,7 +114,7 @@ private:
         LaneSetting setting;
         std::uint8_t codec = 0;
         bool at_once = true;  // only on the lane's thread
-        bool is_new = true;   // likewise: no picture was given to it
+        bool is_new = true;   // only on the lane's thread: no picture was given to it
 
         mutable std::mutex mutex;
         bool busy = false;

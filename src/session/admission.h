@@ -85,7 +85,7 @@ public:
         std::string name;                     // as shown, told apart from others
         std::string given_name;               // as the person gave it
         Bytes person;                         // as in wire::Join
-        std::uint64_t run = 0;                // likewise
+        std::uint64_t run = 0;                // as in wire::Join
         std::vector<wire::Feature> features;  // those of Join that hold here
         Role of_link = Role::expert, role = Role::expert;
         bool muted = false;

@@ -35,6 +35,8 @@ public:
         return cameras <= never_used() || (cameras - never_used() <= left_.size() &&
                                            is_rested(left_[cameras - never_used() - 1]));
     }
+    // The numbers below this one are given out by somebody else. Before the first take().
+    void keep(int below) { first_unused_ = std::max(first_unused_, below); }
     // Gives out next(0).
     CameraId take() {
         const CameraId taken = next(0);

@@ -14,7 +14,7 @@ using std::chrono::seconds;
 
 class Numbers : public ::testing::Test {
 protected:
-    // Cameras that come and go at once, until none has a number, or so many.
+    // Cameras that come and go at once, until none has a number, at most `most`.
     int come_and_go(int most) {
         int came = 0;
         for (; came < most && numbers_.has(1); ++came)
@@ -44,6 +44,13 @@ TEST_F(Numbers, AreAllUsedOnceBeforeOneIsUsedAgain) {
     ASSERT_TRUE(numbers_.has(3));
     EXPECT_EQ(numbers_.next(2), CameraId(2));
     EXPECT_EQ(numbers_.take(), CameraId(0));
+}
+
+TEST_F(Numbers, ThatAreKeptAreNotGivenOut) {
+    numbers_.keep(3);
+    EXPECT_TRUE(numbers_.was_given(CameraId(2)));
+    EXPECT_EQ(numbers_.next(1), CameraId(4));
+    EXPECT_EQ(numbers_.take(), CameraId(3));
 }
 
 TEST_F(Numbers, OfSeveralThatHaveRestedTheOneIsUsedThatLeftLongestAgo) {

@@ -3,12 +3,16 @@
 
 #include <cmath>
 #include <type_traits>
+#include <utility>
+
+#include "base/shown_name.h"
 
 namespace theatron::session {
 namespace {
 
 // A screen with a picture or a presenter has a tag of its own, which older programs leave out.
-constexpr std::uint8_t organ_tag = 1, part_tag = 2, screen_tag = 3, full_screen_tag = 4;
+constexpr std::uint8_t organ_tag = 1, part_tag = 2, screen_tag = 3, full_screen_tag = 4,
+                       name_tag = 6;  // 5: a shared screen
 constexpr std::uint16_t no_picture = 0xffff;
 constexpr double max_position_mm = 1e5, max_value = 1e9;
 // The screen's middle, seen from that of the organ.
@@ -16,6 +20,14 @@ constexpr Vec3 screen_from_organ{0.48, 0.12, -0.1};
 
 bool is_full(const CaseScreen& screen) {
     return screen.picture || screen.presenter != ParticipantId{};
+}
+
+std::uint8_t tag_of(const CaseObject& object) {
+    if (const auto* screen = std::get_if<CaseScreen>(&object))
+        return is_full(*screen) ? full_screen_tag : screen_tag;
+    if (std::holds_alternative<CaseName>(object))
+        return name_tag;
+    return std::holds_alternative<CaseOrgan>(object) ? organ_tag : part_tag;
 }
 
 std::optional<CaseObject> read(ByteView properties) {
@@ -67,6 +79,13 @@ std::optional<CaseObject> read(ByteView properties) {
             !(screen.width > 0 && screen.width <= max_value))
             return std::nullopt;
         object = screen;
+    } else if (tag == name_tag) {
+        const ByteView bytes = in.get_bytes(in.get<std::uint16_t>());
+        const std::string name(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+        // A name has one form, too.
+        if (name.empty() || clean_name(name, CaseName::max_characters) != name)
+            return std::nullopt;
+        object = CaseName{*id, name};
     }
     if (!in.ok() || !in.rest().empty())
         return std::nullopt;
@@ -78,9 +97,7 @@ std::optional<CaseObject> read(ByteView properties) {
 Bytes encode_case_object(const CaseObject& object) {
     Bytes bytes;
     ByteWriter out(bytes);
-    const auto* screen = std::get_if<CaseScreen>(&object);
-    out.put(
-        std::uint8_t(screen && is_full(*screen) ? full_screen_tag : organ_tag + object.index()));
+    out.put(tag_of(object));
     std::visit(
         [&](const auto& o) {
             using T = std::decay_t<decltype(o)>;
@@ -92,6 +109,9 @@ Bytes encode_case_object(const CaseObject& object) {
                 out.put(o.part);
                 out.put(std::uint8_t(o.shown));
                 out.put(o.opacity);
+            } else if constexpr (std::is_same_v<T, CaseName>) {
+                out.put(std::uint16_t(o.name.size()));
+                out.put_bytes(as_bytes(o.name));
             } else {
                 out.put(o.series);
                 out.put(o.orientation);
@@ -124,6 +144,8 @@ bool may_become(ObjectKind kind, ByteView before, ByteView after) {
         return std::visit([](const auto& o) { return o.of_case; }, object);
     };
     const auto* part = std::get_if<CasePart>(&*was);
+    if (std::holds_alternative<CaseName>(*was))
+        return *was == *will;
     return id(*was) == id(*will) && (!part || part->part == std::get<CasePart>(*will).part);
 }
 
@@ -138,7 +160,7 @@ std::optional<CaseInRoom> case_in_room(const RoomObjects& objects) {
     for (const auto& [id, object] : objects)
         if (const auto organ = decode_as<CaseOrgan>(object.kind, object.properties);
             organ && (!found || (is_recorded(found->organ_id) && !is_recorded(id))))
-            found = CaseInRoom{id, *organ, object, {}, std::nullopt};
+            found = CaseInRoom{id, *organ, object, {}, std::nullopt, {}};
     if (!found)
         return std::nullopt;
     for (const auto& [id, object] : objects) {
@@ -150,6 +172,9 @@ std::optional<CaseInRoom> case_in_room(const RoomObjects& objects) {
         if (const auto screen = decode_as<CaseScreen>(object.kind, object.properties);
             screen && screen->of_case == found->organ.of_case)
             found->screen = CaseInRoom::Screen{id, *screen, object};
+        if (auto named = decode_as<CaseName>(object.kind, object.properties);
+            named && named->of_case == found->organ.of_case)
+            found->name = std::move(named->name);
     }
     return found;
 }
@@ -181,6 +206,8 @@ std::vector<RoomObject> case_objects(const CaseFacts& facts, const Pose& place) 
     add(ObjectKind::organ, place, CaseOrgan{facts.id});
     for (std::size_t i = 0; i < facts.opacities.size() && i < CaseFacts::max_parts; ++i)
         add(ObjectKind::organ, {}, CasePart{facts.id, std::uint16_t(i), true, facts.opacities[i]});
+    if (const std::string name = clean_name(facts.name, CaseName::max_characters); !name.empty())
+        add(ObjectKind::organ, {}, CaseName{facts.id, name});
     if (facts.screen)
         add(ObjectKind::screen, place * Pose{{}, screen_from_organ}, *facts.screen);
     return objects;

@@ -48,7 +48,15 @@ struct CaseScreen {
     ParticipantId presenter{};
     bool operator==(const CaseScreen&) const = default;
 };
-using CaseObject = std::variant<CaseOrgan, CasePart, CaseScreen>;
+// ObjectKind::organ, too: the name that the case had when it was opened. Everybody sees it, so it
+// is never that of the patient. Rooms of version 0.1.0 have none, and its programs leave it out.
+struct CaseName {
+    static constexpr std::size_t max_characters = 64;
+    ContentHash of_case;
+    std::string name;
+    bool operator==(const CaseName&) const = default;
+};
+using CaseObject = std::variant<CaseOrgan, CasePart, CaseScreen, CaseName>;
 
 Bytes encode_case_object(const CaseObject& object);
 std::optional<CaseObject> decode_case_object(ObjectKind kind, ByteView properties);
@@ -60,7 +68,7 @@ std::optional<T> decode_as(ObjectKind kind, ByteView properties) {
 }
 
 // True if somebody may change the properties from `before` to `after`: the object stays the same
-// organ, part or screen of the same case.
+// organ, part or screen of the same case. The name stays as it is.
 bool may_become(ObjectKind kind, ByteView before, ByteView after);
 
 // True if a participant may change a screen so: everybody where nobody presents, else the presenter
@@ -84,6 +92,7 @@ struct CaseInRoom {
     RoomObject organ_object;
     std::vector<Part> parts;
     std::optional<Screen> screen;
+    std::string name;  // see CaseName; empty: the room has none
 
     const Part* find(ObjectId id) const;
 };

@@ -45,7 +45,7 @@ TEST_F(CaseInRoom, IsOpenedWholeForEverybody) {
     ASSERT_EQ(open(anna, liver(1), place), Refusal::none);
     for (const ParticipantId member : {anna, ben, observer}) {
         const RoomObjects all = of_case(member);
-        ASSERT_EQ(all.size(), 5u);
+        ASSERT_EQ(all.size(), 6u);
         const RoomObject& organ = all.begin()->second;
         EXPECT_TRUE(decode_as<CaseOrgan>(organ.kind, organ.properties));
         EXPECT_EQ(organ.room_from_object, place);
@@ -57,12 +57,46 @@ TEST_F(CaseInRoom, IsOpenedWholeForEverybody) {
     }
 }
 
+TEST_F(CaseInRoom, HasTheNameUnderWhichItWasOpened) {
+    CaseFacts second = liver(2);
+    second.name = "liver (2)";
+    host.set_cases({liver(1), second});
+    ASSERT_EQ(open(anna, second), Refusal::none);
+    EXPECT_EQ(case_in_room(members[observer].objects())->name, "liver (2)");
+    second.name = "another";
+    host.set_cases({second});
+    EXPECT_EQ(case_in_room(members[ben].objects())->name, "liver (2)") << "all agreed on this one";
+    ObjectId named{};
+    for (const auto& [id, object] : of_case(anna))
+        if (decode_as<CaseName>(object.kind, object.properties))
+            named = id;
+    EXPECT_EQ(
+        ask(anna,
+            request::SetProperties{named, encode_case_object(CaseName{second.id, "liver (1)"})}),
+        Refusal::malformed);
+    EXPECT_EQ(ask(anna, request::Remove{named}), Refusal::part_of_case);
+    EXPECT_EQ(case_in_room(members[ben].objects())->name, "liver (2)");
+}
+
+TEST_F(CaseInRoom, OfARoomWithoutNamesIsReadWithoutOne) {
+    ASSERT_EQ(open(anna, liver(1)), Refusal::none);
+    RoomObjects older = members[anna].objects();
+    std::erase_if(older, [](const auto& o) {
+        return decode_as<CaseName>(o.second.kind, o.second.properties).has_value();
+    });
+    const auto found = case_in_room(older);
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->name, "");
+    EXPECT_EQ(found->parts.size(), 3u);
+    EXPECT_TRUE(found->screen);
+}
+
 TEST_F(CaseInRoom, AnotherOneReplacesItEvenIfSomebodyHoldsIt) {
     ASSERT_EQ(open(anna, liver(1)), Refusal::none);
     ASSERT_EQ(ask(anna, request::Grab{organ()}), Refusal::none);
     ASSERT_EQ(open(ben, liver(2)), Refusal::none);
     const RoomObjects all = of_case(anna);
-    EXPECT_EQ(all.size(), 7u);
+    EXPECT_EQ(all.size(), 8u);
     for (const auto& [id, object] : all)
         EXPECT_EQ(object.grip, Grip{});
     EXPECT_EQ(hash_of(members[anna].objects()), hash_of(members[ben].objects()));
@@ -79,7 +113,7 @@ TEST_F(CaseInRoom, APartIsHiddenNotRemoved) {
     ASSERT_EQ(open(anna, liver(1)), Refusal::none);
     const ObjectId shell = std::next(of_case(anna).begin())->first;
     EXPECT_EQ(ask(anna, request::Remove{shell}), Refusal::part_of_case);
-    EXPECT_EQ(of_case(ben).size(), 5u);
+    EXPECT_EQ(of_case(ben).size(), 6u);
     EXPECT_EQ(
         ask(anna,
             request::SetProperties{shell, encode_case_object(CasePart{liver(1).id, 0, false, 90})}),
@@ -114,7 +148,7 @@ TEST_F(CaseInRoom, OnlyOfferedCasesAreOpenedAndOnlyByThoseWhoMay) {
     EXPECT_EQ(open(observer, liver(1)), Refusal::role);
     ASSERT_EQ(open(anna, liver(1)), Refusal::none);
     EXPECT_EQ(ask(observer, request::Remove{organ()}), Refusal::role);
-    EXPECT_EQ(of_case(anna).size(), 5u);
+    EXPECT_EQ(of_case(anna).size(), 6u);
 }
 
 TEST_F(CaseInRoom, SurvivesARestartOfTheHost) {
@@ -186,7 +220,8 @@ TEST(CaseObjects, AreReadAsTheyWereWrittenAndNothingElseIs) {
          {CaseObject(CaseOrgan{id, 12, true}), CaseObject(CasePart{id, 255, false, 7}),
           CaseObject(CaseScreen{id, 15, 2, -1234.5, 60, 1500}),
           CaseObject(CaseScreen{id, 15, 2, -1234.5, 60, 1500, 63}),
-          CaseObject(CaseScreen{id, 15, 2, -1234.5, 60, 1500, std::nullopt, ben})}) {
+          CaseObject(CaseScreen{id, 15, 2, -1234.5, 60, 1500, std::nullopt, ben}),
+          CaseObject(CaseName{id, "Leber (2)"})}) {
         const auto kind =
             std::holds_alternative<CaseScreen>(object) ? ObjectKind::screen : ObjectKind::organ;
         Bytes bytes = encode_case_object(object);
@@ -201,6 +236,9 @@ TEST(CaseObjects, AreReadAsTheyWereWrittenAndNothingElseIs) {
     }
     EXPECT_FALSE(
         decode_case_object(ObjectKind::organ, encode_case_object(CasePart{id, 256, true, 7})));
+    for (const char* unfit : {"", " liver", "li\nver", "\xff"})
+        EXPECT_FALSE(
+            decode_case_object(ObjectKind::organ, encode_case_object(CaseName{id, unfit})));
     CaseScreen screen{id};
     EXPECT_EQ(encode_case_object(screen)[0], std::byte(3)) << "as older programs have it";
     screen.picture = 64;

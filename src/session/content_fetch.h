@@ -31,7 +31,7 @@ public:
     struct Wanted {
         ContentHash hash;
         std::uint64_t size = 0;  // bytes, at least 1
-        bool exact = true;       // else at most so many
+        bool exact = true;       // else `size` is the most it may have
     };
     // All content that is wanted from now on, the most urgent first. Any other is forgotten.
     void want(std::vector<Wanted> wanted);

@@ -18,8 +18,8 @@ enum class Way : std::uint8_t { by_host, direct };
 
 class DirectArrivals {
 public:
-    // Without a direct frame for so long, or for so many periods of a slow camera, the stream does
-    // not come directly.
+    // Without a direct frame for `patience`, or for `patience_in_periods` of a slow camera, the
+    // stream does not come directly.
     static constexpr Duration patience = std::chrono::milliseconds(700);
     static constexpr int patience_in_periods = 3;
     // A frame that is older than the newest one is left out as long as that one is newer than this:

@@ -18,9 +18,9 @@ class DirectLoad {
 public:
     // Losses count and fade by this factor with each on_tick(), ten times a second.
     static constexpr double max_losses = 5, losses_kept = 0.98;
-    // From so many on, a receiver counts as one of several that are slow at once.
+    // Losses from which on a receiver counts as one of several that are slow at once.
     static constexpr double shared_losses = max_losses / 2;
-    // So does one that came at most so long ago: the others were not slow before.
+    // A receiver that came at most this long ago counts, too: the others were not slow before.
     static constexpr Duration trial = std::chrono::seconds(5);
     // A receiver that had to go may come again after this time, which doubles each time: if it
     // alone was slow, and if the link that it shares was full.

@@ -28,7 +28,15 @@ HostSession::HostSession(Config config)
       adjusting_(streams_, look_back_, actions_),
       renderers_(admission_, actions_),
       cases_(config_.patient_for, admission_, room_, actions_) {
-    shared_.add_own(config_.cameras);
+    std::vector<wire::Camera> own = config_.cameras;
+    int number = 0;
+    for (wire::Camera& camera : own) {
+        while (config_.absent.contains(CameraId(number)))
+            ++number;
+        camera.id = CameraId(number++);
+    }
+    shared_.keep_numbers(int(own.size() + config_.absent.size()));
+    shared_.add_own(std::move(own));
 }
 
 void HostSession::on_connected(ParticipantId id, TimePoint now, const std::string& address) {
@@ -119,6 +127,10 @@ void HostSession::carry_out(ParticipantId id, const wire::RequestContent& reques
         actions_.push_back(action::SendContent{id, hash, request.offset, request.count});
     else  // as of content that there is not
         send(id, wire::Content{request.hash, request.offset, 0, {}});
+}
+
+void HostSession::carry_out(ParticipantId id, const wire::AskPatient& question, TimePoint) {
+    cases_.tell_asked_patient(id, question.of_case);
 }
 
 void HostSession::carry_out(ParticipantId id, const wire::VoiceConsent& consent, TimePoint) {

@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,7 @@ public:
         std::string name;                   // of the room, shown to participants
         std::vector<wire::Camera> cameras;  // the host's own from the beginning; their numbers and
                                             // streams are given, from 0 on
+        std::set<CameraId> absent = {};     // numbers among them, of cameras that come later
         CheckCodec check_depth, check_color;
         SessionCameras::Config streams;
         RoomSnapshot room;          // from the previous run
@@ -129,6 +131,8 @@ public:
                                const std::string& by, TimePoint now) {
         return adjusting_.adjust(camera, adjustment, by, now);
     }
+    // One of Config::absent has come; its number is camera.id.
+    void add_camera(wire::Camera camera) { shared_.add_own({std::move(camera)}); }
     // See Streams.
     void set_calibration(CameraId camera, const Bytes& calibration) {
         streams_.set_calibration(camera, calibration);
@@ -210,6 +214,7 @@ private:
     void carry_out(ParticipantId id, const wire::Play& message, TimePoint now);
     void carry_out(ParticipantId id, const wire::LookBack& message, TimePoint now);
     void carry_out(ParticipantId id, const wire::OfferDirect& message, TimePoint now);
+    void carry_out(ParticipantId id, const wire::AskPatient& message, TimePoint now);
     void follow_paths();
     void carry_out_late(ParticipantId id, Participant& participant, TimePoint now);
     // `by`: the operator; 0: the person at the host's machine.

@@ -89,9 +89,9 @@ Bytes hello(std::uint8_t choice) {
                                           codecs[choice / 4 % 4]};
     wishes.delivery.target_latency_ms = choice % 32 < 16 ? 100 : 0;
     wishes.records = choice >= 200;
-    wishes.features = {wire::Feature::publish, wire::Feature::room,      wire::Feature::cases,
-                       wire::Feature::screens, wire::Feature::look_back, wire::Feature::patient,
-                       wire::Feature::direct};
+    wishes.features = {wire::Feature::publish, wire::Feature::room,        wire::Feature::cases,
+                       wire::Feature::screens, wire::Feature::look_back,   wire::Feature::patient,
+                       wire::Feature::direct,  wire::Feature::asks_patient};
     if (choice % 5 != 0)
         wishes.person = Bytes(wire::person_id_size, std::byte(choice % 7));
     wishes.run = choice % 3;
@@ -164,10 +164,10 @@ void check_screens(const HostSession& host) {
 
 wire::Patient patient_of(int number) {
     const session::CaseFacts facts = case_facts(number);
-    return {Bytes(facts.id.bytes.begin(), facts.id.bytes.end()), "Doe", "", ""};
+    return {Bytes(facts.id.bytes.begin(), facts.id.bytes.end()), "Doe", "", "", ""};
 }
 
-// A publisher sends directly only to so many receivers, and a recorder gets nothing directly.
+// The receivers to whom a publisher sends directly are bounded; a recorder gets nothing directly.
 void check_direct(const HostSession& host, const session::action::Send& send) {
     const auto* grants = std::get_if<wire::DirectGrants>(&send.message);
     const auto* receivers = std::get_if<wire::DirectReceivers>(&send.message);
@@ -186,6 +186,8 @@ void check_direct(const HostSession& host, const session::action::Send& send) {
 void check_sent(const HostSession& host, const session::action::Send& send) {
     const auto found = host.participants().find(send.participant);
     const auto* patient = std::get_if<wire::Patient>(&send.message);
+    if (const auto* answer = std::get_if<wire::AskedPatient>(&send.message))
+        patient = &answer->patient;
     if (patient && !patient->name.empty() && found != host.participants().end() &&
         (found->second.role != session::Role::operator_ || found->second.records))
         std::abort();
@@ -363,6 +365,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                                 now);
                 host.on_control(
                     id, wire::encode(wire::LookBack{choice, Duration(choice) * 300'000}), now);
+                host.on_control(id, wire::encode(wire::AskPatient{patient_of(choice % 3).of_case}),
+                                now);
                 break;
             }
             case 9:

@@ -30,18 +30,19 @@ public:
     // Cameras that are offered, by one link and by each person.
     static constexpr Limit offers{4, 128};
     static constexpr Limit own_offers{2, 40};
-    // Somebody who was here comes back for so long.
+    // Time for which somebody who was here may come back.
     static constexpr Duration remembered = std::chrono::minutes(10);
     // People of one link that are remembered.
     static constexpr std::size_t max_people = 1024;
-    // After a flood its person is kept out for so long, and the link has so many newcomers less.
+    // After a flood its person is kept out for `flood_pause`, and the link has `flood_cost`
+    // newcomers less.
     static constexpr Duration flood_pause = std::chrono::seconds(10);
     static constexpr double flood_cost = 10;
 
     enum class Answer : std::uint8_t { granted, too_often, after_flood };
     // The person comes by this link.
     Answer join(const std::string& link, const Bytes& person, TimePoint now);
-    // Offers so many cameras. False: too often.
+    // The person offers this number of cameras. False: too often.
     bool offer(const std::string& link, const Bytes& person, std::size_t cameras, TimePoint now);
     // Has sent far too many requests, for which its connection ends.
     void note_flood(const std::string& link, const Bytes& person, TimePoint now);

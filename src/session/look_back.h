@@ -51,7 +51,7 @@ public:
     struct Due {
         ParticipantId receiver{};
         wire::MediaHeader header;              // with the number of the past's setting
-        std::shared_ptr<const Bytes> message;  // likewise
+        std::shared_ptr<const Bytes> message;  // with that number, too
     };
     // The pictures that are to be sent now, in order.
     std::vector<Due> take_due(TimePoint now);

@@ -14,6 +14,37 @@ namespace {
 
 constexpr double normal_scale = 32767;
 
+bool is_letter(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+
+// "Dr.", "Prof", "Dipl.-Ing.", "med.": an abbreviation of more than one letter, unlike "J.R.".
+bool is_title(std::string_view word) {
+    constexpr std::string_view whole[] = {"Dr", "Prof", "Professor", "Doctor", "PD",
+                                          "Mr", "Mrs",  "Ms",        "Herr",   "Frau"};
+    if (std::find(std::begin(whole), std::end(whole), word) != std::end(whole))
+        return true;
+    if (word.empty() || word.back() != '.')
+        return false;
+    return std::adjacent_find(word.begin(), word.end(), [](char a, char b) {
+               return is_letter(a) && is_letter(b);
+           }) != word.end();
+}
+
+// The name from its first word that is no title; the last word stays in any case.
+std::string_view without_titles(std::string_view name) {
+    const auto begin_at = [&](std::size_t at) {
+        name.remove_prefix(std::min(name.find_first_not_of(' ', at), name.size()));
+    };
+    begin_at(0);
+    for (std::size_t end = name.find(' '); end != name.npos; end = name.find(' ')) {
+        if (name.find_first_not_of(' ', end) == name.npos || !is_title(name.substr(0, end)))
+            break;
+        begin_at(end);
+    }
+    return name;
+}
+
 bool has_right_count(MarkKind kind, std::size_t points) {
     switch (kind) {
         case MarkKind::stroke:
@@ -82,6 +113,22 @@ Span span_of(const std::vector<MarkPoint>& line, std::size_t begin, std::size_t 
         }
     }
     return span;
+}
+
+std::string first_letters(std::string_view name) {
+    std::string first, last;
+    bool at_start = true;
+    while (!name.empty()) {
+        const std::size_t size = character_length(name);
+        if (at_start && name[0] != ' ') {
+            last = name.substr(0, size);
+            if (first.empty())
+                first = std::exchange(last, "");
+        }
+        at_start = name[0] == ' ';
+        name.remove_prefix(size);
+    }
+    return first.empty() ? "?" : first + last;
 }
 
 }  // namespace
@@ -155,19 +202,11 @@ std::optional<Mark> decode_mark(ByteView properties) {
 }
 
 std::string initials_of(std::string_view name) {
-    std::string first, last;
-    bool at_start = true;
-    while (!name.empty()) {
-        const std::size_t size = character_length(name);
-        if (at_start && name[0] != ' ') {
-            last = name.substr(0, size);
-            if (first.empty())
-                first = std::exchange(last, "");
-        }
-        at_start = name[0] == ' ';
-        name.remove_prefix(size);
-    }
-    return first.empty() ? "?" : first + last;
+    return first_letters(without_titles(name));
+}
+
+bool may_be_initials_of(std::string_view name, std::string_view initials) {
+    return initials == initials_of(name) || initials == first_letters(name);
 }
 
 std::vector<MarkPoint> simplified(const std::vector<MarkPoint>& line, double tolerance_m,

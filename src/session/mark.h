@@ -59,8 +59,11 @@ constexpr std::uint8_t color_number(ParticipantId author) {
     return std::uint8_t(std::uint32_t(author) % mark_colors);
 }
 
-// The first letters of the first and the last word of a name, in UTF-8; "?" without any.
+// The first letters of the first and the last word of a name without its titles ("Dr.", "Prof."),
+// in UTF-8; "?" without any.
 std::string initials_of(std::string_view name);
+// True also for those in which a title counts as a word, as in programs of version 0.1.0.
+bool may_be_initials_of(std::string_view name, std::string_view initials);
 
 // A line with fewer points, at most `most` (2 or more). The ends stay, and the point that is
 // farthest from the line so far is kept next, until no point that was left out is farther than

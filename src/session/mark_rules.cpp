@@ -55,7 +55,7 @@ Refusal judge_new_mark(const RoomObjects& objects, ParticipantId author, std::st
     auto mark = decode_mark(request.properties);
     if (!mark || request.room_from_object != Pose{} || request.scale != 1)
         return Refusal::malformed;
-    if (mark->color != color_number(author) || mark->initials != initials_of(name))
+    if (mark->color != color_number(author) || !may_be_initials_of(name, mark->initials))
         return Refusal::of_another;
     if (!is_there(objects, *mark))
         return Refusal::no_such_object;

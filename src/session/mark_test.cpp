@@ -74,8 +74,17 @@ TEST(Mark, InitialsAreThoseOfTheFirstAndTheLastWord) {
     EXPECT_EQ(initials_of("Ada"), "A");
     EXPECT_EQ(initials_of("\u00d6zlem K\u00f6se"), "\u00d6K");
     EXPECT_EQ(initials_of(" "), "?");
+    EXPECT_EQ(initials_of("Dr. Eva Stone"), "ES");
+    EXPECT_EQ(initials_of("Prof. Dr. med. Ada Lovelace"), "AL");
+    EXPECT_EQ(initials_of(" Dr Eva  Stone"), "ES");
+    EXPECT_EQ(initials_of("J.R. Stone"), "JS");
+    EXPECT_EQ(initials_of("Dr. Stone"), "S");
+    EXPECT_EQ(initials_of("Dr. "), "D") << "nothing else is known";
     // Cut in the middle of a character.
     EXPECT_EQ(initials_of("\xc3"), "\xc3");
+    EXPECT_TRUE(may_be_initials_of("Dr. Eva Stone", "ES"));
+    EXPECT_TRUE(may_be_initials_of("Dr. Eva Stone", "DS")) << "a program of version 0.1.0";
+    EXPECT_FALSE(may_be_initials_of("Dr. Eva Stone", "E"));
 }
 
 std::vector<MarkPoint> circle(std::size_t count, double radius) {

@@ -57,23 +57,40 @@ bool OfferedCases::may_have(ParticipantId id, const ContentHash& content) const 
     });
 }
 
-void OfferedCases::tell_patient() {
-    const auto open = room_.open_case();
+bool OfferedCases::may_know(const Admission::Participant& person) const {
+    return may_know_patient(person.role) && !person.records &&
+           std::find(roles_.begin(), roles_.end(), person.role) != roles_.end();
+}
+
+wire::Patient OfferedCases::patient_of(const std::optional<ContentHash>& of_case) const {
     const auto found = std::find_if(patients_.begin(), patients_.end(), [&](const auto& patient) {
-        return open && to_content_hash(patient.of_case) == open;
+        return of_case && to_content_hash(patient.of_case) == of_case;
     });
-    const wire::Patient known = found == patients_.end() ? wire::Patient{} : *found;
+    return found == patients_.end() ? wire::Patient{} : *found;
+}
+
+void OfferedCases::tell_patient() {
+    const wire::Patient known = patient_of(room_.open_case());
     for (auto& [id, person] : admission_.participants()) {
         if (!person.takes_part() || !person.has(wire::Feature::patient))
             continue;
-        const bool may_know = may_know_patient(person.role) && !person.records &&
-                              std::find(roles_.begin(), roles_.end(), person.role) != roles_.end();
-        const wire::Patient now = may_know ? known : wire::Patient{};
+        const wire::Patient now = may_know(person) ? known : wire::Patient{};
         if (person.patient == now)
             continue;
         person.patient = now;
         actions_.push_back(action::Send{id, now});
     }
+}
+
+void OfferedCases::tell_asked_patient(ParticipantId id, const Bytes& of_case) {
+    const Admission::Participant& person = *admission_.find(id);
+    if (!person.has(wire::Feature::asks_patient))
+        return;
+    wire::Patient patient;
+    if (may_know(person))
+        patient = patient_of(to_content_hash(of_case));
+    patient.of_case = of_case;
+    actions_.push_back(action::Send{id, wire::AskedPatient{std::move(patient)}});
 }
 
 void OfferedCases::tell_again(ParticipantId id) {

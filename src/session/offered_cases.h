@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The cases that can be opened in a session, and the patient of the open one. Those who may open
 // cases are told of all and get the content of all; the others those of the case that the room
-// shows. The patient is told to those who may know it. Nobody else learns anything.
+// shows. The patient is told to those who may know it, of another case only when they ask. Nobody
+// else learns anything.
 //
 // A pure state machine; `admission`, `room` and `actions` must outlive it.
 #pragma once
 
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -33,12 +35,17 @@ public:
     void tell_changes();
     // The participant may not have got the newest messages.
     void tell_again(ParticipantId participant);
+    // Answers whose case this offered one is; without texts to a participant who may not know it.
+    void tell_asked_patient(ParticipantId participant, const Bytes& of_case);
     // The participant may have this content, as far as there is such content.
     bool may_have(ParticipantId participant, const ContentHash& content) const;
 
 private:
     void tell_cases();
     void tell_patient();
+    bool may_know(const Admission::Participant& person) const;
+    // Empty: not known.
+    wire::Patient patient_of(const std::optional<ContentHash>& of_case) const;
 
     const std::vector<Role> roles_;
     Admission& admission_;

@@ -23,7 +23,8 @@ CaseFacts case_of(std::uint8_t number) {
 
 wire::Patient patient_of(std::uint8_t number, const char* name) {
     const CaseFacts facts = case_of(number);
-    return {Bytes(facts.id.bytes.begin(), facts.id.bytes.end()), name, "1961-02-03", "AB-4711"};
+    return {Bytes(facts.id.bytes.begin(), facts.id.bytes.end()), name, "1961-02-03", "AB-4711",
+            "2026-03-01"};
 }
 
 class KnownPatient : public Host {
@@ -48,7 +49,8 @@ protected:
         hello.records = records;
         hello.features = {wire::Feature::room, wire::Feature::cases};
         if (shows_patient)
-            hello.features.push_back(wire::Feature::patient);
+            hello.features.insert(hello.features.end(),
+                                  {wire::Feature::patient, wire::Feature::asks_patient});
         tell(id, hello);
     }
     void tell(ParticipantId id, const wire::ToHost& message) {
@@ -59,6 +61,8 @@ protected:
         for (const auto& a : actions_of<action::Send>(all_->take_actions())) {
             if (const auto* patient = std::get_if<wire::Patient>(&a.message))
                 told[a.participant].push_back(patient->name);
+            if (const auto* answer = std::get_if<wire::AskedPatient>(&a.message))
+                answers[a.participant].push_back(answer->patient);
             const Bytes bytes = wire::encode(a.message);
             const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
             for (const std::string_view secret : secret_texts)
@@ -68,6 +72,12 @@ protected:
     }
     void ask(ParticipantId id, const Request& request) {
         tell(id, wire::RoomRequest{++number_, encode_request(request)});
+    }
+    static wire::Patient without_texts(std::uint8_t number) {
+        return {patient_of(number, "").of_case, {}, {}, {}, {}};
+    }
+    void ask_whose(ParticipantId id, std::uint8_t number) {
+        tell(id, wire::AskPatient{patient_of(number, "").of_case});
     }
     void open(ParticipantId by, std::uint8_t number) {
         ask(by, request::Create{
@@ -87,7 +97,8 @@ protected:
 
     std::optional<HostSession> all_;
     std::map<ParticipantId, Names> told;  // names in messages about the patient; "": withdrawn
-    std::set<ParticipantId> learned;      // any message to them had a text that identifies
+    std::map<ParticipantId, std::vector<wire::Patient>> answers;
+    std::set<ParticipantId> learned;  // any message to them had a text that identifies
 
 private:
     std::uint32_t number_ = 0;
@@ -159,6 +170,36 @@ TEST_F(KnownPatient, OfAReplayedCaseIsNotTold) {
     all_->set_cases({case_of(1)}, {patient_of(1, "Doe, Jane")});
     collect();
     EXPECT_TRUE(told.empty());
+}
+
+using Answers = std::vector<wire::Patient>;
+
+TEST_F(KnownPatient, OfACaseThatIsNotOpenIsToldToThoseWhoAskAndMayKnowIt) {
+    come(alice, "or");
+    come(bob, "secret");
+    come(carol, "see");
+    come(dave, "or", true, true);
+    EXPECT_TRUE(learned.empty()) << "nobody has asked";
+    for (const ParticipantId id : {alice, bob, carol, dave})
+        ask_whose(id, 2);
+    EXPECT_EQ(answers[alice], (Answers{patient_of(2, "Roe")}));
+    EXPECT_EQ(answers[bob], (Answers{without_texts(2)})) << "the question is answered all the same";
+    EXPECT_TRUE(answers[carol].empty()) << "an observer opens no case";
+    EXPECT_EQ(answers[dave], (Answers{without_texts(2)})) << "a recorder";
+    EXPECT_EQ(learned, std::set{alice});
+    EXPECT_TRUE(told.empty()) << "no case is open";
+    ask_whose(alice, 9);
+    EXPECT_EQ(answers[alice].back(), without_texts(9)) << "the host offers no such case";
+    set_role(alice, Role::expert);
+    ask_whose(alice, 1);
+    EXPECT_EQ(answers[alice].back(), without_texts(1));
+}
+
+TEST_F(KnownPatient, IsNoAnswerForAProgramThatDoesNotShowIt) {
+    come(alice, "or", false);
+    ask_whose(alice, 1);
+    EXPECT_TRUE(answers.empty());
+    EXPECT_TRUE(learned.empty());
 }
 
 struct PatientOfAll : KnownPatient {

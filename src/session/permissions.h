@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rights of roles, and the right that each message of a participant needs. The host checks
-// every message against these two tables.
+// The rights of roles. The host checks every message of a participant against this table and that
+// of the right that each kind of message needs (request_kinds.h).
 #pragma once
 
 #include "wire/control.h"
@@ -42,9 +42,7 @@ constexpr bool may_know_patient(Role role) {
     return role != Role::observer;
 }
 
-constexpr Right needed_right(const auto&) {
-    return Right::see;
-}
+// The rights of messages that depend on what they say; request_kinds.cpp has those of all.
 constexpr Right needed_right(wire::CameraFrame frame) {
     return frame == wire::CameraFrame::face ? Right::be_seen : Right::publish;
 }
@@ -55,29 +53,9 @@ inline Right needed_right(const wire::Publish& message) {
             return Right::publish;
     return message.cameras.empty() ? Right::publish : Right::be_seen;
 }
-// These concern the sender's own cameras only.
-constexpr Right needed_right(const wire::Unpublish&) {
-    return Right::be_seen;
-}
-constexpr Right needed_right(const wire::CameraState&) {
-    return Right::be_seen;
-}
-constexpr Right needed_right(const wire::OfferDirect&) {
-    return Right::publish;
-}
 // Number 0 asks for a snapshot.
 constexpr Right needed_right(const wire::RoomRequest& message) {
     return message.number == 0 ? Right::see : Right::handle;
-}
-constexpr Right needed_right(const wire::Manage&) {
-    return Right::manage;
-}
-
-constexpr Right needed_right(const wire::AdjustCamera&) {
-    return Right::adjust;
-}
-constexpr Right needed_right(const wire::Play&) {
-    return Right::play;
 }
 
 }  // namespace theatron::session

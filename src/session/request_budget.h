@@ -19,10 +19,10 @@ public:
     constexpr TokenBucket(double per_second, double most)
         : per_second_(per_second), most_(most), tokens_(most) {}
 
-    // Takes a token, or so many, if they are there. Time that runs backwards adds none.
+    // Takes this number of tokens if they are there. Time that runs backwards adds none.
     bool take(TimePoint now, double tokens = 1);
-    // Takes so many in any case: those that are missing must fill first. At most one bucket of them
-    // is missing.
+    // Takes this number in any case: those that are missing must fill first. At most one bucket of
+    // them is missing.
     void owe(double tokens, TimePoint now);
     // Sets another limit. A larger bucket gets its additional tokens at once.
     void set_limit(double per_second, double most);

@@ -28,6 +28,7 @@ struct KindOf {
     Kind operator()(const wire::Play&) const { return Kind::manage; }
     Kind operator()(const wire::LookBack&) const { return Kind::manage; }
     Kind operator()(const wire::OfferDirect&) const { return Kind::publish; }
+    Kind operator()(const wire::AskPatient&) const { return Kind::other; }
 };
 
 // One for each kind of message and no default: a forgotten one does not compile.
@@ -52,6 +53,8 @@ struct RightOf {
     Right operator()(const wire::Play&) const { return Right::play; }
     Right operator()(const wire::LookBack&) const { return Right::see; }
     Right operator()(const wire::OfferDirect&) const { return Right::publish; }
+    // Those who may open a case; what they are told is decided by OfferedCases.
+    Right operator()(const wire::AskPatient&) const { return Right::handle; }
 };
 
 template <class Message>

@@ -44,8 +44,12 @@ int SessionCameras::free_slot() const {
 CameraStreams& SessionCameras::add(ParticipantId publisher, wire::Camera camera,
                                    const std::string& publisher_name,
                                    const std::string& given_name) {
-    assert(has_numbers_for(1));
-    camera.id = camera_numbers_.take();
+    if (publisher == host_publisher) {
+        camera_numbers_.keep(int(camera.id) + 1);
+    } else {
+        assert(has_numbers_for(1));
+        camera.id = camera_numbers_.take();
+    }
     camera.depth_stream = depth_stream(camera.id);
     camera.color_stream = color_stream(camera.id);
     camera.publisher = publisher;

@@ -35,9 +35,12 @@ public:
 
     // Gives a camera its number and its streams. A camera without a place
     // in the room is put beside the others. One that was adjusted before is so again.
-    // `publisher_name` and `given_name`: see CameraStreams. Needs has_numbers_for() it.
+    // `publisher_name` and `given_name`: see CameraStreams. Needs has_numbers_for() it. The host's
+    // own have their numbers already.
     CameraStreams& add(ParticipantId publisher, wire::Camera camera,
                        const std::string& publisher_name, const std::string& given_name);
+    // The numbers below this one are those of the host's own cameras. Before the first is added.
+    void keep_numbers(int below) { camera_numbers_.keep(below); }
     // An unknown camera is skipped.
     void remove(CameraId camera) {
         if (cameras_.erase(camera) > 0)

@@ -22,6 +22,7 @@ void SharedCameras::add_own(std::vector<wire::Camera> cameras) {
     streams_.add(host_publisher, std::move(cameras));
     for (const PlacedScreen& screen : screens)
         room_.add_screen(screen.camera, screen.offer, screen.chosen);
+    set_budgets();
 }
 
 void SharedCameras::publish(ParticipantId id, const wire::Publish& offer) {
@@ -92,7 +93,9 @@ std::vector<SharedCameras::PlacedScreen> SharedCameras::place_screens(
         cameras[i].calibration = encode_calibration(
             screen_calibration(calibration->color.size, place.width_m, place.room_from_screen));
         places.push_back(chosen);
-        screens.push_back({streams_.cameras().next_id(i), std::move(one), chosen});
+        const CameraId id =
+            which == Placing::only_unplaced ? cameras[i].id : streams_.cameras().next_id(i);
+        screens.push_back({id, std::move(one), chosen});
     }
     return screens;
 }

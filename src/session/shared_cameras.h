@@ -36,8 +36,10 @@ public:
           direct_(direct),
           actions_(actions) {}
 
-    // The host's own, at the beginning. Screens of a recording, and those at a place that the
-    // host's person chose, stay where they are.
+    // The numbers below this one are those of the host's own cameras. Before the first is added.
+    void keep_numbers(int below) { streams_.keep_numbers(below); }
+    // The host's own, which have their numbers, at the beginning or later. Screens of a recording,
+    // and those at a place that the host's person chose, stay where they are.
     void add_own(std::vector<wire::Camera> cameras);
     // Answers the offer of a participant.
     void publish(ParticipantId id, const wire::Publish& offer);

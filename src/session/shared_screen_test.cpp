@@ -248,7 +248,7 @@ TEST_F(ScreensInRoom, SourcesOfTheSameNamesHaveEachItsOwnPlaceAlsoAfterARestart)
         for (const CameraId camera : {scope, other, third}) {
             const RoomObjects objects = room.snapshot().objects;
             const RoomObject& screen = objects.at(*find_screen(objects, camera, ""));
-            EXPECT_NEAR(screen.room_from_object.translation.y, 1.6, 1e-9) << "a place of before";
+            EXPECT_NEAR(screen.room_from_object.translation.y, 1.6, 1e-9) << "an earlier place";
             widths.push_back(screen.scale);
         }
         return widths;

@@ -53,6 +53,8 @@ public:
     void add(ParticipantId publisher, std::vector<wire::Camera> cameras,
              const std::string& publisher_name = "",
              const std::vector<std::string>& given_names = {});
+    // As in SessionCameras.
+    void keep_numbers(int below) { cameras_.keep_numbers(below); }
     // Unknown cameras are skipped.
     void remove(const std::vector<CameraId>& cameras);
     const SessionCameras& cameras() const { return cameras_; }
@@ -81,7 +83,8 @@ public:
                 const std::vector<CameraId>& cameras);
     void set_goal(ParticipantId receiver, const wire::ChooseDelivery& goal);
     // The receiver is shown the past of exactly these cameras (look_back.h): it gets nothing of
-    // their present, and no settings. Those of before that are not among them it gets anew.
+    // their present, and no settings. The cameras of an earlier call that are not among them it
+    // gets anew.
     void look_back(ParticipantId receiver, std::set<CameraId> cameras);
     // Numbers for settings of the past.
     SettingId take_number() { return numbers_.take(); }

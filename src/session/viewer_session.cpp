@@ -34,7 +34,7 @@ Bytes ViewerSession::begin() {
     goodbye_ = {};
     standing_ = {};
     playback_.reset();
-    patient_ = {};
+    patient_ = asked_patient_ = {};
     visitors_.clear();
     direct_grants_.clear();
     direct_receivers_ = {};
@@ -170,6 +170,10 @@ ViewerSession::Change ViewerSession::on_people(wire::ToParticipant message) {
     if (auto* patient = std::get_if<wire::Patient>(&message)) {
         patient_ = std::move(*patient);
         return Change::patient;
+    }
+    if (auto* answer = std::get_if<wire::AskedPatient>(&message)) {
+        asked_patient_ = std::move(answer->patient);
+        return Change::asked_patient;
     }
     if (auto* grants = std::get_if<wire::DirectGrants>(&message)) {
         direct_grants_ = std::move(grants->grants);

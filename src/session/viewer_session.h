@@ -57,7 +57,8 @@ public:
         content,     // content(): a piece of what this participant has asked for
         playback,    // playback(): where the recording is that the host plays
         patient,     // patient(): who the patient of the open case is
-        direct,      // direct_grants(): the publishers that this participant may connect to
+        asked_patient,     // asked_patient(): the answer to wire::AskPatient
+        direct,            // direct_grants(): the publishers that this participant may connect to
         direct_receivers,  // direct_receivers(): who may connect to this participant
         goodbye,           // goodbye() says why: the session is over, the connection will end
     };
@@ -112,6 +113,8 @@ public:
     // Empty: not known, or this participant may not know it. To be shown to this person alone, and
     // kept nowhere else.
     const wire::Patient& patient() const { return patient_; }
+    // The newest answer, without texts if this participant may not know them; as patient().
+    const wire::Patient& asked_patient() const { return asked_patient_; }
     const std::vector<wire::DirectGrant>& direct_grants() const { return direct_grants_; }
     const wire::DirectReceivers& direct_receivers() const { return direct_receivers_; }
     const Wishes& wishes() const { return wishes_; }
@@ -148,7 +151,7 @@ private:
     std::vector<wire::OfferedCase> offered_cases_;
     wire::Content content_;
     std::optional<wire::Playback> playback_;
-    wire::Patient patient_;
+    wire::Patient patient_, asked_patient_;
     std::vector<wire::DirectGrant> direct_grants_;
     wire::DirectReceivers direct_receivers_;
 };

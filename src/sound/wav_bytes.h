@@ -12,7 +12,7 @@ namespace theatron::sound {
 
 inline constexpr std::size_t wav_head_size = 44;
 
-// The head of a file with so many bytes of samples.
+// The head of a file with `data_size` bytes of samples.
 Bytes wav_head(std::uint32_t data_size, int channels = 1);
 Bytes wav_bytes(std::span<const std::int16_t> samples);
 // A program that writes WAV to a pipe cannot go back to state the size: where a file states 0

@@ -41,7 +41,7 @@ constexpr std::uint16_t luma_r = 19595, luma_g = 38470, luma_b = 7471;
 static_assert(luma_r + luma_g + luma_b == 1 << 16);
 constexpr std::uint16_t luma_rounding = 128 + 1;
 
-// Chroma likewise; the largest factor of each is one half.
+// The same for chroma; the largest factor of each is one half.
 constexpr std::uint16_t cb_r = 11058, cb_g = 21710, cr_g = 27439, cr_b = 5329;
 static_assert(cb_r + cb_g == 1 << 15 && cr_g + cr_b == 1 << 15);
 constexpr std::uint16_t chroma_rounding = 128 - 1;

@@ -9,6 +9,9 @@ namespace theatron::viewer {
 
 // An older picture is marked as trouble.
 inline constexpr double old_picture_ms = 500;
+// A younger one is not told in the room: its figures would change all the time over what people
+// look at.
+inline constexpr double least_told_ms = 1000;
 
 // "85 ms", "12 s", "3 min".
 std::string age_text(double ms);

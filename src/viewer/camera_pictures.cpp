@@ -12,7 +12,7 @@ namespace {
 constexpr double range_step_m = 0.25;
 // Shares of the measured pixels that may be nearer or farther than the range.
 constexpr double left_out = 0.02;
-// About so many columns of the image are read for the range.
+// Columns of the image that are read for the range, about.
 constexpr int sampled_columns = 160;
 
 constexpr std::array<Rgb, 5> stops{

@@ -57,8 +57,8 @@ public:
     };
 
     // The pictures of a frame, at most `width` wide. `number` is the frame's: with the same one and
-    // width the pictures are the ones of before. `color` may be empty: then the last one stays.
-    // A range becomes only wider, so that colours keep their meaning.
+    // width the pictures are those of the previous call. `color` may be empty: then the last one
+    // stays. A range becomes only wider, so that colours keep their meaning.
     const Pictures& of(CameraId camera, std::uint64_t number, const Calibration& calibration,
                        DepthView depth, std::shared_ptr<const ColorImage> color, int width);
 

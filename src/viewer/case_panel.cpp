@@ -30,18 +30,48 @@ std::string state_of(const CasePanelFacts& facts) {
                                         megabytes(content->progress.all));
 }
 
+void add_text(std::string& all, Phrase what, const std::string& text) {
+    if (!text.empty())
+        all += (all.empty() ? "" : ", ") + say(what, text);
+}
+
+bool is_known(const wire::Patient& patient) {
+    return !patient.name.empty() || !patient.birth_date.empty() || !patient.id.empty();
+}
+
 // The panel is over the picture of this person alone, and in no saved picture.
 xr::PanelRow patient_row(const wire::Patient& patient) {
     std::string detail;
-    const auto add = [&](Phrase what, const std::string& text) {
-        if (!text.empty())
-            detail += (detail.empty() ? "" : ", ") + say(what, text);
-    };
-    add(Phrase::born, patient.birth_date);
-    add(Phrase::patient_number, patient.id);
+    add_text(detail, Phrase::born, patient.birth_date);
+    add_text(detail, Phrase::patient_number, patient.id);
+    add_text(detail, Phrase::images_of, patient.study_date);
     return {patient.name.empty() ? say(Phrase::patient) : say(Phrase::patient_named, patient.name),
             detail,
             {}};
+}
+
+// "Open the case of Doe, Jane, born 1961-02-03, images of 2026-03-01?"
+std::string question_of(const AskedCase& asked, const std::string& name) {
+    const wire::Patient& patient = asked.patient;
+    if (!is_known(patient))
+        return say(Phrase::open_case_named, name);
+    std::string who = patient.name;
+    if (who.empty())
+        add_text(who, Phrase::patient_number, patient.id);
+    add_text(who, Phrase::born, patient.birth_date);
+    add_text(who, Phrase::images_of, patient.study_date);
+    return say(Phrase::open_case_of, who);
+}
+
+std::string detail_of(const AskedCase& asked, const std::string& name) {
+    if (!asked.is_answered)
+        return say(Phrase::patient_is_asked);
+    if (!is_known(asked.patient))
+        return say(Phrase::patient_not_known);
+    std::string detail = name;
+    if (!asked.patient.name.empty())
+        add_text(detail, Phrase::patient_number, asked.patient.id);
+    return detail;
 }
 
 // The name of a window of medical/window.h, in the person's language if it is known here.
@@ -166,18 +196,29 @@ void add_screen(const CasePanelFacts& facts, Builder& add) {
     add.row("", "", {half, windows.end()});
 }
 
+// "Cancel" is where "Open" was: a double click opens nothing.
+void add_question(const AskedCase& asked, const std::string& name, Builder& add) {
+    std::vector<xr::PanelButton> buttons;
+    if (asked.is_answered)
+        buttons.push_back(add.button(say(Phrase::open), OpenOffered{asked.offered}));
+    buttons.push_back(add.button(say(Phrase::cancel), LeaveClosed{}));
+    add.row(question_of(asked, name), detail_of(asked, name), std::move(buttons));
+}
+
 }  // namespace
 
 void add_case_panel(const CasePanelFacts& facts, RoomPanel& panel) {
     Builder add(panel);
     if (facts.room) {
         const bool known = facts.content && facts.content->description;
-        add.row(known ? facts.content->description->name : say(Phrase::a_case), state_of(facts),
+        add.row(known                      ? facts.content->description->name
+                : facts.room->name.empty() ? say(Phrase::a_case)
+                                           : facts.room->name,
+                state_of(facts),
                 {add.action(Phrase::life_size, [](Participant& p) { return set_scale(p, 1); }),
                  add.action(Phrase::close, close_case)});
-        if (const wire::Patient& patient = facts.patient;
-            !patient.name.empty() || !patient.birth_date.empty() || !patient.id.empty())
-            add.row(patient_row(patient));
+        if (is_known(facts.patient))
+            add.row(patient_row(facts.patient));
         const bool is_apart = facts.room->organ.explosion != 0, cut = facts.room->organ.cut;
         std::vector<xr::PanelButton> buttons{
             add.action(is_apart ? Phrase::closer : Phrase::apart,
@@ -194,8 +235,11 @@ void add_case_panel(const CasePanelFacts& facts, RoomPanel& panel) {
         const auto hash = to_content_hash(offered.hash);
         if (!hash || (facts.room && facts.room->organ.of_case == *hash))
             continue;
-        add.row(offered.name, megabytes(offered.bytes),
-                {add.button(say(Phrase::open), OpenOffered{*hash})});
+        if (facts.asked && facts.asked->offered == *hash)
+            add_question(*facts.asked, offered.name, add);
+        else
+            add.row(offered.name, megabytes(offered.bytes),
+                    {add.button(say(Phrase::open), AskToOpen{*hash})});
     }
     if (!facts.room && facts.offered.empty())
         add.row(say(Phrase::no_case), "", {});

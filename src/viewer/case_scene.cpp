@@ -10,7 +10,7 @@
 namespace theatron::viewer {
 namespace {
 
-// Parts that are farthest apart are drawn so many times as far from the middle.
+// How many times as far from the middle parts that are farthest apart are drawn.
 constexpr double farthest = 1.6;
 constexpr double tissue_roughness = 0.4;
 
@@ -36,6 +36,10 @@ bool CaseScene::take(const client::Participant& participant, const session::Room
     if (!newest || !content_ || newest->id != content_->id)
         drawn_.clear();
     content_ = std::move(newest);
+    // All texts show the name on which the room has agreed: that of the content is the same for
+    // two cases of one name.
+    if (room_ && description() && content_->id == room_->organ.of_case && !room_->name.empty())
+        content_->description->name = room_->name;
     if (const medical::SharedCase* about = description())
         for (std::size_t i = 0; i < content_->meshes.size(); ++i) {
             const auto& mesh = content_->meshes[i];

@@ -24,7 +24,8 @@ public:
 
     void add_to(render::SceneFrame& frame, const render::CameraView& view);
 
-    // The open case, as the room has it, and its content; nullopt and null without a case.
+    // The open case, as the room has it, and its content, which is described under the name that
+    // the case has in the room; nullopt and null without a case.
     const std::optional<session::CaseInRoom>& in_room() const { return room_; }
     const client::OpenCase* content() const { return content_ ? &*content_ : nullptr; }
     // The place where a part or the organ is drawn, and its pose in the room's state for such a

@@ -99,7 +99,7 @@ TEST(CasePanel, OffersCasesThatAreNotOpen) {
     ASSERT_EQ(panel.panels.size(), 1u);
     ASSERT_EQ(panel.panels[0].rows.size(), 2u);
     EXPECT_EQ(panel.panels[0].rows[1].detail, "48 MB");
-    const auto& open = std::get<OpenOffered>(
+    const auto& open = std::get<AskToOpen>(
         panel.commands[std::size_t(panel.panels[0].rows[1].buttons[0].command)]);
     EXPECT_EQ(open.offered, *to_content_hash(second));
 
@@ -108,6 +108,40 @@ TEST(CasePanel, OffersCasesThatAreNotOpen) {
     add_case_panel(facts, with_open);
     const auto& rows = with_open.panels[0].rows;
     EXPECT_EQ(rows.back().text, "One") << "Two is open";
+}
+
+TEST(CasePanel, AsksWhetherItIsTheRightPatientBeforeACaseIsOpened) {
+    CasePanelFacts facts;
+    facts.offered = {{Bytes(32), "Liver (2)", 2'000'000}};
+    const auto row = [&](std::vector<RoomCommand>& commands) {
+        RoomPanel panel;
+        add_case_panel(facts, panel);
+        commands = panel.commands;
+        return panel.panels.at(0).rows.at(0);
+    };
+    std::vector<RoomCommand> commands;
+    facts.asked = AskedCase{*to_content_hash(Bytes(32)), false, {}};
+    EXPECT_EQ(row(commands).text, "Open the case Liver (2)?");
+    ASSERT_EQ(commands.size(), 1u) << "it cannot be opened before it is known whose it is";
+    EXPECT_TRUE(std::holds_alternative<LeaveClosed>(commands[0]));
+
+    facts.asked->is_answered = true;
+    EXPECT_EQ(row(commands).detail, "whose case it is, you are not told");
+    ASSERT_EQ(commands.size(), 2u);
+    EXPECT_EQ(std::get<OpenOffered>(commands[0]).offered, facts.asked->offered);
+    EXPECT_TRUE(std::holds_alternative<LeaveClosed>(commands[1]))
+        << "the second click of two is where Open was";
+
+    facts.asked->patient = {Bytes(32), "Miller, Ann", "1961-04-02", "AB-4711", "2026-03-01"};
+    const xr::PanelRow known = row(commands);
+    EXPECT_EQ(known.text, "Open the case of Miller, Ann, born 1961-04-02, images of 2026-03-01?");
+    EXPECT_EQ(known.detail, "Liver (2), number AB-4711");
+    facts.asked->patient = {Bytes(32), "", "1961-04-02", "AB-4711", ""};
+    EXPECT_EQ(row(commands).text, "Open the case of number AB-4711, born 1961-04-02?");
+
+    facts.asked->offered.bytes[0] = std::byte(1);
+    EXPECT_EQ(row(commands).text, "Liver (2)") << "another one is asked about";
+    EXPECT_TRUE(std::holds_alternative<AskToOpen>(commands.at(0)));
 }
 
 TEST(CasePanel, ShowsPicturesSeriesAndThePresenter) {
@@ -153,9 +187,10 @@ TEST(CasePanel, NamesThePatientOfTheOpenCaseWhereItIsKnown) {
         return row.text + "; " + row.detail;
     };
     EXPECT_EQ(second_row(), "Parts; ");
-    facts.patient = {Bytes(32), "Doe, Jane", "1961-02-03", "AB-4711"};
-    EXPECT_EQ(second_row(), "Patient: Doe, Jane; born 1961-02-03, number AB-4711");
-    facts.patient = {Bytes(32), "", "", "AB-4711"};
+    facts.patient = {Bytes(32), "Doe, Jane", "1961-02-03", "AB-4711", "2026-03-01"};
+    EXPECT_EQ(second_row(),
+              "Patient: Doe, Jane; born 1961-02-03, number AB-4711, images of 2026-03-01");
+    facts.patient = {Bytes(32), "", "", "AB-4711", ""};
     EXPECT_EQ(second_row(), "Patient; number AB-4711");
     facts.room = nullptr;
     RoomPanel closed;

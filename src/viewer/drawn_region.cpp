@@ -15,7 +15,7 @@ constexpr int cells = 48;
 // Points that lie so much behind the nearest one of their cell are another surface.
 constexpr double behind_m = 0.1, behind_share = 0.05;
 
-struct Seen {
+struct RegionSight {
     int x = 0, y = 0;  // of the depth picture
     int cell = 0;
     double distance_m = 0;
@@ -37,7 +37,7 @@ std::optional<session::PictureBox> drawn_region(const ViewRectangle& rectangle,
         return std::nullopt;
     const auto rays = make_ray_table(calibration.depth);
     const Pose eye_from_camera = inverse(view.room_from_eye) * calibration.room_from_camera;
-    std::vector<Seen> seen;
+    std::vector<RegionSight> seen;
     std::vector<double> nearest(std::size_t(cells * cells), view.far_m);
     for (int y = 0; y < camera.depth.size.height; ++y)
         for (int x = 0; x < camera.depth.size.width; ++x) {
@@ -60,7 +60,7 @@ std::optional<session::PictureBox> drawn_region(const ViewRectangle& rectangle,
             nearest[std::size_t(cell)] = std::min(nearest[std::size_t(cell)], at.z);
         }
     int count = 0, x0 = camera.depth.size.width, y0 = camera.depth.size.height, x1 = 0, y1 = 0;
-    for (const Seen& point : seen) {
+    for (const RegionSight& point : seen) {
         const double front = nearest[std::size_t(point.cell)];
         if (point.distance_m > front + std::max(behind_m, behind_share * front))
             continue;

@@ -9,7 +9,7 @@
 namespace theatron::viewer {
 namespace {
 
-constexpr ParticipantId anna{2};
+constexpr ParticipantId face_owner{2};
 constexpr CameraId face{7};
 
 TEST(FaceOpacity, IsWholeWhileFreshAndFadesToNothing) {
@@ -24,7 +24,7 @@ class FacePicturesTest : public ::testing::Test {
 protected:
     FacePicturesTest() {
         render::test_context();
-        faces.set_camera(anna, face, screen_calibration(size, 0.3, {}));
+        faces.set_camera(face_owner, face, screen_calibration(size, 0.3, {}));
     }
     static receive::CameraFrame frame(TimePoint captured, Size of = size) {
         receive::CameraFrame frame;
@@ -47,18 +47,18 @@ TEST_F(FacePicturesTest, APersonWithoutAPictureHasTheDrawnFace) {
 TEST_F(FacePicturesTest, APictureIsOfItsPersonUntilItStandsStill) {
     faces.take(frame(begin), begin);
     EXPECT_TRUE(faces.note(begin));
-    ASSERT_TRUE(faces.pictures().contains(anna));
-    EXPECT_EQ(faces.pictures().at(anna).opacity, 1);
-    EXPECT_EQ(faces.pictures().at(anna).age, "");
+    ASSERT_TRUE(faces.pictures().contains(face_owner));
+    EXPECT_EQ(faces.pictures().at(face_owner).opacity, 1);
+    EXPECT_EQ(faces.pictures().at(face_owner).age, "");
     EXPECT_FALSE(faces.note(begin + 1s)) << "nothing to draw again";
     EXPECT_TRUE(faces.note(begin + 2s));
-    EXPECT_NEAR(faces.pictures().at(anna).opacity, 2.0 / 3, 1e-9);
-    EXPECT_EQ(faces.pictures().at(anna).age, "picture stands still for 2 s");
+    EXPECT_NEAR(faces.pictures().at(face_owner).opacity, 2.0 / 3, 1e-9);
+    EXPECT_EQ(faces.pictures().at(face_owner).age, "picture stands still for 2 s");
     EXPECT_TRUE(faces.note(begin + 4s));
     EXPECT_TRUE(faces.pictures().empty());
     faces.take(frame(begin + 4s), begin + 4s);
     EXPECT_TRUE(faces.note(begin + 4s));
-    EXPECT_EQ(faces.pictures().at(anna).opacity, 1) << "it goes on";
+    EXPECT_EQ(faces.pictures().at(face_owner).opacity, 1) << "it goes on";
 }
 
 TEST_F(FacePicturesTest, APictureOfTheFutureFadesAsWell) {

@@ -4,11 +4,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
+#include <utility>
 
 #include "viewer/age_text.h"
+#include "viewer/picture_dot.h"
+#include "viewer/still_cover.h"
 #include "viewer/trust_panel.h"
 #include "wire/condition_text.h"
 #include "wire/sentence.h"
+#include "xr/drawing_watch.h"
 
 namespace theatron::viewer {
 namespace {
@@ -213,9 +218,22 @@ std::vector<xr::Fact> line_of(const Facts& facts, const std::string& address,
     return line;
 }
 
+// Over a picture that no longer shows the present, although it is not marked as not live. In other
+// phases the message is there.
+std::string cover_of(const Facts& facts) {
+    if (facts.received.status.phase != client::Participant::Phase::joined || !facts.has_picture ||
+        !facts.past.empty() || facts.frozen)
+        return {};
+    constexpr TimePoint now{};  // the ages are those of the figures
+    if (const auto still = all_still(shown_cameras(facts.received.cameras, now), now))
+        return still_text(still);
+    if (facts.played.empty() && facts.age_ms && *facts.age_ms >= to_ms(xr::still_after))
+        return say(Phrase::this_picture_is_old, age_text(*facts.age_ms));
+    return {};
+}
+
 // Warnings about conditions that the picture itself does not show.
 std::string warning_of(const Facts& facts) {
-    constexpr double repeated_ms = 2000;
     // In other phases the message says it.
     if (facts.received.status.phase != client::Participant::Phase::joined || !facts.has_picture)
         return {};
@@ -224,7 +242,7 @@ std::string warning_of(const Facts& facts) {
     if (facts.frozen)
         return facts.age_ms ? say(Phrase::frozen_and_old, age_text(*facts.age_ms))
                             : say(Phrase::frozen_by_you);
-    if (facts.age_ms && *facts.age_ms >= repeated_ms)
+    if (facts.age_ms && *facts.age_ms >= to_ms(xr::still_after))
         return say(Phrase::this_picture_is_old, age_text(*facts.age_ms));
     if (const std::string text = not_live_text(facts.received); !text.empty())
         return text;
@@ -259,13 +277,48 @@ Message message_of(const Facts& facts, const std::string& address) {
             return {say(Phrase::waits_at_door), say(Phrase::room_decides)};
         case client::Participant::Phase::lost:
             return {say(status.joins > 0 ? Phrase::lost_connection : Phrase::no_connection_yet),
-                    with_age(status.problem)};
+                    with_age(status.joins > 0 ? say(Phrase::comes_back_by_itself, status.problem)
+                                              : status.problem)};
         case client::Participant::Phase::refused:
             return {say(Phrase::host_refuses), with_key()};
         case client::Participant::Phase::ended:
             return {say(Phrase::session_is_over), with_age(with_key())};
     }
     return {};
+}
+
+// A window with a bar shows little else unless asked: the dot and the offers say it.
+void make_calm(const Facts& facts, xr::OverlayContent& content) {
+    const auto& status = facts.received.status;
+    const bool is_slow = drawing_is_slow(facts);
+    DotFacts dot;
+    dot.phase = status.phase;
+    dot.has_picture = facts.has_picture;
+    dot.age_ms = facts.age_ms;
+    dot.is_of_another_time = facts.frozen || !facts.past.empty() || !facts.played.empty();
+    dot.is_missing_a_camera = !not_live_text(facts.received).empty();
+    dot.is_late = is_slow || status.delivery.level > 0;
+    dot.unrest = facts.unrest;
+    content.tools = facts.tools;
+    const int command = content.tools->dot.command;
+    content.tools->dot = picture_dot(dot);
+    content.tools->dot.command = command;
+    for (const Phrase slow : {Phrase::slow_press_m, Phrase::slow_not_connection})
+        if (content.warning == say(slow))
+            content.tools->dot.hint = std::exchange(content.warning, "");
+    if (content.message.empty() && !facts.help)
+        content.offers = facts.offers;
+    // The offer to return to the present begins with the same words.
+    if (!facts.past.empty() && !facts.frozen && !content.offers.empty())
+        content.warning.clear();
+    const Phrase said_elsewhere[] = {
+        Phrase::age_of_picture, Phrase::at_the_door, Phrase::drawn,     Phrase::sent,
+        Phrase::depth_fact,     Phrase::microphone,  Phrase::connection};
+    if (!facts.line)
+        std::erase_if(content.facts, [&](const xr::Fact& fact) {
+            return std::any_of(std::begin(said_elsewhere), std::end(said_elsewhere),
+                               [&](Phrase label) { return fact.label == say(label); });
+        });
 }
 
 }  // namespace
@@ -280,7 +333,9 @@ xr::OverlayContent overlay_of(const Facts& facts, const std::string& address,
     const Message message = message_of(facts, address);
     content.message = message.text;
     content.detail = message.detail;
-    content.warning = warning_of(facts);
+    content.cover = cover_of(facts);
+    if (content.cover.empty())
+        content.warning = warning_of(facts);
     if (message.text.empty())
         content.notice = facts.notice;
     content.help = facts.help;
@@ -293,6 +348,8 @@ xr::OverlayContent overlay_of(const Facts& facts, const std::string& address,
         if (facts.trust)
             content.panels.push_back(trust_panel(facts.received, filter_name));
     }
+    if (facts.tools)
+        make_calm(facts, content);
     return content;
 }
 

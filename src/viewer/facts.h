@@ -41,6 +41,11 @@ struct Facts {
     // The recording that the host plays and where it is (playing.h); else empty.
     std::string played = {};
     bool trust = false;  // the panel of trust_panel.h is shown, too
+    // A window with a bar of buttons has these; overlay_of() then says in the dot and in offers
+    // what it would say in facts and warnings.
+    std::optional<xr::ToolBar> tools = {};
+    std::vector<xr::PanelRow> offers = {};  // notices with buttons
+    std::size_t unrest = 0;                 // CameraUnrest::count()
 };
 
 // `address` is shown until the host's name is known. `filter_name` turns a filter's spelling into

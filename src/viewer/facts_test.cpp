@@ -56,7 +56,7 @@ TEST(Overlay, IsGermanForAGerman) {
     facts.received.status.standing.role = wire::Role::operator_;
     facts.received.cameras[0].camera.state.problem = {wire::TextCode::camera_covered};
     const xr::OverlayContent content = overlay(facts);
-    EXPECT_EQ(content.warning, "Dieses Bild ist 12 s alt");
+    EXPECT_EQ(content.cover, "Dieses Bild ist 12 s alt");
     EXPECT_EQ(fact(content, "Gastgeber").value, "OR 3");
     EXPECT_EQ(fact(content, "Sie").value, "Sitzungsleitung");
     EXPECT_EQ(fact(content, "Kameras").value, "1 live");
@@ -73,6 +73,26 @@ TEST(Overlay, SaysAboveAllThatThePictureIsOfThePast) {
     EXPECT_TRUE(fact(overlay(facts), "Cameras").warning);
     facts.frozen = true;
     EXPECT_THAT(overlay(facts).warning, HasSubstr("NOT LIVE: 23 s ago, frozen"));
+}
+
+TEST(Overlay, CoversAPictureThatStandsStillUnlessItIsMarked) {
+    Facts facts = healthy();
+    facts.received.cameras[0].depth.age_now_ms = 1900;
+    EXPECT_EQ(overlay(facts).cover, "");
+    facts.received.cameras[0].depth.age_now_ms = 5100;
+    EXPECT_EQ(overlay(facts).cover, "No picture for 5 s");
+    EXPECT_EQ(overlay(facts).warning, "") << "which would say it again";
+    facts.frozen = true;
+    EXPECT_EQ(overlay(facts).cover, "");
+    facts.frozen = false;
+    facts.past = "NOT LIVE: 23 s ago";
+    EXPECT_EQ(overlay(facts).cover, "");
+    facts.past = {};
+    facts.received.status.phase = Phase::lost;
+    EXPECT_EQ(overlay(facts).cover, "") << "the message is there";
+    facts.received.status.phase = Phase::joined;
+    facts.received.cameras.push_back(healthy().received.cameras[0]);
+    EXPECT_EQ(overlay(facts).cover, "") << "another camera is live";
 }
 
 TEST(Overlay, ARecordingThatTheHostPlaysIsNeverLive) {
@@ -149,7 +169,7 @@ TEST(Overlay, SaysNothingOfPicturesWhereThereAreNoCameras) {
     EXPECT_TRUE(fact(overlay(facts), "Sent").warning);
     facts.received.cameras.clear();
     for (const xr::Fact& shown : overlay(facts).facts)
-        for (const char* label : {"Sent", "Received", "Dropped", "Depth", "Colour", "Filter"})
+        for (const char* label : {"Sent", "Received", "Left out", "Depth", "Colour", "Filter"})
             EXPECT_NE(shown.label, label);
 }
 
@@ -187,7 +207,7 @@ TEST(Overlay, WarnsOfAnOldPictureFirst) {
     Facts facts = healthy();
     facts.age_ms = 3500;
     facts.drawn_per_second = 0;
-    EXPECT_EQ(overlay(facts).warning, "This picture is 3 s old");
+    EXPECT_EQ(overlay(facts).cover, "This picture is 3 s old");
 }
 
 TEST(Overlay, NamesEachCondition) {
@@ -209,7 +229,9 @@ TEST(Overlay, TellsWhyThereIsNoConnection) {
     facts.age_ms = 7000;
     const xr::OverlayContent content = overlay(facts);
     EXPECT_EQ(content.message, "Connection lost, trying again…");
-    EXPECT_EQ(content.detail, "This picture is 7 s old. The host closed the connection.");
+    EXPECT_EQ(content.detail,
+              "This picture is 7 s old. The host closed the connection. The picture comes back by "
+              "itself as soon as the host answers.");
     EXPECT_EQ(content.warning, "");
 }
 

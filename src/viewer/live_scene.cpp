@@ -10,8 +10,10 @@
 #include "phrases/phrase.h"
 #include "room/facing.h"
 #include "session/room_object.h"
+#include "session/whose_camera.h"
 #include "viewer/age_text.h"
 #include "viewer/looking_back.h"
+#include "viewer/still_cover.h"
 #include "wire/condition_text.h"
 #include "xr/font.h"
 
@@ -233,7 +235,7 @@ void LiveScene::update_room(const std::vector<client::Participant::Camera>& came
     for (const auto& camera : cameras) {
         if (person_of(camera) || is_screen(camera.calibration) || is_face(camera))
             continue;
-        std::string label = camera.description.name;
+        std::string label = session::whose_camera(camera.description, meeting_.room().objects);
         if (camera.state.condition != wire::CameraCondition::live)
             label += std::string(" (") + text_of(camera.state.condition) + ")";
         marks.push_back({std::move(label), camera.calibration});
@@ -275,7 +277,7 @@ std::vector<ColoredPoint> LiveScene::points() const {
 }
 
 // Others point at the present: what their rays meet is not in a picture of the past.
-void LiveScene::add_pointers(const render::CameraView& view) {
+void LiveScene::add_pointers() {
     const bool is_present = !past_moment();
     for (const room::RoomPerson& person : meeting_.people())
         if (is_present && person.points && !person.is_stale)
@@ -301,7 +303,7 @@ void LiveScene::add_pointers(const render::CameraView& view) {
     }
     if (!drawn_pointers_)
         drawn_pointers_ = std::make_unique<room::Pointers>();
-    drawn_pointers_->add_to(frame_, pointers_, view);
+    drawn_pointers_->add_to(frame_, pointers_);
 }
 
 void LiveScene::add_headset_text(const render::CameraView& view) {
@@ -314,6 +316,28 @@ void LiveScene::add_headset_text(const render::CameraView& view) {
                             view.room_from_eye * Pose{{}, {-half_width, below_m, ahead_m}},
                             height_m,
                             {255, 220, 150}});
+}
+
+// Nearer than the clouds, so that none hides it.
+void LiveScene::add_cover(const render::CameraView& view) {
+    if (!shows_cover_ || cover_.empty() || real_room_)
+        return;
+    constexpr double ahead_m = 0.5, width_m = 0.5, plate_height_m = 0.1, letters_m = 0.03;
+    constexpr double before_m = 0.002;
+    if (!plate_)
+        plate_ =
+            std::make_unique<render::SceneMesh>(render::make_panel_mesh(width_m, plate_height_m));
+    render::SurfaceLook look{{0.02, 0.02, 0.02}, 0, 0.6};
+    look.unlit = true;
+    render::SceneObject plate{plate_.get(), view.room_from_eye * Pose{{}, {0, 0, ahead_m}}, look};
+    plate.casts_shadow = false;
+    frame_.objects.push_back(plate);
+    const double half_width = 0.5 * letters_m * letter_width * double(cover_.size());
+    frame_.texts.push_back(
+        {cover_,
+         view.room_from_eye * Pose{{}, {-half_width, letters_m / 2, ahead_m - before_m}},
+         letters_m,
+         {255, 190, 70}});
 }
 
 // As large as the virtual room's table (furniture/table.cpp), with a mark at the patient's head.
@@ -346,6 +370,8 @@ const std::vector<room::Pointer>& LiveScene::pointers(const render::CameraView& 
 const render::SceneFrame* LiveScene::scene_for(const render::CameraView& view) {
     frame_.objects.clear();
     frame_.texts.clear();
+    frame_.lines.clear();
+    frame_.labels.clear();
     pointers_.clear();
     if (choice_.in_steps && !passes_)
         return nullptr;
@@ -358,16 +384,19 @@ const render::SceneFrame* LiveScene::scene_for(const render::CameraView& view) {
             room_.add_to(frame_, view);
         meeting_.set_faces(faces_.pictures());
         meeting_.add_to(frame_, view);
-        add_pointers(view);
+        add_pointers();
         if (menu_)
             menu_->add_to(frame_, chosen_row_);
         if (shows_table_)
             add_table_outline();
         if (!real_room_)
             add_ages(view);
-        if (!choice_.has_texts)
+        if (!choice_.has_texts) {
             frame_.texts.clear();
+            frame_.labels.clear();
+        }
         add_headset_text(view);
+        add_cover(view);
     }
     if (frame_.empty())
         return nullptr;
@@ -444,9 +473,9 @@ bool LiveScene::note_ages(const client::Participant& participant) {
     if (participant.status().clock_known)
         for (const auto& [id, frame] : newest_) {
             const bool is_live = shows_present(id) && !left_out_.contains(id);
-            if (!shows_ages_ && is_live)
-                continue;
             const double ms = to_ms(participant.now() - frame->times.captured);
+            if (is_live && (!shows_ages_ || ms < least_told_ms))
+                continue;
             const auto known = before.find(id);
             std::string age = left_out_.contains(id)
                                   ? say(Phrase::not_drawn_age, age_text(std::max(ms, 0.0)))
@@ -485,9 +514,14 @@ bool LiveScene::fade(const client::Participant& participant, TimePoint now) {
     if (now - judged_at_ >= judge_every) {
         judged_at_ = now;
         live_.clear();
-        for (const auto& one : client::figures_of(participant).cameras)
+        const client::ParticipantFigures figures = client::figures_of(participant);
+        for (const client::CameraFigures& one : figures.cameras)
             live_[one.camera.description.id] =
-                one.camera.state.condition == wire::CameraCondition::live;
+                one.camera.state.condition == wire::CameraCondition::live &&
+                !stands_still(shown_camera(one, now), now);
+        const auto still =
+            past_moment() ? std::nullopt : all_still(shown_cameras(figures.cameras, now), now);
+        changed = std::exchange(cover_, still_text(still)) != cover_ || changed;
         changed = note_ages(participant) || changed;
     }
     for (const auto& [id, live] : live_) {

@@ -100,6 +100,9 @@ public:
     }
     // A line below the middle of the view, for a person with a headset; may be empty.
     void set_headset_text(std::string text) { headset_text_ = std::move(text); }
+    // A plate before the eyes says so while all cameras stand still (still_cover.h), or not: with a
+    // headset, where no overlay is.
+    void set_cover_shown(bool shown) { shows_cover_ = shown; }
     // The place of the operating table, while a person shows where the real one is.
     void set_table_outline(bool shown) { shows_table_ = shown; }
     // The rays of all people who point, with the surfaces that they meet in the newest pictures.
@@ -146,9 +149,10 @@ private:
     std::vector<render::DrawnClouds> clouds(const std::string& renderer);
     void cut_people(const std::vector<client::Participant::Camera>& cameras);
     void update_room(const std::vector<client::Participant::Camera>& cameras);
-    void add_pointers(const render::CameraView& view);
+    void add_pointers();
     void add_table_outline();
     void add_headset_text(const render::CameraView& view);
+    void add_cover(const render::CameraView& view);
     void add_ages(const render::CameraView& view);
     bool note_ages(const client::Participant& participant);
     void leave_out_other_moments(const client::Participant& participant);
@@ -175,6 +179,9 @@ private:
     const WristMenu* menu_ = nullptr;
     std::optional<std::size_t> chosen_row_;
     std::string headset_text_;
+    bool shows_cover_ = false;
+    std::string cover_;                         // as judged last; empty: none
+    std::unique_ptr<render::SceneMesh> plate_;  // made for the first cover
     bool shows_table_ = false;
     std::unique_ptr<render::SceneMesh> table_;        // made for the first outline
     std::unique_ptr<room::Pointers> drawn_pointers_;  // made for the first one
@@ -189,7 +196,7 @@ private:
     TimePoint faded_at_, judged_at_;
     std::map<CameraId, bool> live_;  // as judged last
     bool shows_ages_ = false;
-    std::map<CameraId, std::string> ages_;  // likewise
+    std::map<CameraId, std::string> ages_;  // as judged last
     std::map<CameraId, Calibration> calibrations_;
     std::map<CameraId, Origin> origins_;  // also of cameras that see their publisher
     std::map<CameraId, receive::CameraFramePtr> newest_;

@@ -101,8 +101,11 @@ bool Meeting::take(const client::Participant& participant) {
     for (room::RoomPerson& person : people) {
         person.has_cloud = clouds_.contains(person.id);
         const auto pose = poses.find(person.id);
-        if (pose != poses.end() && (shows_ages_ || person.is_stale))
-            person.age = seen_age(to_ms(now - pose->second.time), !person.is_stale);
+        if (pose == poses.end())
+            continue;
+        const double age_ms = to_ms(now - pose->second.time);
+        if (person.is_stale || (shows_ages_ && age_ms >= least_told_ms))
+            person.age = seen_age(age_ms, !person.is_stale);
     }
     changed =
         changed || !std::equal(people.begin(), people.end(), people_.begin(), people_.end(), same);

@@ -11,6 +11,7 @@
 #include "phrases/phrase.h"
 #include "room/mesh_parts.h"
 #include "room/organ_mesh.h"
+#include "viewer/slice_texts.h"
 
 namespace theatron::viewer {
 namespace {
@@ -22,8 +23,6 @@ using render::SurfaceLook;
 constexpr double before_m = 0.003;
 constexpr double letter_m = 0.02, fact_m = 0.013, letter_width = 0.75;
 constexpr Rgb ink{255, 220, 90};
-constexpr Phrase orientation_names[] = {Phrase::slice_axial, Phrase::slice_coronal,
-                                        Phrase::slice_sagittal};
 
 // Objects have y up and their front towards z; pictures have y down and z away from the reader.
 const Pose object_from_picture{Quat{0, 1, 0, 0}, {}};
@@ -109,6 +108,7 @@ void Monitor::take(const std::optional<session::CaseInRoom>& room,
         wanted_->picture.reset();
         volume = content->volumes[wanted_->series];
         series_ = content->description->series[wanted_->series].name;
+        case_name_ = content->description->name;
     }
     wants_picture_ = known && room->screen->facts.picture.value_or(pictures_) < pictures_;
     if (wants_picture_) {
@@ -222,7 +222,8 @@ void Monitor::add_slice_facts(render::SceneFrame& frame, const session::RoomObje
     const auto width = [](const std::string& text) {
         return double(text.size()) * letter_m * letter_width;
     };
-    const medical::EdgeLetters letters = medical::edge_letters(plane_);
+    const SliceTexts texts = slice_texts(plane_, *shown_, case_name_, series_);
+    const medical::EdgeLetters& letters = texts.letters;
     facts.write(letters.left, -half.x + 0.01, letter_m / 2, letter_m);
     facts.write(letters.right, half.x - 0.01 - width(letters.right), letter_m / 2, letter_m);
     facts.write(letters.top, -width(letters.top) / 2, -half.y + 0.01 + letter_m, letter_m);
@@ -232,14 +233,9 @@ void Monitor::add_slice_facts(render::SceneFrame& frame, const session::RoomObje
     char text[120];
     std::snprintf(text, sizeof(text), "%g mm", ruler.length_mm);
     facts.write(text, -half.x + 0.02, half.y - 0.026, fact_m);
-    const auto written = [&](const char* format, double value) {
-        std::snprintf(text, sizeof(text), format, value);
-        return std::string(text);
-    };
-    facts.write(say(Phrase::slice_facts, series_, say(orientation_names[shown_->orientation]),
-                    written("%.1f", shown_->position_mm), written("%.0f", shown_->center),
-                    written("%.0f", shown_->width)),
-                -half.x + 0.01, half.y + 0.6 * bar_m, fact_m);
+    facts.write(texts.case_name + "  " + texts.series, -half.x + 0.01, half.y + 0.42 * bar_m,
+                fact_m);
+    facts.write(texts.plane + "  " + texts.window, -half.x + 0.01, half.y + 0.86 * bar_m, fact_m);
 }
 
 void Monitor::add_picture_facts(render::SceneFrame& frame,

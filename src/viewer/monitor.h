@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The screen of the open case: a slice of its images with letters of directions and a scale bar, in
-// the room and as a plane inside of the organ; or a picture of the case, on the screen alone.
+// The screen of the open case: a slice of its images with letters of directions, a scale bar, the
+// case's name, its place and its window, in the room and as a plane inside of the organ; or a
+// picture of the case, on the screen alone.
 #pragma once
 
 #include <memory>
@@ -37,7 +38,7 @@ public:
     // down, z away from the reader; its origin is the picture's middle, lengths are life size.
     struct SliceFrame {
         Pose picture_from_organ;  // from the frame of the organ, metres
-        // Where it is on the screen: so many metres of the room are a metre of the organ.
+        // Where it is on the screen: a metre of the organ is `screen_scale` metres of the room.
         Pose screen_from_organ;
         double screen_scale = 1;
         double half_step_m = 0;  // half of the distance between two slices
@@ -76,7 +77,7 @@ private:
 
     std::shared_ptr<const medical::Volume> volume_;
     std::optional<session::CaseScreen> wanted_, shown_;  // slices
-    std::string series_;
+    std::string series_, case_name_;
     medical::SlicePlane plane_;
     Face slice_;
     std::optional<render::SceneMesh> ruler_, inside_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A person is removed by the second press of "Remove" within some seconds.
+// A person is removed, and what a person has made, by the second press of the button within some
+// seconds.
 #pragma once
 
 #include <optional>
@@ -13,15 +14,15 @@ class RemovalQuestion {
 public:
     static constexpr Duration time_to_confirm = std::chrono::seconds(5);
 
-    // The person of whom "Remove" was pressed once: RoomPanelFacts::asked_removal.
-    std::optional<ParticipantId> asked(TimePoint now) const;
+    // The decision of which the button was pressed once: RoomPanelFacts::asked.
+    std::optional<Decide> asked(TimePoint now) const;
     // A button of this decision was pressed. True if it is to be carried out; false if it was the
     // first press of a removal, which is kept.
     bool is_meant(const Decide& decision, TimePoint now);
 
 private:
-    std::optional<ParticipantId> person_;
-    TimePoint asked_;
+    std::optional<Decide> pressed_;
+    TimePoint pressed_at_;
 };
 
 }  // namespace theatron::viewer

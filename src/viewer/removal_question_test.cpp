@@ -3,30 +3,42 @@
 
 #include <gtest/gtest.h>
 
+#include "wire/clear_objects.h"
+
 namespace theatron::viewer {
 namespace {
 
 using namespace std::chrono_literals;
 using wire::ManageAction;
 
-constexpr ParticipantId anna{1}, ben{2};
+constexpr ParticipantId somebody{1}, ben{2};
 constexpr TimePoint begin(100s);
 
-TEST(RemovalQuestion, OnlyTheSecondPressOfTheSamePersonInTimeRemoves) {
+TEST(RemovalQuestion, OnlyTheSecondPressOfTheSameButtonInTimeRemoves) {
+    for (const ManageAction action : {ManageAction::remove, wire::clear_objects}) {
+        const Decide of_anna{action, somebody, {}}, of_ben{action, ben, {}};
+        RemovalQuestion question;
+        EXPECT_EQ(question.asked(begin), std::nullopt);
+        EXPECT_FALSE(question.is_meant(of_anna, begin));
+        EXPECT_EQ(question.asked(begin + 4s), of_anna);
+        EXPECT_FALSE(question.is_meant(of_ben, begin + 1s));
+        EXPECT_FALSE(question.is_meant(of_anna, begin + 2s));
+        EXPECT_TRUE(question.is_meant(of_anna, begin + 3s));
+        EXPECT_EQ(question.asked(begin + 3s), std::nullopt) << "each removal is asked about";
+        EXPECT_FALSE(question.is_meant(of_anna, begin + 4s));
+        EXPECT_FALSE(question.is_meant(of_anna, begin + 9s)) << "too late";
+    }
+}
+
+TEST(RemovalQuestion, ClearingIsNotConfirmedByRemoving) {
     RemovalQuestion question;
-    EXPECT_EQ(question.asked(begin), std::nullopt);
-    EXPECT_FALSE(question.is_meant({ManageAction::remove, anna, {}}, begin));
-    EXPECT_EQ(question.asked(begin + 4s), anna);
-    EXPECT_FALSE(question.is_meant({ManageAction::remove, ben, {}}, begin + 1s));
-    EXPECT_FALSE(question.is_meant({ManageAction::remove, anna, {}}, begin + 2s));
-    EXPECT_TRUE(question.is_meant({ManageAction::remove, anna, {}}, begin + 3s));
-    EXPECT_EQ(question.asked(begin + 7s), std::nullopt);
-    EXPECT_FALSE(question.is_meant({ManageAction::remove, anna, {}}, begin + 7s));
+    EXPECT_FALSE(question.is_meant({wire::clear_objects, somebody, {}}, begin));
+    EXPECT_FALSE(question.is_meant({ManageAction::remove, somebody, {}}, begin + 1s));
 }
 
 TEST(RemovalQuestion, OtherDecisionsAreCarriedOutAtOnce) {
     RemovalQuestion question;
-    EXPECT_TRUE(question.is_meant({ManageAction::mute, anna, {}}, begin));
+    EXPECT_TRUE(question.is_meant({ManageAction::mute, somebody, {}}, begin));
     EXPECT_EQ(question.asked(begin), std::nullopt);
 }
 

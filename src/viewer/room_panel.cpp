@@ -3,6 +3,7 @@
 
 #include "base/shown_name.h"
 #include "session/room_bytes.h"
+#include "wire/clear_objects.h"
 #include "wire/sentence.h"
 
 namespace theatron::viewer {
@@ -68,6 +69,14 @@ RoomPanel room_panel(const RoomPanelFacts& facts) {
         return labelled(say(label), std::move(command));
     };
     using Action = wire::ManageAction;
+    const auto removing = [&](Phrase label, Phrase again, Action action,
+                              const room::RoomPerson& person) {
+        const Decide decision{action, person.id, {}};
+        return labelled(facts.asked == decision
+                            ? say(again, clean_name(person.name, shortened_name))
+                            : say(label),
+                        decision);
+    };
     xr::Panel who{say(Phrase::people), {}};
     for (const room::RoomPerson& person : facts.people) {
         xr::PanelRow row{person.name, doing(facts, person), {}};
@@ -88,10 +97,8 @@ RoomPanel room_panel(const RoomPanelFacts& facts) {
               button(observes ? Phrase::make_expert : Phrase::make_observer,
                      Decide{Action::set_role, person.id,
                             observes ? wire::Role::expert : wire::Role::observer}),
-              labelled(facts.asked_removal == person.id
-                           ? say(Phrase::really_remove, clean_name(person.name, shortened_name))
-                           : say(Phrase::remove),
-                       Decide{Action::remove, person.id, {}})}});
+              removing(Phrase::clear_made, Phrase::really_clear, wire::clear_objects, person),
+              removing(Phrase::remove, Phrase::really_remove, Action::remove, person)}});
     }
     if (!who.rows.empty() && facts.may_call)
         who.rows.push_back({"",

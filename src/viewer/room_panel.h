@@ -12,8 +12,10 @@
 #include "viewer/meeting.h"
 #include "viewer/own_face.h"
 #include "viewer/places.h"
+#include "viewer/sheet.h"
 #include "viewer/voices.h"
 #include "xr/overlay_content.h"
+#include "xr/window_input.h"
 
 namespace theatron::viewer {
 
@@ -31,11 +33,16 @@ struct Decide {  // an operator's decision on a person
     wire::ManageAction action{};
     ParticipantId person{};
     wire::Role role{};
+    bool operator==(const Decide&) const = default;
 };
-struct OpenOffered {  // a case of the host
+struct AskToOpen {  // a case of the host: whose it is is shown first
     ContentHash offered;
 };
-struct ChangeCase {  // false: there is no such case any more
+struct OpenOffered {  // that case, which is the right one
+    ContentHash offered;
+};
+struct LeaveClosed {};  // it is not
+struct ChangeCase {     // false: there is no such case any more
     std::function<bool(client::Participant&)> change;
 };
 struct ChooseMarkTool {
@@ -82,10 +89,16 @@ struct ChangeScreen {
 struct LookBackTo {  // for this person alone; 0: the present
     Duration ago{};
 };
+struct PressKey {  // as its key does
+    xr::Action action{};
+};
+struct ShowSheet {
+    Sheet sheet{};
+};
 using RoomCommand =
-    std::variant<GoToPerson, LookThrough, GoToPlace, Decide, OpenOffered, ChangeCase,
-                 ChooseMarkTool, ChangeMarks, Call, AnswerCall, ShowLarge, AdjustStep, PlayStep,
-                 ChangeScreen, ShowFace, LookBackTo, UseSound>;
+    std::variant<GoToPerson, LookThrough, GoToPlace, Decide, AskToOpen, OpenOffered, LeaveClosed,
+                 ChangeCase, ChooseMarkTool, ChangeMarks, Call, AnswerCall, ShowLarge, AdjustStep,
+                 PlayStep, ChangeScreen, ShowFace, LookBackTo, UseSound, PressKey, ShowSheet>;
 
 struct RoomPanel {
     std::vector<xr::Panel> panels;
@@ -102,8 +115,8 @@ struct RoomPanelFacts {
     bool may_call = false, is_calling = false;
     std::map<ParticipantId, int> speaking = {};  // as in Voices
     OwnFace own_face = OwnFace::none;
-    // The person of whom "Remove" was pressed once; removed by the second press.
-    std::optional<ParticipantId> asked_removal = {};
+    // The decision of which the button was pressed once; carried out by the second press.
+    std::optional<Decide> asked = {};
 };
 RoomPanel room_panel(const RoomPanelFacts& facts);
 

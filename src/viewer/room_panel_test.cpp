@@ -5,6 +5,7 @@
 
 #include "room/moving.h"
 #include "session/room_bytes.h"
+#include "wire/clear_objects.h"
 
 namespace theatron::viewer {
 namespace {
@@ -95,16 +96,24 @@ TEST(RoomPanel, OperatorsDecideOnPeople) {
     EXPECT_EQ(admit.action, wire::ManageAction::admit);
     EXPECT_EQ(admit.person, ParticipantId{7});
     const auto& buttons = panel.panels[0].rows.at(1).buttons;
-    ASSERT_EQ(buttons.size(), 3u);
+    ASSERT_EQ(buttons.size(), 4u);
     const auto& role = std::get<Decide>(panel.commands.at(buttons[1].command));
     EXPECT_EQ(role.action, wire::ManageAction::set_role);
     EXPECT_EQ(role.role, wire::Role::expert);
-    EXPECT_EQ(std::get<Decide>(panel.commands.at(buttons[2].command)).action,
-              wire::ManageAction::remove);
-    EXPECT_EQ(buttons[2].label, "Remove");
-    facts.asked_removal = person.id;
-    EXPECT_EQ(room_panel(facts).panels[0].rows.at(1).buttons[2].label,
-              "Really remove " + person.name);
+    const Decide clear{wire::clear_objects, person.id, {}};
+    const Decide remove{wire::ManageAction::remove, person.id, {}};
+    EXPECT_EQ(std::get<Decide>(panel.commands.at(buttons[2].command)), clear);
+    EXPECT_EQ(std::get<Decide>(panel.commands.at(buttons[3].command)), remove);
+    const auto labels = [&] {
+        const RoomPanel panel = room_panel(facts);
+        const auto& buttons = panel.panels[0].rows.at(1).buttons;
+        return buttons[2].label + "; " + buttons[3].label;
+    };
+    EXPECT_EQ(labels(), "Clear; Remove");
+    facts.asked = remove;
+    EXPECT_EQ(labels(), "Clear; Really remove " + person.name);
+    facts.asked = clear;
+    EXPECT_EQ(labels(), "Really clear all by " + person.name + "; Remove");
 }
 
 TEST(RoomPanel, OffersToGoToWhoeverCallsAndToCall) {

@@ -14,7 +14,7 @@ namespace theatron::viewer {
 // an object.
 bool is_hidden(Vec3 place, std::optional<double> surface_m, const render::CameraView& view);
 
-// The screen with another slice: so many slices further; of another orientation, through its
+// The screen with another slice: some slices further; of another orientation, through its
 // middle; through a place of the patient; of another series, whose window it takes if there is
 // `volume`. All but the first show slices instead of pictures. Pure.
 session::CaseScreen scrolled(const session::CaseScreen& screen, const medical::Volume& volume,
@@ -24,14 +24,14 @@ session::CaseScreen turned(const session::CaseScreen& screen, const medical::Vol
 session::CaseScreen through(const session::CaseScreen& screen, Vec3 patient_mm);
 session::CaseScreen of_series(const session::CaseScreen& screen, int series,
                               const medical::Volume* volume);
-// The screen with a picture so many further; the first one if it showed a slice. `count`: of the
-// case, at least 1. Pure.
+// The screen with the picture that is `steps` further; the first one if it showed a slice. `count`:
+// of the case, at least 1. Pure.
 session::CaseScreen stepped(const session::CaseScreen& screen, int count, double steps);
 
 // Use from one thread.
 class ScreenHandling {
 public:
-    // The width of a picture is so many units of the window's centre and width.
+    // The width of a picture in units of the window's centre and width.
     static constexpr double units_per_picture = 1200;
 
     // Takes what concerns the screen out of `input`.

@@ -8,12 +8,14 @@
 #include "room/people.h"
 #include "viewer/age_text.h"
 #include "wire/condition_text.h"
+#include "xr/drawing_watch.h"
 
 namespace theatron::viewer {
 namespace {
 
 // In widths of the screen. The caption stands above the picture, before the housing.
 constexpr double rim = 0.017, thickness = 0.025, caption_height = 1 / 30.0, lifted = 0.003;
+constexpr double faint_light = 0.15;  // of a picture that stands still
 constexpr Rgb ink{235, 240, 245}, warning{255, 170, 60};
 
 }  // namespace
@@ -76,7 +78,12 @@ bool SharedScreens::note(const std::vector<client::CameraFigures>& cameras, Time
             age_ms = std::max(0.0, to_ms(now - screen.captured));
         ScreenCaption caption =
             screen_caption(screen.name, one.camera.state, age_ms, screen.is_past);
-        changed = changed || caption != screen.caption;
+        const bool is_marked = screen.is_past || one.played != client::CameraFigures::Played::no;
+        const bool is_faint = age_ms && !is_marked &&
+                              (one.camera.state.condition != wire::CameraCondition::live ||
+                               *age_ms >= to_ms(xr::still_after));
+        changed = changed || caption != screen.caption || is_faint != screen.is_faint;
+        screen.is_faint = is_faint;
         screen.caption = std::move(caption);
     }
     return changed;
@@ -138,7 +145,8 @@ void SharedScreens::add(Screen& screen, render::SceneFrame& frame) {
     const auto id =
         screen.object ? render::ObjectId(std::uint32_t(screen.object->id)) : render::ObjectId::none;
     render::SurfaceLook look;
-    look.base_color = screen.color ? Vec3{1, 1, 1} : Vec3{0, 0, 0};
+    const double light = !screen.color ? 0 : screen.is_faint ? faint_light : 1;
+    look.base_color = {light, light, light};
     look.texture = screen.texture ? &*screen.texture : nullptr;
     look.unlit = true;
     render::SceneObject panel{&*screen.panel, place.room_from_screen, look, false, id, width};

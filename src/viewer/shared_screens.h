@@ -65,7 +65,8 @@ private:
         std::shared_ptr<const ColorImage> color;
         TimePoint captured;  // of `color`
         bool is_past = false;
-        bool is_new = false;  // `color` is not in the texture
+        bool is_faint = false;  // it stands still and is not marked otherwise, as noted last
+        bool is_new = false;    // `color` is not in the texture
         std::optional<render::SceneTexture> texture;
         // One metre wide.
         std::optional<render::SceneMesh> panel, housing;

@@ -3,16 +3,17 @@
 
 #include <algorithm>
 
+#include "xr/drawing_watch.h"
+
 namespace theatron::viewer {
 
 ShownMoment shown_moment(const std::map<CameraId, receive::CameraFramePtr>& frames,
                          const std::set<CameraId>& stale, TimePoint session_time) {
-    constexpr double frozen_ms = 2000;
     ShownMoment moment;
     for (const auto& [camera, frame] : frames) {
         const double age_ms = to_ms(session_time - frame->times.captured);
         moment.age_ms = std::max(moment.age_ms, age_ms);
-        if (frame->past || age_ms > frozen_ms || stale.contains(camera))
+        if (frame->past || age_ms >= to_ms(xr::still_after) || stale.contains(camera))
             moment.is_live = false;
     }
     return moment;

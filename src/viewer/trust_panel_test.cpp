@@ -39,7 +39,7 @@ TEST(TrustPanel, TellsAgeLossCodecsAndFilters) {
     const xr::PanelRow row = row_of(camera("left"));
     EXPECT_EQ(row.text, "left: 85 ms");
     EXPECT_EQ(row.detail,
-              "30 fps, 10.0 Mbit/s, 3 lost on the way\n"
+              "30 fps, 10.0 Mbit/s, 3 left out\n"
               "depth strata, lossless after filters; filters: named flying,temporal=4\n"
               "colour jpeg:quality=85");
 }

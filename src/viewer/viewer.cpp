@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "phrases/phrase.h"
 #include "session/permissions.h"
+#include "session/whose_camera.h"
 #include "viewer/mark_actions.h"
 #include "viewer/mark_panel.h"
 #include "viewer/screen_panel.h"
@@ -60,6 +61,10 @@ void Viewer::on_input(xr::WindowInput input, std::optional<double> grabbed_m, Si
     else
         draw_region(input, picture, now);
     mark(input, picture);
+    if (is_past || input.pointer_covered)
+        input.points = input.points && !is_past;
+    else
+        input.points = input.points || points_;
     point(input, picture);
     if (eye_.is_placed() && (!is_past || handling_.holds()))
         handling_.on_input(input, grabbed_m, double(picture.width) / picture.height,
@@ -82,6 +87,12 @@ void Viewer::on_input(xr::WindowInput input, std::optional<double> grabbed_m, Si
 }
 
 void Viewer::on_key(const xr::KeyPress& key, Size picture, TimePoint now) {
+    const Sheet before = sheet();
+    carry_out(key, picture, now);
+    keep_one_panel(before);
+}
+
+void Viewer::carry_out(const xr::KeyPress& key, Size picture, TimePoint now) {
     switch (key.action) {
         case xr::Action::help:
             help_ = !help_;
@@ -90,6 +101,18 @@ void Viewer::on_key(const xr::KeyPress& key, Size picture, TimePoint now) {
             line_ = !line_;
             scene_.set_ages_shown(line_);
             scene_changed_ = true;
+            if (options_.one_panel && line_ != (sheet() == Sheet::details))
+                toggle_sheet(line_ ? Sheet::details : Sheet::none);
+            break;
+        case xr::Action::point:
+            points_ = !points_;
+            if (points_ && marking_.tool()) {  // the mouse does one of both
+                marking_.choose(std::nullopt, scene_.meeting());
+                scene_changed_ = true;
+            }
+            break;
+        case xr::Action::more:
+            toggle_sheet(sheet_ == Sheet::none || sheet_ == Sheet::details ? Sheet::more : sheet_);
             break;
         case xr::Action::next_renderer:
             choose_next_renderer(now);
@@ -107,6 +130,7 @@ void Viewer::on_key(const xr::KeyPress& key, Size picture, TimePoint now) {
             shows_case_ = !shows_case_;
             break;
         case xr::Action::marks:
+            points_ = false;
             marking_.choose(
                 marking_.tool() ? std::nullopt : std::optional(session::MarkKind::stroke),
                 scene_.meeting());
@@ -180,6 +204,10 @@ void Viewer::on_key(const xr::KeyPress& key, Size picture, TimePoint now) {
         case xr::Action::own_face:
         case xr::Action::save_picture:
         case xr::Action::save_points:
+        case xr::Action::leave_session:
+        case xr::Action::next_control:
+        case xr::Action::previous_control:
+        case xr::Action::press_control:
             break;  // the first three are of objects (handling.h), the others of the window
     }
 }
@@ -210,9 +238,19 @@ void Viewer::aim_teleport(const xr::WindowInput& input, Size picture) {
 }
 
 void Viewer::press(int command, TimePoint now) {
-    if (command < 0 || command >= int(commands_.size()) || !eye_.is_placed())
+    if (command < 0 || command >= int(commands_.size()))
         return;
     const RoomCommand chosen = commands_[std::size_t(command)];
+    if (const auto* key = std::get_if<PressKey>(&chosen)) {
+        // The panel of the rest has done its work.
+        if (sheet_ == Sheet::more && key->action != xr::Action::more)
+            open_sheet(Sheet::none);
+        return pressed_.push_back({key->action});
+    }
+    if (const auto* opened = std::get_if<ShowSheet>(&chosen))
+        return open_sheet(opened->sheet);
+    if (!eye_.is_placed())
+        return;
     if (const auto* decision = std::get_if<Decide>(&chosen)) {
         if (removal_.is_meant(*decision, now))
             participant_.manage(decision->action, decision->person, decision->role);
@@ -251,6 +289,10 @@ void Viewer::press(int command, TimePoint now) {
             note(say(Phrase::no_such_mark), now);
         return;
     }
+    if (const auto* offer = std::get_if<AskToOpen>(&chosen))
+        return ask_to_open(offer->offered);
+    if (std::holds_alternative<LeaveClosed>(chosen))
+        return asked_case_.reset();
     if (const auto* offer = std::get_if<OpenOffered>(&chosen))
         return open_before_eye(offer->offered);
     if (const auto* large = std::get_if<ShowLarge>(&chosen)) {
@@ -396,12 +438,16 @@ void Viewer::send_own_pose(Size picture, TimePoint now) {
 }
 
 std::string Viewer::camera_text(CameraId camera) const {
-    const std::string number = std::to_string(int(camera));
     std::uint64_t generation = 0;
     for (const auto& known : participant_.cameras(generation))
-        if (known.description.id == camera)
-            return say(Phrase::camera_number_named, number, known.description.name);
-    return say(Phrase::camera_number, number);
+        if (known.description.id == camera && !known.description.name.empty())
+            return say(Phrase::camera_called, name_of(known));
+    // As the keys 1 to 9 count.
+    return say(Phrase::camera_number, std::to_string(int(camera) + 1));
+}
+
+std::string Viewer::name_of(const client::Participant::Camera& camera) const {
+    return session::whose_camera(camera.description, scene_.meeting().room().objects);
 }
 
 void Viewer::draw(Size picture, const render::DrawTarget& target, TimePoint now) {
@@ -461,6 +507,8 @@ void Viewer::on_presented(TimePoint begin, Duration processor, TimePoint end) {
 Facts Viewer::facts(TimePoint now) {
     Facts facts;
     facts.received = client::figures_of(participant_);
+    for (client::CameraFigures& one : facts.received.cameras)
+        one.camera.description.name = name_of(one.camera);
     // Faces are people, not cameras of the room.
     std::erase_if(facts.received.cameras, [](const client::CameraFigures& one) {
         return one.camera.description.frame == wire::CameraFrame::face;
@@ -485,6 +533,30 @@ Facts Viewer::facts(TimePoint now) {
     RoomPanel panel;
     facts.past = past(now);
     facts.played = played(now);
+    if (options_.one_panel) {
+        add_tools(facts, panel, now);
+        add_offers(facts, panel, now);
+        add_sheet(facts, panel, now);
+    } else {
+        add_open_panels(facts, panel, now);
+    }
+    facts.rectangle = adjusting_.rectangle();
+    facts.bar = playing_.bar(participant_, may(session::Right::play), now, panel);
+    if (marking_.tool() && !options_.one_panel)
+        add_mark_panel(marking_.tool(),
+                       facts.received.status.standing.role == wire::Role::operator_, panel);
+    add_camera_pictures(facts, panel, now);
+    facts.pointed = pointed_text();
+    facts.panels = std::move(panel.panels);
+    commands_ = std::move(panel.commands);
+    facts.line = line_;
+    facts.voices = voices_;
+    facts.own_face = own_face_;
+    facts.trust = options_.one_panel ? sheet() == Sheet::details : shows_panels_;
+    return facts;
+}
+
+void Viewer::add_open_panels(const Facts& facts, RoomPanel& panel, TimePoint now) {
     // The way back to the present comes first. Panels that others bring about come below people and
     // places, which stay where they are.
     if (!facts.past.empty())
@@ -512,22 +584,10 @@ Facts Viewer::facts(TimePoint now) {
     // Its buttons would change the present by what is shown of the past.
     if (shows_case_ && facts.past.empty())
         add_case(panel);
+    else
+        asked_case_.reset();
     if (adjusting_.is_shown())
         adjusting_.add_panel(panel);
-    facts.rectangle = adjusting_.rectangle();
-    facts.bar = playing_.bar(participant_, may(session::Right::play), now, panel);
-    if (marking_.tool())
-        add_mark_panel(marking_.tool(),
-                       facts.received.status.standing.role == wire::Role::operator_, panel);
-    add_camera_pictures(facts, panel, now);
-    facts.pointed = pointed_text();
-    facts.panels = std::move(panel.panels);
-    commands_ = std::move(panel.commands);
-    facts.line = line_;
-    facts.voices = voices_;
-    facts.own_face = own_face_;
-    facts.trust = shows_panels_;
-    return facts;
 }
 
 }  // namespace theatron::viewer

@@ -18,6 +18,7 @@
 #include "session/renderer_choice.h"
 #include "viewer/camera_adjusting.h"
 #include "viewer/camera_pictures.h"
+#include "viewer/camera_unrest.h"
 #include "viewer/eye.h"
 #include "viewer/facts.h"
 #include "viewer/handling.h"
@@ -28,6 +29,7 @@
 #include "viewer/playing.h"
 #include "viewer/removal_question.h"
 #include "viewer/renderer_text.h"
+#include "viewer/sheet.h"
 #include "viewer/shown_moment.h"
 #include "viewer/sound_panel.h"
 #include "xr/drawing_pace.h"
@@ -45,6 +47,9 @@ public:
         std::vector<SeenPerson> people;
         std::string renderer = automatic;
         bool sits = false, shows_people = false, shows_facts = true;  // as in client::Settings
+        // A window with a bar of buttons, which shows one panel at a time; else facts() has all
+        // panels that are open, and no bar.
+        bool one_panel = false;
         bool has_gpu = true;  // false: begins with what a processor draws
         double scale = 0;     // of the target's pixels to draw; 0: chosen by drawing time
         std::string depth_codec, color_codec;  // that the participant requested
@@ -59,6 +64,9 @@ public:
                   TimePoint now);
     // A button of the panels that facts() gave last.
     void press(int command, TimePoint now);
+    // The keys that pressed buttons stand for, since the last call: the program acts as if they
+    // came from the keyboard, and gives those of the viewer back to on_input().
+    std::vector<xr::KeyPress> take_pressed() { return std::exchange(pressed_, {}); }
     // A slider of these panels is held from press() on, and now has this value.
     void slide(double value);
 
@@ -121,7 +129,8 @@ public:
     // which the program carries out.
     void set_own_face(OwnFace face) { own_face_ = face; }
     std::optional<bool> take_face_wish() { return std::exchange(face_wish_, std::nullopt); }
-    // The devices to choose from, and the choice in the panel, likewise.
+    // The devices to choose from, and the choice in the panel since the last call, which the
+    // program carries out.
     void set_sound_choices(SoundChoices choices) { sound_choices_ = std::move(choices); }
     std::optional<UseSound> take_sound_wish() { return std::exchange(sound_wish_, std::nullopt); }
     // The person's choices by name, among renderer_choices() and video::depth_codec_names(). While
@@ -140,9 +149,13 @@ public:
     void set_voices(Voices voices);
     // Shows a line of text for some seconds.
     void note(const std::string& text, TimePoint now);
-    // The person of whom "Remove" was pressed a moment ago.
-    // The panel of people, places and sound is open.
-    bool shows_panels() const { return shows_panels_; }
+    // The same for a remark of the participant; cameras that stand still again and again are only
+    // counted (camera_unrest.h).
+    void remark(const std::string& text, TimePoint now);
+    // The next press within this time leaves: the bar says so.
+    void ask_leave(TimePoint now, Duration within);
+    // The sound's panel is open.
+    bool shows_sound() const;
     // `before` with this person's newest choices.
     client::Settings settings(client::Settings before) const;
     // True while a fading camera or a moving person changes the picture by itself.
@@ -158,6 +171,7 @@ public:
 
 private:
     void on_key(const xr::KeyPress& key, Size picture, TimePoint now);
+    void carry_out(const xr::KeyPress& key, Size picture, TimePoint now);
     void go_home(const xr::KeyPress& key, Size picture, TimePoint now);
     void view_from_above(TimePoint now);
     void change_point_size(double factor, TimePoint now);
@@ -204,11 +218,23 @@ private:
     std::string past(TimePoint now) const;
     std::string played(TimePoint now) const;
     bool may(session::Right right) const;
+    Sheet sheet() const;
+    void open_sheet(Sheet sheet);
+    void toggle_sheet(Sheet sheet);
+    void keep_one_panel(Sheet before);
+    void add_tools(Facts& facts, RoomPanel& panel, TimePoint now) const;
+    void add_offers(Facts& facts, RoomPanel& panel, TimePoint now) const;
+    void add_more_panel(RoomPanel& panel) const;
+    void add_open_panels(const Facts& facts, RoomPanel& panel, TimePoint now);
+    void add_sheet(const Facts& facts, RoomPanel& panel, TimePoint now);
     void show_slice_at(const xr::WindowInput& input, Size picture, TimePoint now);
     void add_case(RoomPanel& panel) const;
+    void ask_to_open(const ContentHash& offered);
     void open_before_eye(const ContentHash& offered);
     Pose at_eye_height(Pose room_from_eye) const;
     std::string camera_text(CameraId camera) const;
+    // With the person whose it is.
+    std::string name_of(const client::Participant::Camera& camera) const;
     ViewableCameras cameras() const { return {scene_.calibrations(), scene_.newest()}; }
 
     Options options_;
@@ -261,6 +287,13 @@ private:
     SoundChoices sound_choices_;
     std::optional<UseSound> sound_wish_;
     bool shows_panels_ = false, shows_case_ = false;
+    std::optional<ContentHash> asked_case_;  // that the person is about to open
+    bool patient_is_asked_ = false;          // the host answers whose case it is
+    Sheet sheet_ = Sheet::none;              // one of those that are not open by other members
+    bool points_ = false;                    // with the mouse, until the person ends it
+    TimePoint leave_asked_until_;
+    std::vector<xr::KeyPress> pressed_;
+    CameraUnrest unrest_;
     std::vector<RoomCommand> commands_;  // of the panels' buttons
     bool help_ = false;
     bool line_ = true;

@@ -39,7 +39,13 @@ void Viewer::show_slice_at(const xr::WindowInput& input, Size picture, TimePoint
     set_screen(participant_, through(next, *on_slice));
 }
 
+void Viewer::ask_to_open(const ContentHash& offered) {
+    asked_case_ = offered;
+    patient_is_asked_ = participant_.ask_patient(offered);
+}
+
 void Viewer::open_before_eye(const ContentHash& offered) {
+    asked_case_.reset();
     constexpr Size any{16, 9};
     const Pose eye = eye_.view(any).room_from_eye;
     open_case(participant_, offered, eye * Vec3{0, 0.1, new_case_distance_m}, eye.translation);
@@ -53,7 +59,14 @@ void Viewer::add_case(RoomPanel& panel) const {
                            scene.monitor().volume(),
                            "",
                            false,
-                           {}};
+                           {},
+                           std::nullopt};
+    if (asked_case_) {
+        wire::Patient answer = participant_.asked_patient();
+        const bool is_answer = to_content_hash(answer.of_case) == *asked_case_;
+        of_case.asked = AskedCase{*asked_case_, is_answer || !patient_is_asked_,
+                                  is_answer ? std::move(answer) : wire::Patient{}};
+    }
     const wire::Patient patient = participant_.patient();
     if (of_case.room && !session::is_recorded(of_case.room->organ_id) &&
         to_content_hash(patient.of_case) == of_case.room->organ.of_case)

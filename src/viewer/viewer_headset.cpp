@@ -11,6 +11,7 @@ void Viewer::enter_headset(bool real_room, double pictures_per_s, TimePoint now)
     constexpr Size any{16, 9};
     stop_following();
     scene_.set_real_room(real_room);
+    scene_.set_cover_shown(true);
     headset_.emplace(eye_.view(any).room_from_eye, real_room);
     headset_wish_.reset();
     pace_limits_ = xr::limits_of_display(pictures_per_s);
@@ -30,6 +31,7 @@ void Viewer::leave_headset() {
                                  sits_ ? room::sitting_eyes_m : room::standing_eyes_m));
     headset_.reset();
     scene_.set_headset_text("");
+    scene_.set_cover_shown(false);
     scene_.set_real_room(false);
     pace_limits_ = {};
     // The window goes on as it was measured to carry.

@@ -164,7 +164,7 @@ std::string Viewer::past(TimePoint now) const {
     std::map<CameraId, std::string> names;
     std::uint64_t generation = 0;
     for (const auto& camera : participant_.cameras(generation))
-        names[camera.description.id] = camera.description.name;
+        names[camera.description.id] = name_of(camera);
     return past_text(shown, looking, names, participant_.session_time(now));
 }
 
@@ -206,7 +206,10 @@ void Viewer::on_camera_key(const xr::KeyPress& key, Size picture, TimePoint now)
 void Viewer::follow_cameras(TimePoint now) {
     if (adjusting_.is_shown()) {
         std::uint64_t generation = 0;
-        adjusting_.take(participant_.cameras(generation));
+        auto cameras = participant_.cameras(generation);
+        for (auto& camera : cameras)
+            camera.description.name = name_of(camera);
+        adjusting_.take(cameras);
         adjusting_.show(may(session::Right::adjust));
     }
     adjusting_.on_tick(participant_, now);

@@ -184,6 +184,9 @@ bool is_sound(const Visitor& visitor) {
 bool is_sound(const RequestContent& request) {
     return request.hash.size() == content_hash_size && request.count <= max_content_request;
 }
+bool is_sound(const AskPatient& question) {
+    return question.of_case.size() == content_hash_size;
+}
 bool is_sound(const OfferedCase& offered) {
     return offered.hash.size() == content_hash_size;
 }
@@ -192,6 +195,9 @@ bool is_sound(const Content& content) {
 }
 bool is_sound(const Patient& patient) {
     return patient.of_case.empty() || patient.of_case.size() == content_hash_size;
+}
+bool is_sound(const AskedPatient& answer) {
+    return answer.patient.of_case.size() == content_hash_size;
 }
 bool is_sound(const OfferDirect& offer) {
     return offer.port == 0 || offer.fingerprint.size() == fingerprint_size;

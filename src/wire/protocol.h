@@ -43,6 +43,7 @@ enum class Feature : std::uint16_t {
     webcam = 10,        // is told of faces (CameraFrame::face), and may send its own
     patient = 11,       // shows who the patient of the open case is, to a person who may know it
     direct = 12,        // pictures go from publisher to receiver: OfferDirect, DirectGrants
+    asks_patient = 13,  // may ask whose case it is before it is opened: AskPatient, AskedPatient
 };
 inline constexpr std::size_t max_features = 32;
 inline constexpr std::size_t person_id_size = 16;

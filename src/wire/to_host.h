@@ -269,6 +269,13 @@ struct RequestContent {
     }
 };
 
+// The participant asks who the patient of this offered case is, before it opens it.
+struct AskPatient {
+    Bytes of_case;  // as in OfferedCase
+
+    static void fields(auto& m, auto&& field) { field(m.of_case, content_hash_size); }
+};
+
 // The participant agrees that others record its voice from now on, or no longer. Until it agrees
 // the host sends its voice to no recorder.
 struct VoiceConsent {

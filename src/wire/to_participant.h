@@ -166,7 +166,7 @@ struct Pong {
 struct Delivery {
     std::uint8_t level = 0;             // 0: all that was requested
     std::uint8_t levels = 1;            // number of levels
-    std::uint8_t one_frame_of = 1;      // of so many frames one is sent
+    std::uint8_t one_frame_of = 1;      // one frame in this number is sent
     std::string color_codec;            // coarser colour; empty: as requested
     bool lossy_outside_region = false;  // depth has bounded loss outside the region of interest
     Text reason;
@@ -392,6 +392,7 @@ struct ShareEnded {
 struct Patient {
     Bytes of_case;  // as in OfferedCase; empty: withdrawn
     std::string name, birth_date, id;
+    std::string study_date;  // of its images; several are separated by commas
     bool operator==(const Patient&) const = default;
 
     static void fields(auto& m, auto&& field) {
@@ -399,7 +400,15 @@ struct Patient {
         field(m.name, max_patient_text);
         field(m.birth_date, max_patient_text);
         field(m.id, max_patient_text);
+        field(m.study_date, max_patient_text);
     }
+};
+
+// The answer to AskPatient; without texts if nobody knows them, or this person may not.
+struct AskedPatient {
+    Patient patient;
+
+    static void fields(auto& m, auto&& field) { field(m.patient); }
 };
 
 // To a receiver: the permission to connect to this publisher for the pictures of its cameras.

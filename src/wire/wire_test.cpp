@@ -380,11 +380,19 @@ TEST(Control, EveryMessageRoundTrips) {
     const ShareEnded ended = round_trip(ShareEnded{{CameraId{3}, CameraId{9}}, "Dora"});
     EXPECT_EQ(ended.cameras, (std::vector{CameraId{3}, CameraId{9}}));
     EXPECT_EQ(ended.by, "Dora");
-    const Patient patient{numbered(content_hash_size), "Doe, Jane", "1961-02-03", "AB-4711"};
+    const Patient patient{numbered(content_hash_size), "Doe, Jane", "1961-02-03", "AB-4711",
+                          "2026-03-01"};
     EXPECT_EQ(round_trip(patient), patient);
     EXPECT_EQ(round_trip(Patient{}), Patient{});
-    EXPECT_EQ(decode_to_participant(encode(Patient{Bytes(31), "", "", ""})).error(),
+    EXPECT_EQ(decode_to_participant(encode(Patient{Bytes(31), "", "", "", ""})).error(),
               theatron::Status::malformed);
+    EXPECT_EQ(round_trip(AskPatient{patient.of_case}).of_case, patient.of_case);
+    EXPECT_EQ(round_trip(AskedPatient{patient}).patient, patient);
+    EXPECT_EQ(decode_to_host(encode(ToHost(AskPatient{Bytes(31)}))).error(),
+              theatron::Status::malformed);
+    EXPECT_EQ(decode_to_participant(encode(ToParticipant(AskedPatient{}))).error(),
+              theatron::Status::malformed)
+        << "an answer says to which case it belongs";
     const OfferDirect listening =
         round_trip(OfferDirect{{"192.0.2.7", "2001:db8::7"}, 40123, numbered(fingerprint_size)});
     EXPECT_EQ(listening.addresses, (std::vector<std::string>{"192.0.2.7", "2001:db8::7"}));

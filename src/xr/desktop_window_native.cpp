@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "render/gl_errors_native.h"
 #include "xr/input_queue.h"
+#include "xr/x11_window_native.h"
 
 namespace theatron::xr {
 namespace {
@@ -120,6 +121,11 @@ std::optional<KeyPress> pressed(const SDL_Keysym& key) {
         case SDLK_F11:
             return KeyPress{Action::full_screen};
         case SDLK_TAB:
+            return KeyPress{(key.mod & KMOD_SHIFT) != 0 ? Action::previous_control
+                                                        : Action::next_control};
+        case SDLK_RETURN:
+        case SDLK_KP_ENTER:
+            return KeyPress{Action::press_control};
         case SDLK_m:
             return KeyPress{Action::next_renderer};
         case SDLK_c:
@@ -331,12 +337,12 @@ FormInput DesktopWindow::poll_form() {
         } else if (event.type == SDL_QUIT) {
             input.close = true;
         } else if (event.type == SDL_TEXTINPUT) {
-            input.text += event.text.text;
+            input.keys.push_back({FormKey::letters, false, false, event.text.text});
         } else if (event.type == SDL_KEYDOWN) {
             const SDL_Keysym& pressed = event.key.keysym;
             if (const auto key = form_key(pressed))
                 input.keys.push_back(
-                    {*key, (pressed.mod & KMOD_CTRL) != 0, (pressed.mod & KMOD_SHIFT) != 0});
+                    {*key, (pressed.mod & KMOD_CTRL) != 0, (pressed.mod & KMOD_SHIFT) != 0, {}});
         } else if (event.type == SDL_MOUSEBUTTONDOWN) {
             input.clicked = input.clicked || event.button.button == SDL_BUTTON_LEFT;
         } else if (event.type == SDL_MOUSEMOTION || event.type == SDL_MOUSEBUTTONUP ||
@@ -445,6 +451,10 @@ Duration DesktopWindow::picture_time() const {
     if (SDL_GetCurrentDisplayMode(display, &mode) != 0 || mode.refresh_rate <= 0)
         mode.refresh_rate = 60;
     return seconds_to_duration(1.0 / mode.refresh_rate);
+}
+
+std::uint32_t DesktopWindow::x11_number() const {
+    return x11_window(parts_->window);
 }
 
 void DesktopWindow::set_title(const std::string& title) {

@@ -3,6 +3,7 @@
 // ES), and its input events.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -44,6 +45,9 @@ public:
     double text_pixels() const;
     // The shortest time between two pictures that the screen can show.
     Duration picture_time() const;
+
+    // By which other connections know it: a number of X11, 0 on other desktops.
+    std::uint32_t x11_number() const;
 
     void set_title(const std::string& title);
     void toggle_full_screen();

@@ -36,10 +36,10 @@ public:
     // Time without a lost frame before more is drawn: twice as long after each time that this was
     // too much, and the first again once it was not for `held`.
     static constexpr Duration first_patience = 4s, longest_patience = 256s, held = 60s;
-    // More was too much if frames become so many times older and `more_ms`, which they do before
-    // any is lost.
+    // More was too much if frames become `times_as_old` as old and older by `more_ms`, which they
+    // do before any is lost.
     static constexpr double times_as_old = 2, more_ms = 20;
-    // Time of the last step after which there must be so many times the frames of before; else each
+    // Time of the last step after which there must be `gain` times the earlier frames; else each
     // picture is drawn for `first_pause`, then for twice as long.
     static constexpr Duration proof = 8s, first_pause = 30s, longest_pause = 480s;
     static constexpr double gain = 1.1;

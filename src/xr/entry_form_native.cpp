@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "xr/entry_form_native.h"
 
+#include <imgui_internal.h>  // whether the keyboard's focus is shown
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -53,9 +55,17 @@ ImGuiKey key_of(FormKey key) {
             return ImGuiKey_X;
         case FormKey::z:
             return ImGuiKey_Z;
+        case FormKey::letters:
+            break;
     }
     return ImGuiKey_Space;
 }
+
+// Numbers of the places where Tab stops, in its order; a session that was entered before has two.
+constexpr int link_stop = 0, name_stop = 1, box_stop = 2, enter_stop = 6, leave_stop = 7,
+              paste_stop = 8, recent_stop = 9;
+// ImGui carries out a move of the keyboard within three pictures; letters wait for that.
+constexpr int settled_after = 3;
 
 // A text that ImGui edits in place.
 template <std::size_t size>
@@ -93,6 +103,13 @@ struct EntryForm::Parts {
     render::PictureTexture picture;
     std::deque<FormKeyPress> keys;  // one for each picture, as ImGui sees levels
     std::optional<int> held;        // the key that is down in ImGui
+    int settling = 0;               // pictures until ImGui has carried out a key that moves
+    bool wants_enter = false;       // once the host has answered
+    // The places where Tab stops, by their numbers: of this picture, the one that has the keyboard,
+    // and the one that gets it.
+    std::vector<int> stops;
+    std::optional<int> focused_stop, wanted_stop;
+    int tab_step = 0;
     bool was_down = false, has_focus = false;
     int fresh = 0;  // pictures since the form appeared; ImGui lays itself out in the first two
 
@@ -126,6 +143,10 @@ struct EntryForm::Parts {
     void recent_list(float width);
     void session(const EntryFacts& facts, float width);
     void label(Phrase words) const;
+    void choose(std::size_t recent_index);
+    void tab_stop(int number);
+    void move_focus();
+    bool is_on_button() const;
 };
 
 void EntryForm::Parts::make_fonts(double pixels) {
@@ -160,7 +181,6 @@ void EntryForm::Parts::take(const FormInput& input, Size window) {
     ImGuiIO& io = ImGui::GetIO();
     io.DisplaySize = {float(window.width), float(window.height)};
     io.DeltaTime = 1.0f / 60;
-    io.AddInputCharactersUTF8(input.text.c_str());
     io.MousePos = input.pointer ? ImVec2(float(input.pointer->x) * io.DisplaySize.x,
                                          float(input.pointer->y) * io.DisplaySize.y)
                                 : ImVec2(-FLT_MAX, -FLT_MAX);
@@ -171,17 +191,34 @@ void EntryForm::Parts::take(const FormInput& input, Size window) {
     io.KeyCtrl = io.KeyShift = false;
     if (held) {
         io.KeysDown[*std::exchange(held, std::nullopt)] = false;
+    } else if (settling > 0 || fresh < settled_after) {
+        settling = std::max(settling - 1, 0);
     } else if (!keys.empty()) {
         const FormKeyPress press = keys.front();
         keys.pop_front();
-        held = key_of(press.key);
-        io.KeysDown[*held] = true;
-        io.KeyCtrl = press.control;
-        io.KeyShift = press.shift;
+        if (press.key == FormKey::letters) {
+            io.AddInputCharactersUTF8(press.text.c_str());
+            while (!keys.empty() && keys.front().key == FormKey::letters) {
+                io.AddInputCharactersUTF8(keys.front().text.c_str());
+                keys.pop_front();
+            }
+        } else if (press.key == FormKey::tab) {
+            tab_step = press.shift ? -1 : 1;
+        } else {
+            held = key_of(press.key);
+            io.KeysDown[*held] = true;
+            io.KeyCtrl = press.control;
+            io.KeyShift = press.shift;
+            wants_enter = wants_enter || (press.key == FormKey::enter && !is_on_button());
+            if (press.key == FormKey::up || press.key == FormKey::down)
+                settling = settled_after;
+        }
     }
     // The arrows of the keyboard move between fields, Space presses a button.
     const auto is_down = [&](ImGuiKey key) { return io.KeysDown[key] ? 1.0f : 0.0f; };
-    io.NavInputs[ImGuiNavInput_Activate] = is_down(ImGuiKey_Space);
+    io.NavInputs[ImGuiNavInput_Activate] =
+        is_on_button() ? std::max(is_down(ImGuiKey_Space), is_down(ImGuiKey_Enter))
+                       : is_down(ImGuiKey_Space);
     io.NavInputs[ImGuiNavInput_KeyUp_] = is_down(ImGuiKey_UpArrow);
     io.NavInputs[ImGuiNavInput_KeyDown_] = is_down(ImGuiKey_DownArrow);
     io.NavInputs[ImGuiNavInput_KeyLeft_] = is_down(ImGuiKey_LeftArrow);
@@ -194,6 +231,39 @@ void EntryForm::Parts::label(Phrase words) const {
     ImGui::PopFont();
 }
 
+// The item that was laid out last is one.
+void EntryForm::Parts::tab_stop(int number) {
+    stops.push_back(number);
+    if (ImGui::IsItemFocused() || ImGui::IsItemActive())
+        focused_stop = number;
+    if (wanted_stop == number) {
+        ImGui::SetKeyboardFocusHere(-1);
+        ImGui::GetCurrentContext()->NavDisableHighlight = false;
+        wanted_stop.reset();
+        settling = settled_after;
+    }
+}
+
+void EntryForm::Parts::move_focus() {
+    const int step = std::exchange(tab_step, 0);
+    if (step == 0 || stops.empty())
+        return;
+    std::sort(stops.begin(), stops.end());
+    const int count = int(stops.size());
+    const auto at =
+        focused_stop ? std::find(stops.begin(), stops.end(), *focused_stop) : stops.end();
+    const int next = at == stops.end() ? (step > 0 ? 0 : count - 1)
+                                       : (int(at - stops.begin()) + step + count) % count;
+    wanted_stop = stops[std::size_t(next)];
+    settling = settled_after;
+}
+
+// The keyboard has moved there: Enter presses it.
+bool EntryForm::Parts::is_on_button() const {
+    const bool is_button = focused_stop && *focused_stop >= enter_stop;
+    return is_button && !ImGui::GetCurrentContext()->NavDisableHighlight;
+}
+
 EntryAnswer EntryForm::Parts::form(const EntryFacts& facts, float width) {
     EntryAnswer answer = EntryAnswer::none;
     const std::string paste_text = say(Phrase::form_paste);
@@ -204,27 +274,34 @@ EntryAnswer EntryForm::Parts::form(const EntryFacts& facts, float width) {
     if (fresh == 0 && fields.link.empty())
         ImGui::SetKeyboardFocusHere();
     const bool is_hidden = !hidden_link.empty() && link.text() == hidden_link;
-    bool entered = ImGui::InputText(
+    ImGui::InputText(
         "##link", link.letters.data(), link.letters.size(),
         ImGuiInputTextFlags_EnterReturnsTrue | (is_hidden ? ImGuiInputTextFlags_Password : 0));
+    tab_stop(link_stop);
     ImGui::SameLine();
     if (ImGui::Button(paste_text.c_str()))
         link.set(clipboard.text());
+    tab_stop(paste_stop);
     recent_list(width);
     label(Phrase::form_name);
     ImGui::SetNextItemWidth(width);
     if (fresh == 0 && !fields.link.empty())
         ImGui::SetKeyboardFocusHere();
-    entered = ImGui::InputText("##name", name.letters.data(), name.letters.size(),
-                               ImGuiInputTextFlags_EnterReturnsTrue) ||
-              entered;
+    ImGui::InputText("##name", name.letters.data(), name.letters.size(),
+                     ImGuiInputTextFlags_EnterReturnsTrue);
+    tab_stop(name_stop);
     ImGui::Checkbox(say(Phrase::form_hears).c_str(), &fields.hears);
+    tab_stop(box_stop);
     ImGui::SameLine(0, 2 * float(text_pixels));
     ImGui::Checkbox(say(Phrase::form_speaks).c_str(), &fields.speaks);
+    tab_stop(box_stop + 1);
     ImGui::BeginDisabled(!fields.speaks);
     ImGui::Checkbox(say(Phrase::form_may_record).c_str(), &fields.voice_may_record);
+    if (fields.speaks)
+        tab_stop(box_stop + 2);
     ImGui::EndDisabled();
     ImGui::Checkbox(say(Phrase::form_shows_face).c_str(), &fields.shows_face);
+    tab_stop(box_stop + 3);
 
     ImGui::Dummy({0, 0.5f * float(text_pixels)});
     if (facts.is_problem)
@@ -244,17 +321,31 @@ EntryAnswer EntryForm::Parts::form(const EntryFacts& facts, float width) {
     if (ImGui::Button(say(Phrase::form_enter).c_str(),
                       {11 * float(text_pixels), 2.2f * float(text_pixels)}))
         answer = EntryAnswer::enter;
+    if (ready)
+        tab_stop(enter_stop);
     ImGui::PopStyleColor(3);
     ImGui::EndDisabled();
     ImGui::SameLine();
     if (ImGui::Button(say(Phrase::close).c_str(),
                       {5 * float(text_pixels), 2.2f * float(text_pixels)}))
         answer = EntryAnswer::leave;
-    if (entered && ready)
+    tab_stop(leave_stop);
+    // Enter waits for the host's answer about this link, and for nothing else.
+    const std::string typed = link.text();
+    if (typed != fields.link || typed.empty() || name.text().empty() || facts.is_problem)
+        wants_enter = false;
+    if (std::exchange(wants_enter, wants_enter && !ready) && ready)
         answer = EntryAnswer::enter;
-    fields.link = link.text();
+    fields.link = typed;
     fields.name = name.text();
     return answer;
+}
+
+// After a click the keyboard goes on with the name, where Enter enters.
+void EntryForm::Parts::choose(std::size_t recent_index) {
+    recent = RecentAnswer{recent_index, false};
+    if (ImGui::IsMouseReleased(ImGuiMouseButton_Left))
+        wanted_stop = name_stop;
 }
 
 // One line for each: the button that chooses it, and the one that forgets it.
@@ -273,7 +364,8 @@ void EntryForm::Parts::recent_list(float width) {
         ImGui::PushID(int(i));
         const std::string line = recents[i].session + "   " + recents[i].place;
         if (ImGui::Button(line.c_str(), {width - forget - ImGui::GetStyle().ItemSpacing.x, 0}))
-            recent = RecentAnswer{i, false};
+            choose(i);
+        tab_stop(recent_stop + 2 * int(i));
         ImGui::SameLine();
         const bool is_asked = asked_forget && asked_forget->index == i;
         // One id, so that the second press is one on the same button.
@@ -281,6 +373,7 @@ void EntryForm::Parts::recent_list(float width) {
             ((is_asked ? say(Phrase::form_sure) : forget_text) + "###forget").c_str(), {forget, 0});
         if (pressed && is_asked)
             recent = RecentAnswer{i, true};
+        tab_stop(recent_stop + 2 * int(i) + 1);
         const bool is_there =
             is_asked && (asked_forget->by_mouse ? ImGui::IsItemHovered() : ImGui::IsItemFocused());
         if (pressed && !is_asked)
@@ -332,7 +425,10 @@ EntryAnswer EntryForm::Parts::lay_out(const EntryFacts& facts) {
     ImGui::PopFont();
     ImGui::TextDisabled("%s", say(Phrase::form_subtitle).c_str());
     ImGui::Dummy({0, 0.5f * em});
+    stops.clear();
+    focused_stop.reset();
     const EntryAnswer answer = form(facts, form_width);
+    move_focus();
     ImGui::EndGroup();
     if (beside)
         ImGui::SameLine(0, gap);
@@ -379,7 +475,7 @@ EntryAnswer EntryForm::draw(const EntryFacts& facts, const FormInput& input, Siz
     ImGui::NewFrame();
     EntryAnswer answer = p.lay_out(facts);
     p.has_focus = ImGui::GetIO().WantTextInput;
-    p.fresh = std::min(p.fresh + 1, 3);
+    p.fresh = std::min(p.fresh + 1, settled_after);
     ImGui::Render();
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glViewport(0, 0, window.width, window.height);
@@ -393,7 +489,9 @@ EntryAnswer EntryForm::draw(const EntryFacts& facts, const FormInput& input, Siz
 
 bool EntryForm::is_animated() const {
     const Parts& p = *parts_;
-    return p.fresh < 3 || !p.keys.empty() || p.held || p.was_down || p.has_focus || p.asked_forget;
+    return p.fresh < settled_after || !p.keys.empty() || p.held || p.settling > 0 ||
+           p.wanted_stop || p.tab_step != 0 || p.wants_enter || p.was_down || p.has_focus ||
+           p.asked_forget;
 }
 
 const EntryFields& EntryForm::fields() const {

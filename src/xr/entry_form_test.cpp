@@ -2,6 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "render/gl.h"
 #include "render/test_context.h"
@@ -45,6 +48,21 @@ protected:
         return form->take_recent();
     }
 
+    // Keys and letters that all come at once, and pictures until the form has used them up.
+    EntryAnswer type(std::vector<FormKeyPress> keys, const EntryFacts& facts = {}) {
+        FormInput input;
+        input.keys = std::move(keys);
+        EntryAnswer answer = form->draw(facts, input, window, 8, now, framebuffer);
+        for (int i = 0; i < 100; ++i)
+            if (const auto next = form->draw(facts, {}, window, 8, now, framebuffer);
+                next != EntryAnswer::none)
+                answer = next;
+        return answer;
+    }
+    static FormKeyPress letters(const std::string& text) {
+        return {FormKey::letters, false, false, text};
+    }
+
     static constexpr Size window{400, 300};
     unsigned picture = 0, framebuffer = 0;
     std::optional<EntryForm> form;
@@ -70,6 +88,61 @@ TEST_F(Form, ASessionIsForgottenByASecondPressAndByNoOther) {
     const auto sure = press(*forget);
     ASSERT_TRUE(sure && sure->forgets);
     EXPECT_EQ(sure->index, 0u);
+}
+
+TEST_F(Form, LettersThatComeAtOnceReachTheirFieldsInOrder) {
+    type({letters("https:"),
+          letters("//h"),
+          {FormKey::tab},
+          letters("e"),
+          letters("va"),
+          {FormKey::tab, false, true},
+          {FormKey::end},
+          letters("/#")});
+    EXPECT_EQ(form->fields().link, "https://h/#");
+    EXPECT_EQ(form->fields().name, "eva");
+}
+
+TEST_F(Form, ANewFormKeepsTheFirstLetters) {
+    form.emplace(EntryFields{},
+                 EntryForm::Clipboard{[] { return std::string(); }, [](const std::string&) {}});
+    type({letters("ab"), letters("c")});
+    EXPECT_EQ(form->fields().link, "abc");
+}
+
+TEST_F(Form, TabReachesEveryFieldAndBox) {
+    const FormKeyPress tab{FormKey::tab}, space{FormKey::space};
+    EXPECT_TRUE(form->fields().hears);
+    type({tab, letters("eva"), tab, space, tab, space, tab, space, tab, space});
+    EXPECT_EQ(form->fields().name, "eva");
+    EXPECT_FALSE(form->fields().hears);
+    EXPECT_TRUE(form->fields().speaks);
+    EXPECT_TRUE(form->fields().voice_may_record);
+    EXPECT_TRUE(form->fields().shows_face);
+    EXPECT_EQ(type({tab, {FormKey::enter}}), EntryAnswer::leave) << "the button that closes";
+}
+
+TEST_F(Form, EnterEntersAfterAClickOnASessionAlsoBeforeTheHostHasAnswered) {
+    type({{FormKey::tab}, letters("eva")});
+    std::optional<RecentAnswer> chosen;
+    for (double y = 0.2; y < 0.8 && !chosen; y += 0.015)
+        for (double x = 0.3; x < 0.6 && !chosen; x += 0.05)
+            chosen = press({x, y});
+    ASSERT_TRUE(chosen && !chosen->forgets);
+    form->set_hidden_link("https://or-3/#join=x");
+    EXPECT_EQ(type({{FormKey::enter}}), EntryAnswer::none) << "no answer yet";
+    EntryFacts open;
+    open.can_enter = true;
+    EXPECT_EQ(type({}, open), EntryAnswer::enter);
+}
+
+TEST_F(Form, EnterDoesNotWaitForAnotherLinkThanTheOneThatIsThere) {
+    type({letters("https://wrong"), {FormKey::tab}, letters("eva"), {FormKey::enter}});
+    EntryFacts open;
+    open.can_enter = true;
+    type({{FormKey::tab, false, true}, {FormKey::end}, letters("er")});
+    EXPECT_EQ(type({}, open), EntryAnswer::none);
+    EXPECT_EQ(type({{FormKey::enter}}, open), EntryAnswer::enter);
 }
 
 }  // namespace

@@ -30,18 +30,19 @@ enum class FormKey {
     v,
     x,
     z,
+    letters,  // `text` of the press was typed
 };
 
 struct FormKeyPress {
     FormKey key{};
     bool control = false, shift = false;
+    std::string text = {};  // UTF-8
 };
 
 struct FormInput {
-    bool close = false;   // as in WindowInput
-    bool redraw = false;  // likewise
-    std::string text;     // typed, UTF-8
-    std::vector<FormKeyPress> keys;
+    bool close = false;              // as in WindowInput
+    bool redraw = false;             // as in WindowInput
+    std::vector<FormKeyPress> keys;  // with the letters in between, in their order
     // The mouse in shares of the window's width and height from its top left corner, if it is in
     // the window.
     std::optional<Vec2> pointer;
@@ -49,9 +50,7 @@ struct FormInput {
     bool clicked = false;  // it was pressed since the last input, and may be up again
     double wheel = 0;      // clicks away from the user
 
-    bool is_empty() const {
-        return !close && !redraw && text.empty() && keys.empty() && !clicked && wheel == 0;
-    }
+    bool is_empty() const { return !close && !redraw && keys.empty() && !clicked && wheel == 0; }
 };
 
 }  // namespace theatron::xr

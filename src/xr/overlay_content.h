@@ -11,6 +11,7 @@
 
 #include "geometry/vec.h"
 #include "image/image.h"
+#include "xr/tool_bar.h"
 
 namespace theatron::xr {
 
@@ -31,7 +32,7 @@ struct PanelButton {
 };
 struct PanelSlider {
     double value = 0, lowest = 0, highest = 1;
-    int command = 0;  // likewise, with the value
+    int command = 0;  // as of a button, with the value
 
     bool operator==(const PanelSlider&) const = default;
 };
@@ -65,6 +66,9 @@ struct OverlayContent {
     std::vector<Fact> facts;
     // Large in the middle, over a darkened picture, with a smaller line below.
     std::string message, detail;
+    // The same below the panels, where there is no message: the picture no longer shows the
+    // present.
+    std::string cover;
     std::string warning;  // at the top, while its cause lasts
     std::string notice;   // below it, for a recent event
     bool help = false;
@@ -72,7 +76,10 @@ struct OverlayContent {
     std::vector<OverlayPicture> pictures;  // in rows of three, or a large one
     // That is being drawn with the mouse: two corners, in shares of the window's width and height.
     std::optional<std::pair<Vec2, Vec2>> rectangle = {};
-    std::optional<PanelRow> bar = {};  // above the facts, as wide as the window
+    std::optional<PanelRow> bar = {};   // above the facts, as wide as the window
+    std::vector<PanelRow> offers = {};  // at the top: notices with buttons
+    std::optional<ToolBar> tools = {};  // at the bottom, below all others
+    std::optional<std::size_t> hovered = {}, focused = {};  // controls, as Overlay counts them
 
     bool operator==(const OverlayContent&) const = default;
 };

@@ -10,6 +10,7 @@
 #include "xr/overlay_pictures_native.h"
 #include "xr/panel_colors_native.h"
 #include "xr/panel_heights.h"
+#include "xr/tool_icons_native.h"
 #include "xr/window_input.h"
 
 namespace theatron::xr {
@@ -23,8 +24,11 @@ constexpr float panels_beside_pictures = 0.5f;
 constexpr float rounding = 1;
 // In half text heights.
 constexpr float panel_padding = 1.4f, slider_units = 22;
-// A longer text of a panel, perhaps a name that somebody gave, has several lines.
-constexpr float longest_line_units = 70;
+// A panel has this width whatever its texts say, so that its buttons stay in their places; it is
+// wider only for its buttons. Longer texts have several lines.
+constexpr float panel_units = 33, least_text_units = 12, slider_text_units = 21;
+// Labels of the bar may be so much smaller than other small texts.
+constexpr float least_label_scale = 0.6f;
 
 }  // namespace
 
@@ -52,12 +56,19 @@ struct Overlay::Parts {
     }
 
     // Each draws its part; all use the state that draw() has set up.
-    float facts(const std::vector<Fact>& facts) const;
+    float facts(const std::vector<Fact>& facts, float bottom) const;
     void message(const std::string& message, const std::string& detail, float bottom) const;
     float notice_end(const std::string& words, float top) const;
-    std::optional<float> notice_middle(const std::string& words, float from, float to) const;
-    float notice(const std::string& words, ImU32 color, float top, float middle) const;
-    void help(float bottom) const;
+    std::optional<float> middle_of(float width, float from, float to) const;
+    float notice_width(const std::string& words) const;
+    float notice(const std::string& words, ImU32 color, float top, float middle, float wrap) const;
+    float offer_width(const PanelRow& offer) const;
+    float offer_height() const { return normal->FontSize + 4 * unit; }
+    void offer(const PanelRow& offer, float top, float middle);
+    void help(float top, float bottom) const;
+    float tool_bar(const ToolBar& bar, std::optional<std::size_t> hovered);
+    void hint(const std::string& words, const BarCell& cell) const;
+    void focus_ring(std::size_t control) const;
 
     // Rows that are scrolled out above, of the panel with this title.
     std::map<std::string, double> scrolled;
@@ -94,8 +105,8 @@ void Overlay::Parts::make_fonts(double pixels) {
     text_pixels = pixels;
 }
 
-// From the left, in as many rows as they need. Returns their height.
-float Overlay::Parts::facts(const std::vector<Fact>& facts) const {
+// From the left, in as many rows as they need. Returns the height of all that is at the bottom.
+float Overlay::Parts::facts(const std::vector<Fact>& facts, float bottom) const {
     const float gap = 2.2f * unit, margin = 1.2f * unit;
     const float row = small->FontSize + normal->FontSize + 0.9f * unit;
     const auto width = [&](const Fact& fact) {
@@ -116,16 +127,16 @@ float Overlay::Parts::facts(const std::vector<Fact>& facts) const {
         x += width(fact) + gap;
     }
     if (places.empty())
-        return 0;
-    const float height = y + row + 0.5f * unit, top = window.y - height;
-    list->AddRectFilled({0, top}, window, colors::bar);
+        return bottom;
+    const float height = y + row + 0.5f * unit, top = window.y - bottom - height;
+    list->AddRectFilled({0, top}, {window.x, window.y - bottom}, colors::bar);
     for (const auto& [fact, place] : places) {
         const ImVec2 at{place.x, top + place.y + 0.5f * unit};
         text(small, at, colors::label, fact->label);
         text(normal, {at.x, at.y + small->FontSize}, fact->warning ? colors::warning : colors::text,
              fact->value);
     }
-    return height;
+    return bottom + height;
 }
 
 void Overlay::Parts::message(const std::string& message, const std::string& detail,
@@ -149,29 +160,156 @@ float Overlay::Parts::notice_end(const std::string& words, float top) const {
     return words.empty() ? top : top + measure(normal, words, window.x * 0.8f).y + 3 * unit;
 }
 
-// Where its middle is so that it covers nothing beside these two; nullopt: it is too wide.
-std::optional<float> Overlay::Parts::notice_middle(const std::string& words, float from,
-                                                   float to) const {
-    const float half = measure(normal, words, window.x * 0.8f).x / 2 + 3 * unit;
-    if (2 * half > to - from)
+// Where the middle of so wide a thing is so that it covers nothing beside these two; nullopt: it is
+// too wide.
+std::optional<float> Overlay::Parts::middle_of(float width, float from, float to) const {
+    if (width > to - from)
         return std::nullopt;
-    return std::clamp(window.x / 2, from + half, to - half);
+    return std::clamp(window.x / 2, from + width / 2, to - width / 2);
 }
 
-float Overlay::Parts::notice(const std::string& words, ImU32 color, float top, float middle) const {
+float Overlay::Parts::notice_width(const std::string& words) const {
+    return words.empty() ? 0 : measure(normal, words, window.x * 0.8f).x + 6 * unit;
+}
+
+float Overlay::Parts::notice(const std::string& words, ImU32 color, float top, float middle,
+                             float wrap) const {
     if (words.empty())
         return top;
-    const float wrap = window.x * 0.8f, padding = unit;
+    const float padding = unit;
     const ImVec2 size = measure(normal, words, wrap);
     const ImVec2 from{middle - size.x / 2, top + padding};
     list->AddRectFilled({from.x - 2 * padding, from.y - padding},
                         {from.x + size.x + 2 * padding, from.y + size.y + padding}, colors::panel,
                         unit);
     text(normal, from, color, words, wrap);
-    return notice_end(words, top);
+    return top + size.y + 3 * unit;
 }
 
-void Overlay::Parts::help(float bottom) const {
+float Overlay::Parts::offer_width(const PanelRow& offer) const {
+    return measure(normal, offer.text).x + measure(small, offer.detail).x + controls_width(offer) +
+           6 * unit;
+}
+
+// A text and its buttons in one line. A text that is too long loses its end.
+void Overlay::Parts::offer(const PanelRow& offer, float top, float middle) {
+    const float width = std::min(offer_width(offer), window.x), gap = 0.7f * unit;
+    const Area area{{middle - width / 2, top}, {middle + width / 2, top + offer_height() - unit}};
+    panel_areas.push_back(area);
+    panel_titles.emplace_back();
+    list->AddRectFilled(area.from, area.to, colors::panel, unit);
+    list->AddRect(area.from, area.to, colors::warning, unit, 0, 0.15f * unit);
+    const float y = (area.from.y + area.to.y) / 2;
+    float x = area.to.x - 2 * unit - controls_width(offer) + gap;
+    const float text_end = x - gap;
+    for (const PanelButton& button : offer.buttons) {
+        const float wide = button_width(button);
+        const Area at{{x, area.from.y + gap}, {x + wide, area.to.y - gap}};
+        list->AddRectFilled(at.from, at.to, colors::button, 0.5f * unit);
+        text(small, {x + gap, y - small->FontSize / 2}, colors::key, button.label);
+        buttons.push_back({at, button.command});
+        x += wide + gap;
+    }
+    list->PushClipRect(area.from, {text_end, area.to.y});
+    x = area.from.x + 2 * unit;
+    text(normal, {x, y - normal->FontSize / 2}, colors::text, offer.text);
+    x += measure(normal, offer.text).x + unit;
+    text(small, {x, y - small->FontSize / 2}, colors::label, offer.detail);
+    list->PopClipRect();
+}
+
+// Above a cell of the bar.
+void Overlay::Parts::hint(const std::string& words, const BarCell& cell) const {
+    if (words.empty())
+        return;
+    const float wrap = window.x * 0.8f, padding = 0.7f * unit;
+    const ImVec2 size = measure(small, words, wrap);
+    const float half = size.x / 2 + 2 * padding;
+    const float middle = std::clamp(float(cell.left + cell.right) / 2, std::min(half, window.x / 2),
+                                    std::max(window.x - half, window.x / 2));
+    const ImVec2 from{middle - size.x / 2, float(cell.top) - unit - padding - size.y};
+    list->AddRectFilled({from.x - 2 * padding, from.y - padding},
+                        {from.x + size.x + 2 * padding, from.y + size.y + padding}, colors::card,
+                        0.5f * unit);
+    text(small, from, colors::text, words, wrap);
+}
+
+void Overlay::Parts::focus_ring(std::size_t control) const {
+    if (control >= buttons.size())
+        return;
+    const Area& area = buttons[control].first;
+    const float inset = 0.2f * unit;
+    list->AddRect({area.from.x + inset, area.from.y + inset},
+                  {area.to.x - inset, area.to.y - inset}, colors::key, 0.5f * unit, 0,
+                  0.25f * unit);
+}
+
+// Returns the height of all that is at the bottom.
+float Overlay::Parts::tool_bar(const ToolBar& bar, std::optional<std::size_t> hovered) {
+    const ToolBarLayout layout =
+        tool_bar_layout(bar.tools.size(), {int(window.x), int(window.y)}, 2.0 * double(unit));
+    list->AddRectFilled({0, float(layout.bar.top)}, window, colors::dense_bar);
+    panel_areas.push_back({{0, float(layout.bar.top)}, window});
+    panel_titles.emplace_back();
+    const float side = 2.6f * unit, stroke = std::max(1.5f, 0.2f * unit);
+    // All labels have one size, so that the bar looks of one piece.
+    float label_scale = 1;
+    for (std::size_t i = 0; i < bar.tools.size(); ++i)
+        label_scale = std::min(label_scale, (float(layout.tools[i].width()) - 0.6f * unit) /
+                                                measure(small, bar.tools[i].label).x);
+    label_scale = std::min(
+        label_scale, (float(layout.dot.width()) - 0.6f * unit) / measure(small, bar.dot.words).x);
+    const bool has_labels = layout.has_labels && label_scale >= least_label_scale;
+    const float content = side + (has_labels ? small->FontSize + 0.2f * unit : 0);
+    const auto begin = [&](const BarCell& cell, int command, bool pressed) {
+        const Area area{{float(cell.left), float(cell.top)},
+                        {float(cell.right), float(cell.bottom)}};
+        const float inset = 0.25f * unit;
+        const ImU32 ground = pressed                     ? colors::tool_pressed
+                             : hovered == buttons.size() ? colors::tool_hovered
+                                                         : 0;
+        if (ground != 0)
+            list->AddRectFilled({area.from.x + inset, area.from.y + inset},
+                                {area.to.x - inset, area.to.y - inset}, ground, 0.6f * unit);
+        buttons.push_back({area, command});
+        return ImVec2{float(cell.left + cell.right) / 2 - side / 2,
+                      float(cell.top + cell.bottom) / 2 - content / 2};
+    };
+    const auto label = [&](const BarCell& cell, ImVec2 corner, const std::string& words,
+                           ImU32 color) {
+        const float width = label_scale * measure(small, words).x;
+        if (has_labels)
+            text(small,
+                 {float(cell.left + cell.right) / 2 - width / 2, corner.y + side + 0.2f * unit},
+                 color, words, 0, label_scale);
+    };
+    const ImU32 dot_color = bar.dot.level == PictureDot::Level::good   ? colors::good
+                            : bar.dot.level == PictureDot::Level::slow ? colors::warning
+                                                                       : colors::alarm;
+    const ImVec2 dot_at = begin(layout.dot, bar.dot.command, false);
+    draw_dot(*list, bar.dot.level, dot_at, side, dot_color);
+    label(layout.dot, dot_at, bar.dot.words, colors::text);
+    for (std::size_t i = 0; i < bar.tools.size(); ++i) {
+        const Tool& tool = bar.tools[i];
+        const BarCell& cell = layout.tools[i];
+        const ImVec2 at = begin(cell, tool.command, tool.pressed);
+        const ImU32 color = tool.alarm ? colors::alarm : colors::text;
+        draw_icon(*list, tool.icon, at, side, stroke, color);
+        if (tool.crossed)
+            draw_cross(*list, at, side, stroke, color, colors::ground);
+        if (tool.badge > 0) {
+            const std::string number = std::to_string(std::min<std::size_t>(tool.badge, 99));
+            const ImVec2 middle{at.x + side, at.y + 0.35f * unit};
+            list->AddCircleFilled(middle, unit, colors::warning);
+            text(small, {middle.x - measure(small, number).x / 2, middle.y - small->FontSize / 2},
+                 colors::ink, number);
+        }
+        label(cell, at, tool.label, color);
+    }
+    return float(layout.bar.height());
+}
+
+void Overlay::Parts::help(float top, float bottom) const {
     const float row = normal->FontSize + 0.9f * unit, gap = 3 * unit, padding = 2.5f * unit;
     float keys = 0, meanings = 0;
     for (const KeyHelp& line : key_help()) {
@@ -181,10 +319,10 @@ void Overlay::Parts::help(float bottom) const {
     const float width = keys + gap + meanings;
     const float height = row * float(key_help().size()) - 0.9f * unit;
     // Smaller where the window is small: all lines must be readable.
-    const float scale = std::min(
-        {1.0f, window.x / (width + 2 * padding), (window.y - bottom) / (height + 2 * padding)});
+    const float scale = std::min({1.0f, window.x / (width + 2 * padding),
+                                  (window.y - bottom - top) / (height + 2 * padding)});
     const ImVec2 half{scale * (width / 2 + padding), scale * (height / 2 + padding)};
-    const ImVec2 middle{window.x / 2, (window.y - bottom) / 2};
+    const ImVec2 middle{window.x / 2, (top + window.y - bottom) / 2};
     list->AddRectFilled({middle.x - half.x, middle.y - half.y},
                         {middle.x + half.x, middle.y + half.y}, colors::panel, scale * unit);
     const ImVec2 from{middle.x - scale * width / 2, middle.y - scale * height / 2};
@@ -252,16 +390,16 @@ float Overlay::Parts::controls_width(const PanelRow& row) const {
     return width;
 }
 
-// The width of a panel without its edges that breaks no text of usual length.
+// The width of a panel without its edges.
 float Overlay::Parts::wanted_width(const Panel& panel) const {
-    const auto line = [&](ImFont* font, const std::string& text) {
-        return std::min(measure(font, text).x, longest_line_units * unit);
-    };
-    float width = measure(normal, panel.title).x;
-    for (const PanelRow& row : panel.rows)
-        width = std::max({width,
-                          line(normal, row.text) + controls_width(row) + 2 * panel_padding * unit,
-                          line(small, row.detail)});
+    float width = panel_units * unit;
+    for (const PanelRow& row : panel.rows) {
+        // The number of a slider changes; its text stays one line.
+        const float text_units = row.text.empty() ? 0
+                                 : row.slider     ? slider_text_units
+                                                  : least_text_units;
+        width = std::max(width, controls_width(row) + text_units * unit);
+    }
     return width;
 }
 
@@ -272,7 +410,7 @@ float Overlay::Parts::wanted_width(const Panel& panel) const {
 float Overlay::Parts::panels(const std::vector<Panel>& shown, const Area& free) {
     const float padding = panel_padding * unit, gap = 0.7f * unit, left = free.from.x;
     const float button_height = normal->FontSize + gap, slider_width = slider_units * unit;
-    const float least_text_width = 12 * unit;
+    const float least_text_width = least_text_units * unit;
     const auto panel_width = [&](const Panel& panel) {
         return std::min(wanted_width(panel), free.to.x - left - 2 * padding);
     };
@@ -422,6 +560,22 @@ std::optional<int> Overlay::command_at(Vec2 place) const {
     return parts_->pictures.command_at(pixel);
 }
 
+std::size_t Overlay::controls() const {
+    return parts_->buttons.size();
+}
+
+std::optional<std::size_t> Overlay::control_at(Vec2 place) const {
+    const ImVec2 pixel = parts_->pixel_at(place);
+    for (std::size_t i = 0; i < parts_->buttons.size(); ++i)
+        if (parts_->buttons[i].first.has(pixel))
+            return i;
+    return std::nullopt;
+}
+
+int Overlay::command_of(std::size_t control) const {
+    return parts_->buttons.at(control).second;
+}
+
 std::optional<Overlay::Slider> Overlay::slider_at(Vec2 place) const {
     const ImVec2 pixel = parts_->pixel_at(place);
     for (const auto& [area, slider] : parts_->sliders)
@@ -446,11 +600,12 @@ void Overlay::draw(const OverlayContent& content, Size window, double text_pixel
     ImGui::NewFrame();
     p.list = ImGui::GetForegroundDrawList();
 
-    float bottom = p.facts(content.facts);
     p.panel_areas.clear();
     p.panel_titles.clear();
     p.buttons.clear();
     p.sliders.clear();
+    float bottom = content.tools ? p.tool_bar(*content.tools, content.hovered) : 0;
+    bottom = p.facts(content.facts, bottom);
     if (content.rectangle) {
         const auto [from, to] = *content.rectangle;
         p.list->AddRect(p.pixel_at({std::min(from.x, to.x), std::min(from.y, to.y)}),
@@ -462,8 +617,8 @@ void Overlay::draw(const OverlayContent& content, Size window, double text_pixel
     const float margin = 1.5f * p.unit;
     const float widest =
         content.pictures.empty() ? p.window.x - 2 * margin : panels_beside_pictures * p.window.x;
-    // A warning stands at the top beside the panels and pictures. Where it cannot, it stands at the
-    // bottom and they end above it: nothing that is clicked moves when it comes.
+    // Offers and a warning stand at the top beside the panels and pictures. Where they cannot, they
+    // stand at the bottom and all else ends above them: nothing that is clicked is covered.
     float panels_right = 0;
     for (const Panel& panel : content.panels)
         panels_right = std::max(panels_right, margin + 2 * panel_padding * p.unit +
@@ -472,24 +627,55 @@ void Overlay::draw(const OverlayContent& content, Size window, double text_pixel
         content.pictures.empty()
             ? p.window.x
             : p.window.x - OverlayPictures::columns_width * p.window.x - 4 * p.unit;
-    const auto middle_of = [&](const std::string& words) {
-        return p.notice_middle(words, panels_right, pictures_left);
-    };
-    const auto middle = middle_of(content.warning);
-    const float end = p.window.y - bottom - (middle ? 0 : p.notice_end(content.warning, 0));
+    float strips_width = p.notice_width(content.warning),
+          strips_height = p.notice_end(content.warning, 0);
+    for (const PanelRow& offer : content.offers) {
+        strips_width = std::max(strips_width, p.offer_width(offer));
+        strips_height += p.offer_height();
+    }
+    const auto middle = p.middle_of(strips_width, panels_right, pictures_left);
+    const float end = p.window.y - bottom - (middle ? 0 : strips_height);
+    // The cover lies over the pictures and below the panels.
+    p.list->ChannelsSplit(2);
+    p.list->ChannelsSetCurrent(1);
+    float strip = middle ? margin : end;
+    for (const PanelRow& offer : content.offers) {
+        p.offer(offer, strip, middle.value_or(p.window.x / 2));
+        strip += p.offer_height();
+    }
     const float panels_end =
         p.panels(content.panels, {{margin, margin}, {margin + widest, end - p.unit}});
+    p.list->ChannelsSetCurrent(0);
     p.pictures.draw(*p.list, *p.small, p.unit, p.window,
                     {panels_end + (panels_end > 0 ? p.unit : 0), p.unit}, {p.window.x, end},
                     content.pictures);
+    if (!content.cover.empty() && content.message.empty())
+        p.message(content.cover, "", bottom);
+    p.list->ChannelsMerge();
     if (!content.message.empty())
         p.message(content.message, content.detail, bottom);
     if (content.help)
-        p.help(bottom);
-    const float below = p.notice(content.warning, colors::warning, middle ? margin : end,
-                                 middle.value_or(p.window.x / 2));
-    p.notice(content.notice, colors::text, middle ? below : margin,
-             middle_of(content.notice).value_or(p.window.x / 2));
+        p.help(middle ? margin + strips_height : 0, p.window.y - end);
+    const float wrap = p.window.x * 0.8f;
+    strip =
+        p.notice(content.warning, colors::warning, strip, middle.value_or(p.window.x / 2), wrap);
+    // A notice of some seconds has several lines beside a panel.
+    const float beside = pictures_left - panels_right - 6 * p.unit;
+    const bool has_space = beside > least_text_units * p.unit;
+    p.notice(content.notice, colors::text, middle ? strip : margin,
+             has_space ? (panels_right + pictures_left) / 2 : p.window.x / 2,
+             has_space ? std::min(beside, wrap) : wrap);
+    if (content.tools) {
+        const ToolBarLayout layout =
+            tool_bar_layout(content.tools->tools.size(), window, text_pixels);
+        const auto pointed = content.hovered ? content.hovered : content.focused;
+        if (pointed && *pointed == 0)
+            p.hint(content.tools->dot.hint, layout.dot);
+        else if (pointed && *pointed <= content.tools->tools.size())
+            p.hint(content.tools->tools[*pointed - 1].hint, layout.tools[*pointed - 1]);
+    }
+    if (content.focused)
+        p.focus_ring(*content.focused);
 
     ImGui::Render();
     p.pass.draw(*ImGui::GetDrawData());

@@ -26,6 +26,12 @@ public:
     bool covers(Vec2 place) const;                    // a panel or a plain picture
     std::optional<int> command_at(Vec2 place) const;  // of a panel's button or a plain picture
 
+    // All buttons of the last picture in the order of the keyboard: those of the bar at the bottom,
+    // of offers, of panels.
+    std::size_t controls() const;
+    std::optional<std::size_t> control_at(Vec2 place) const;
+    int command_of(std::size_t control) const;  // below controls()
+
     // A slider of a panel in the last picture: its command, and what the mouse chooses with it.
     struct Slider {
         int command = 0;

@@ -19,6 +19,7 @@ inline constexpr Rgb card_ground{22, 26, 33};
 
 inline constexpr ImU32 ground = with_opacity(dark);
 inline constexpr ImU32 bar = with_opacity(dark, 225);
+inline constexpr ImU32 dense_bar = with_opacity(dark, 248);
 inline constexpr ImU32 panel = with_opacity(dark, 240);
 inline constexpr ImU32 card = with_opacity(card_ground);
 inline constexpr ImU32 veil = with_opacity(shade, 170);
@@ -30,6 +31,11 @@ inline constexpr ImU32 label = IM_COL32(160, 172, 186, 255);
 inline constexpr ImU32 warning = IM_COL32(255, 190, 70, 255);
 inline constexpr ImU32 key = IM_COL32(140, 205, 255, 255);
 
+inline constexpr ImU32 good = IM_COL32(84, 204, 128, 255);
+inline constexpr ImU32 alarm = IM_COL32(255, 112, 96, 255);
+
+inline constexpr ImU32 tool_pressed = IM_COL32(30, 84, 138, 255);
+inline constexpr ImU32 tool_hovered = IM_COL32(40, 48, 60, 255);
 inline constexpr ImU32 field = IM_COL32(38, 46, 58, 255);
 inline constexpr ImU32 button = IM_COL32(52, 66, 84, 255);
 inline constexpr ImU32 button_hovered = IM_COL32(66, 84, 106, 255);

@@ -52,6 +52,12 @@ enum class Action {
     save_points,     // of what the cameras see, into a file
     own_view,        // back to the camera's own view
     view_camera,     // `camera` of the key press
+    point,           // begins or ends pointing with the mouse, without a key that is held
+    leave_session,   // leaves it, also from full screen
+    more,            // shows or hides the panel of all that has no button of its own
+    next_control,    // the keyboard goes on to the next button
+    previous_control,
+    press_control,  // the button that has the keyboard
 };
 
 // A small step of a camera, in the room as the person sees it.

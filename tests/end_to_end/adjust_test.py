@@ -90,7 +90,7 @@ class Adjusting(unittest.TestCase):
 
     def test_only_the_drawn_region_is_sent_until_it_is_taken_back(self):
         def share():
-            """Of the depth picture, drawn from the camera's own place, that has measurements."""
+            """The share of the depth picture, drawn from the camera's own place, that has measurements."""
             file = self.folder / "depth.png"
             code, _, errors = run("join", h.greeting["link"], "--depth", file, "--size", "160x120", "--room", "off",
                                   "--renderer", "splat", "--seconds", "0.4")

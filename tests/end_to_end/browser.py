@@ -179,6 +179,12 @@ class Page:
         speaks = "document.getElementById('speaks').checked = true;" if speaks else ""
         self.evaluate(f"{way}{speaks}document.getElementById('name').value = '{name}'; document.getElementById('enter').click()")
 
+    def open_sheet(self, name):
+        """Opens a panel of the page ("people", "case", "more", "details", "picture"); the focus stays. "": closes it."""
+        self.evaluate(f"'{name}' ? theatron.sheet.open('{name}') : theatron.sheet.close()")
+        if name in ("people", "case"):
+            self.wait_for("!!document.querySelector('#room_panels section')")
+
     def screenshot(self, path):
         picture = self.call("Page.captureScreenshot", format="png")["data"]
         pathlib.Path(path).write_bytes(base64.b64decode(picture))

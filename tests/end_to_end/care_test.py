@@ -100,6 +100,37 @@ class Care(unittest.TestCase):
             lower = upper
         return least * (1 - 1e-6), most * (1 + 1e-6)
 
+    def test_a_host_begins_without_a_camera_that_is_missing_and_takes_it_when_it_is_there(self):
+        late, beside = self.folder / "late", f"folder:{self.folder / 'late'},loop=1,preload=1"
+        with host(self.state, beside, self.camera) as h, \
+                Process("join", h.greeting["link"], "--every", "0.2") as viewer:
+            self.assertEqual(h.greeting["cameras"], ["late", "box"])
+            h.wait_for_error(f"There is no folder '{late}'.")
+            viewer.wait_for(lambda f: [c["id"] for c in f["cameras"]] == [1] and f["cameras"][0]["frames"] > 0)
+            status = json.loads(get(h.greeting, "/status", self.token(h.greeting))[2])
+            missing, there = status["cameras"]
+            self.assertEqual((missing["state"], missing["trouble"], missing["name"]), ("stale", "gone", "late"))
+            self.assertIn("There is no folder", missing["problem"])
+            self.assertEqual(there["state"], "live")
+            of = 'camera="0",name="late"'
+            self.assertEqual(metrics(h.greeting, self.token(h.greeting))["theatron_camera_stale"][of], 1)
+            make_recording(self.folder / "copied", width=64, height=48)
+            (self.folder / "copied").rename(late)
+            viewer.wait_for(lambda f: len(f["cameras"]) == 2 and all(c["frames"] > 0 for c in f["cameras"]))
+            h.wait_until(lambda: metrics(h.greeting, self.token(h.greeting))["theatron_camera_stale"][of] == 0)
+        shutil.rmtree(late)
+
+    def test_a_wrong_word_or_only_wrong_names_of_files_are_refused_at_once(self):
+        for cameras, said in (((self.camera, "folder:missing,fbs=15"), "fbs"), ((self.camera, "floder:missing"), "floder"),
+                              ((self.camera, "v4l2:/dev/none,size=big"), "size=big"),
+                              (("folder:missing", "mkv:missing.mkv"), "There is no folder 'missing'."),
+                              ((self.camera, "recording:missing.mkv"), "missing.mkv")):
+            with self.subTest(cameras):
+                words = [word for camera in cameras for word in ("--camera", camera)]
+                code, _, errors = run("host", "--listen", "127.0.0.1:0", "--state", self.state, "--seconds", "1", *words)
+                self.assertEqual(code, 1, errors)
+                self.assertIn(said, errors)
+
     def test_metrics_tell_what_every_camera_does(self):
         with host(self.state, self.camera, self.camera) as h, \
                 Process("join", h.greeting["link"], "--every", "0.2") as viewer:

@@ -122,7 +122,7 @@ class Case(unittest.TestCase):
                 person.wait_for(lambda f: f["cases"]["offered"] == ["Made liver"])
             # A case that is not open is offered to nobody who may not open it.
             self.assertEqual(cleo.newest_json()["cases"]["offered"], [])
-            anna.say("case open Made liver")
+            anna.say("case open --yes Made liver")
             for person in (anna, ben, cleo):
                 person.wait_for(has_all)
             # One takes the organ; the others see it in their hand, and all rooms are the same.
@@ -154,7 +154,7 @@ class Case(unittest.TestCase):
             self.assertEqual(self.position(again, again["cases"]["open"]["object"]), [0.2, 1.25, -0.3])
             write_case(self.cases / "next", "Second", tumour=False)
             dora.wait_for(lambda f: "Second" in f["cases"]["offered"])
-            dora.say("case open Second")
+            dora.say("case open --yes Second")
             dora.wait_for(lambda f: has_all(f) and f["cases"]["open"]["name"] == "Second" and len(parts_of(f)) == 2)
             dora.say("case close")
             dora.wait_for(lambda f: not f["cases"]["open"] and not f["room"]["objects"])
@@ -185,7 +185,7 @@ class Case(unittest.TestCase):
             anna.wait_for(lambda f: f["cases"]["offered"] == ["Broken", "Whole"])
             shutil.rmtree(broken)
             anna.wait_for(lambda f: f["cases"]["offered"] == ["Whole"])
-            for line, problem in (("case open Nothing", "offers no case 'Nothing'; it offers Whole."),
+            for line, problem in (("case open --yes Nothing", "offers no case 'Nothing'; it offers Whole."),
                                   ("case close", "No case is open"), ("case hide liver", "No case is open"),
                                   ("case explode 200", "from 0 to 100"), ("case scale 0", "from 0.01 to 100"),
                                   ("case what", "There is no such line on cases")):
@@ -198,7 +198,7 @@ class Case(unittest.TestCase):
             anna.wait_for(lambda f: f["cases"]["offered"])
             anna.say("case picture 1")
             anna.wait_for_error("'case picture 1': No case is open.")
-            anna.say("case open Made liver")
+            anna.say("case open --yes Made liver")
             anna.wait_for(has_all)
             anna.say("case picture 1")
             anna.wait_for_error("'case picture 1': The open case has no pictures.")
@@ -226,7 +226,7 @@ class Case(unittest.TestCase):
         write_case(self.cases / "liver")
         with self.start() as h, member(h.greeting["link"], "Anna") as anna:
             anna.wait_for(lambda f: f["cases"]["offered"])
-            anna.say("case open Made liver")
+            anna.say("case open --yes Made liver")
             anna.wait_for(has_all)
             h.process.terminate()
             self.assertEqual(h.end(), 0)
@@ -254,7 +254,7 @@ class Case(unittest.TestCase):
                 return min(r, g, b) > 150 and max(r, g, b) - min(r, g, b) < 8
 
             without = count("without.png", is_yellow), count("without.png", is_white)
-            anna.say("case open Made liver")
+            anna.say("case open --yes Made liver")
             anna.wait_for(has_all)
             anna.say("case scale 2")
             anna.say("case slice coronal 0")
@@ -271,11 +271,36 @@ class Case(unittest.TestCase):
             anna.wait_for(lambda f: f["cases"]["open"]["cut"])
             self.assertGreater(count("cut.png", is_white), screen + 500, "the slice in the organ")
 
+    def test_the_or_screen_tells_sides_case_and_window_of_the_slice(self):
+        write_case(self.cases / "liver")
+        file = self.folder / "or.png"
+        with self.start() as h, member(h.greeting["link"], "Anna") as anna, \
+                Process("join", h.greeting["link"], "--or-screen", "--offscreen", file, "--size", "1280x720",
+                        "--seconds", "60", "--every", "0.2") as screen:
+            anna.wait_for(lambda f: f["cases"]["offered"])
+            anna.say("case open --yes Made liver")
+            anna.wait_for(has_all)
+            for plane, letters in (("axial", "RLAP"), ("coronal", "RLHF"), ("sagittal", "APHF")):
+                with self.subTest(plane):
+                    anna.say(f"case slice {plane} 0")
+                    anna.say("case window 60 350")
+                    shown = screen.wait_for(
+                        lambda f: f.get("or_screen", {}).get("slice") == f"{plane} 0.0 mm"
+                        and f["or_screen"]["window"] == "L 60  W 350")["or_screen"]
+                    self.assertEqual("".join(shown["slice_letters"]), letters)
+                    self.assertEqual(shown["case"], "Made liver")
+            screen.say("quit")
+            self.assertEqual(screen.end(), 0, screen.errors)
+        width, height, channels, rows = read_png(file)
+        # The letters' colour, in the column beside the camera's picture.
+        yellow = sum(tuple(row[x:x + 3]) == (255, 220, 90) for row in rows[height // 4:] for x in range(3 * width * 3 // 4, 3 * width, 3))
+        self.assertGreater(yellow, 60)
+
     def test_the_places_where_two_people_point_on_the_slice_are_shown_on_the_organ_too(self):
         write_case(self.cases / "liver")
         with self.start() as h, member(h.greeting["link"], "Anna") as anna, member(h.greeting["link"], "Ben") as ben:
             anna.wait_for(lambda f: f["cases"]["offered"])
-            anna.say("case open Made liver")
+            anna.say("case open --yes Made liver")
             anna.wait_for(has_all)
             anna.say("case slice coronal 0")
             ben.wait_for(lambda f: has_all(f) and f["cases"]["open"]["screen"]["orientation"] == 1)
@@ -316,7 +341,7 @@ class Case(unittest.TestCase):
         self.assertIn("picture: a red\npicture: b green\n", out)
         with self.start() as h, member(h.greeting["link"], "Anna") as anna, member(h.greeting["link"], "Ben") as ben:
             anna.wait_for(lambda f: f["cases"]["offered"])
-            anna.say("case open Pictures")
+            anna.say("case open --yes Pictures")
             for person in (anna, ben):
                 person.wait_for(lambda f: has_all(f) and f["cases"]["open"]["screen"]["picture"] == 1)
 
@@ -347,7 +372,7 @@ class Case(unittest.TestCase):
             # A case with both: slices first, pictures by a line, slices again.
             write_case(self.cases / "liver", pictures=[(200, 100, 90)])
             anna.wait_for(lambda f: "Made liver" in f["cases"]["offered"])
-            anna.say("case open Made liver")
+            anna.say("case open --yes Made liver")
             ben.wait_for(lambda f: has_all(f) and f["cases"]["open"]["screen"]["picture"] is None)
             ben.say("case series 99")
             ben.wait_for_error("The open case has no series '99'; it has one, which is number 1.")
@@ -371,7 +396,7 @@ class Case(unittest.TestCase):
         recording = self.folder / "session.mkv"
         with self.start() as h, member(h.greeting["link"], "Anna") as anna:
             anna.wait_for(lambda f: f["cases"]["offered"])
-            anna.say("case open Made liver")
+            anna.say("case open --yes Made liver")
             anna.wait_for(has_all)
             with Process("record", h.greeting["link"], recording, "--seconds", "2") as recorder:
                 anna.wait_for(lambda f: len(f["room"]["people"]) == 2)

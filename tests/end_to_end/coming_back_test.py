@@ -34,7 +34,7 @@ class ComingBack(unittest.TestCase):
         recorder.wait_until(lambda: file.exists() and file.stat().st_size > 3000)
 
     def size(self, file):
-        """Of all segments."""
+        """The bytes of all segments."""
         return sum(segment.stat().st_size for segment in self.folder.glob(f"{file.stem}*.mkv"))
 
     def verify(self, file):

@@ -63,7 +63,7 @@ class Guests(unittest.TestCase):
         shutil.rmtree(cls.folder)
 
     def names_in_status(self, h, count):
-        """The participants' names, once there are so many; the host must be alive afterwards."""
+        """The participants' names, once there are `count`; the host must be alive afterwards."""
         def names():
             code, out, errors = run("status", h.greeting["link"], "--json")
             self.assertEqual(code, 0, errors)

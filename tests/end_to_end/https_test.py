@@ -23,7 +23,7 @@ def make_certificate(folder, name, days=90):
 
 
 def shown_fingerprint(link):
-    """Of the certificate that the port shows now."""
+    """The fingerprint of the certificate that the port shows now."""
     with connect_tls(link) as stream:
         return hashlib.sha256(stream.getpeercert(binary_form=True)).hexdigest()
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Whatever hangs, a program ends when it is told to, and a sound system that does not answer costs the sound alone."""
+"""A program ends when it is told to, and a sound system that does not answer costs the sound alone."""
 import os
 import pathlib
 import random

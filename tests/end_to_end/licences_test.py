@@ -17,7 +17,7 @@ HIDDEN = "for file in {}; do mount --bind /dev/null $file || exit 77; done; exec
 
 
 def without_ffmpeg():
-    """What to put before a command, so that it finds no FFmpeg; None where that is not possible."""
+    """The words before a command with which it finds no FFmpeg; None where that is not possible."""
     files = [file for name in ("avutil", "avcodec", "avformat", "swscale")
              for file in glob.glob(f"/usr/lib/*/lib{name}.so.*") if not os.path.islink(file)]
     prefix = ["unshare", "--mount", "sh", "-c", HIDDEN.format(" ".join(files)), "sh"]

@@ -41,7 +41,7 @@ class Marks(unittest.TestCase):
 
     def open_case(self, anna, *others):
         anna.wait_for(lambda f: f["cases"]["offered"])
-        anna.say("case open Made liver")
+        anna.say("case open --yes Made liver")
         for person in (anna, *others):
             person.wait_for(has_all)
         return anna.newest_json()["cases"]["open"]

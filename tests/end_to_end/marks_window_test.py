@@ -36,7 +36,7 @@ class MarksWindow(unittest.TestCase):
         self.screen.do(*before, "mousemove", *begin, "sleep", 0.15, "mousedown", 1, "sleep", 0.15, *steps, "mouseup", 1, *after)
 
     def buttons(self):
-        return self.screen.buttons(WIDTH, HEIGHT, apart=30)
+        return self.screen.buttons(WIDTH, HEIGHT)
 
     def press(self, place):
         self.screen.do("mousemove", *place, "click", 1)
@@ -53,12 +53,15 @@ class MarksWindow(unittest.TestCase):
                 do("mousemove", *AIR, "key", "o")
                 wait_until(lambda: len(self.buttons()) == 1)
                 self.press(self.buttons()[0])
+                # The panel asks whether it is the right patient; its first button opens the case.
+                wait_until(lambda: len(self.buttons()) == 2)
+                self.press(self.buttons()[0])
                 anna.wait_for(has_all)
                 do("key", "o")
                 wait_until(lambda: not self.buttons())
             anna.say("case close")
             anna.wait_for(lambda f: not f["cases"]["open"])
-            anna.say("case open Made liver")
+            anna.say("case open --yes Made liver")
             anna.wait_for(has_all)
             anna.say("case scale 3")
             organ = anna.newest_json()["cases"]["open"]["object"]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What most tests of the browser client begin with: one host and one browser for all tests of a class."""
+"""The beginning of most tests of the browser client: one host and one browser for all tests of a class."""
 import contextlib
 import pathlib
 import tempfile
@@ -14,7 +14,7 @@ PAGE = pathlib.Path(PROGRAM).parent / "web/files.txt"
 @unittest.skipUnless(CHROMIUM, "chromium is not installed: apt-get install chromium")
 @unittest.skipUnless(PAGE.exists(), "there is no browser client: make build")
 class PageCase(unittest.TestCase):
-    """`cameras` and `options` are the host's, `flags` the browser's. What a class enters into `stack` ends with it."""
+    """`cameras` and `options` are the host's, `flags` the browser's. Contexts that a class enters into `stack` end with it."""
     cameras = ()
     options = ()
     flags = ()

@@ -29,7 +29,7 @@ _watched = []  # in the order in which they were started
 
 
 class WaitedInVain(AssertionError):
-    """What should have come did not."""
+    """The awaited condition did not come."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -56,7 +56,7 @@ def _stat(pid):
 
 
 def processor_seconds(root=None):
-    """Of everything that this program has started, without the program itself."""
+    """The processor time of everything that this program has started, without the program itself."""
     root = root or os.getpid()
     parents, used = {}, {}
     for entry in os.listdir("/proc"):

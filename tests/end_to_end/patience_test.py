@@ -55,7 +55,7 @@ class GivesUp(unittest.TestCase):
 
 
 class StandIn:
-    """What a test watches."""
+    """A process as a test watches it."""
 
     def __init__(self):
         self.ended = self.has_crashed = False

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Who the patient of the open case is: seen by roles that may know it, and kept nowhere."""
+"""The patient of the open case is seen by roles that may know it, and kept nowhere."""
 import contextlib
 import json
 import pathlib
@@ -19,11 +19,12 @@ SHOWN = (b"Doe, Jane", b"1961-02-03", b"AB-471142")
 SECRETS = SHOWN + (b"Doe^Jane", b"19610203")
 
 
-def write_patient_case(folder):
+def write_patient_case(folder, *further):
     write_case(folder)
     file = folder / "identifiers.json"
-    series = {"file": "ct.thvolume", "PatientName": "Doe^Jane", "PatientBirthDate": "19610203", "PatientID": "AB-471142"}
-    file.write_text(json.dumps({"series": [series]}))
+    series = {"file": "ct.thvolume", "PatientName": "Doe^Jane", "PatientBirthDate": "19610203", "PatientID": "AB-471142",
+              "StudyDate": "20260301"}
+    file.write_text(json.dumps({"series": [series, *further]}))
     file.chmod(0o600)
 
 
@@ -71,7 +72,7 @@ class Patient(unittest.TestCase):
             self.assertFalse(olga.knows_any(), "no case is open")
             with Process("record", links["expert"], recording, "--seconds", "2") as recorder:
                 anna.wait_for(lambda f: len(f["room"]["people"]) == 5)
-                anna.say("case open Made liver")
+                anna.say("case open --yes Made liver")
                 anna.wait_for(has_all)
                 wait_until(olga.knows)
                 self.assertEqual(recorder.end(), 0, "".join(recorder.errors))
@@ -96,6 +97,19 @@ class Patient(unittest.TestCase):
                     self.assertNotIn(secret, file.read_bytes(), file)
         self.assertTrue((self.folder / "state/audit.jsonl").exists() and summary.exists() and recording.exists())
 
+    def test_a_case_is_opened_with_an_explicit_word_and_one_of_two_patients_is_not_offered(self):
+        write_patient_case(self.cases / "liver")
+        write_patient_case(self.cases / "mixed", {"file": "mr.thvolume", "PatientName": "Roe^Jane", "PatientID": "XY-1"})
+        with case_host(self.folder, self.cases)() as h, member(h.greeting["links"]["expert"], "Anna") as anna:
+            h.wait_for_error("names more than one patient; import the images of each by themselves. This case is not offered.")
+            anna.wait_for(lambda f: f["cases"]["offered"] == ["Made liver"])
+            anna.say("case open Made liver")
+            anna.wait_for_error("Open the case 'Made liver' for all in the room? Say 'case open --yes Made liver'.")
+            self.assertIsNone(anna.newest_json()["cases"]["open"])
+            anna.say("case open --yes Made liver")
+            anna.wait_for(has_all)
+            self.assertEqual(anna.newest_json()["cases"]["open"]["name"], "Made liver")
+
     def test_the_roles_are_chosen_and_observers_are_none(self):
         for roles, problem in (("operator,observer", "observers never learn"), ("doctor", "none of operator, expert and publisher")):
             code, _, errors = run("host", "--listen", "127.0.0.1:0", "--state", self.folder / "state", "--identifiers-for", roles)
@@ -113,9 +127,16 @@ class Patient(unittest.TestCase):
             page.evaluate("document.getElementById('name').value = 'Ada'; document.getElementById('enter').click()")
             page.wait_for("theatron.state.phase === 'joined' && !!theatron.state.overlay.panels.length")
             anna.wait_for(lambda f: f["cases"]["offered"] and len(f["room"]["people"]) == 2)
-            anna.say("case open Made liver")
-            page.evaluate("document.querySelector('[data-key=o]').click()")
+            page.evaluate("document.getElementById('show_case').click()")
             panels = "document.getElementById('room_panels').textContent"
+            press = "[...document.querySelectorAll('#room_panels button')].find(b => b.textContent === '{}').click()"
+            page.wait_for(f"{panels}.includes('Made liver')")
+            page.evaluate(press.format("Open"))
+            page.wait_for(f"{panels}.includes('Open the case of Doe, Jane, born 1961-02-03, images of 2026-03-01?')")
+            page.evaluate(press.format("Cancel"))
+            page.wait_for(f"!{panels}.includes('Doe')")
+            self.assertIsNone(anna.newest_json()["cases"]["open"])
+            anna.say("case open --yes Made liver")
             page.wait_for(f"{panels}.includes('Patient: Doe, Jane') && {panels}.includes('born 1961-02-03, number AB-471142')")
             self.assertNotIn("Doe", page.evaluate("JSON.stringify({ ...localStorage, ...sessionStorage })"))
             anna.say("role Ada observer")

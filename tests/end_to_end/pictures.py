@@ -22,7 +22,7 @@ def psnr(one, other):
 
 
 def means(pixels):
-    """Of each colour."""
+    """The mean of each colour."""
     flat = [color for row in pixels for color in row]
     return [sum(color[c] for color in flat) / len(flat) for c in range(3)]
 

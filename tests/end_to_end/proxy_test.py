@@ -96,7 +96,7 @@ class BehindNginx(unittest.TestCase):
         cls.stack.enter_context(nginx(proxy, site, port))
 
     def lines(self, *words):
-        """Of the host's log, with all of these words."""
+        """The lines of the host's log with all of these words."""
         return [line for line in self.host.errors if all(word in line for word in words)]
 
     def test_a_native_participant_joins_by_the_printed_link(self):

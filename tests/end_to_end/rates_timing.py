@@ -94,7 +94,7 @@ class Rates(unittest.TestCase):
 
 
 class BesideStrangers(strangers_test.StrangersCase):
-    """Who has a link is in within two seconds, beside strangers who open connections or begin handshakes."""
+    """A person with a link is in within two seconds, beside strangers who open connections or begin handshakes."""
 
     def enter(self, link):
         self.assertLess(median_of_three(lambda: seconds_to_join(link)), 2)

@@ -121,18 +121,18 @@ class RecordingCare(unittest.TestCase):
         path.write_bytes(content[:len(content) // 2])
         code, out, _ = run("inspect", path, "--verify")
         self.assertEqual(code, 3)
-        self.assertIn("it ends without its end: 0.", out)
+        self.assertIn("it was not closed: 0.", out)
         self.assertIn(" s may be missing", out)
         self.assertGreater(json.loads(run("inspect", path, "--json")[1])["segments"][0]["missing_end_seconds"], 0)
         code, out, errors = run("record", "--camera", f"recording:{path}", self.folder / "b.mkv", "--json")
-        self.assertIn("it ends without its end", errors)
-        self.assertIn(f"The recording '{path}' ends without its end: ", errors)
+        self.assertIn("it was not closed", errors)
+        self.assertIn(f"The recording '{path}' was not closed: ", errors)
         self.assertEqual((code, json.loads(out)["complete"]), (3, False))
         code, _, errors = run("export", path, "--png", self.folder / "png")
-        self.assertIn("it ends without its end", errors)
+        self.assertIn("it was not closed", errors)
         self.assertEqual(code, 3)
         code, _, errors = run("recover", path)
-        self.assertIn("recovered from a recording of which this was said: it ends without its end",
+        self.assertIn("recovered from a recording of which this was said: it was not closed",
                       run("inspect", self.folder / "a.recovered.mkv", "--verify")[1])
 
     def test_an_export_never_mixes_with_an_earlier_one(self):

@@ -214,7 +214,7 @@ class Recording(unittest.TestCase):
                 (("export", self.folder / "x.mkv", "--png", "y"), "Cannot open"),
                 (("export", self.folder / "x.mkv"), "Say into what to export"),
                 (("inspect", self.folder / "kinect.mkv"), "use mkv:FILE"),
-                (("host", "--camera", f"mkv:{self.folder / 'own.mkv'}"), "recording:FILE"),
+                (("host", "--listen", "127.0.0.1:0", "--camera", f"mkv:{self.folder / 'own.mkv'}"), "recording:FILE"),
                 (("recover", self.folder / "x.mkv"), "Cannot open")):
             code, _, errors = run(*arguments)
             self.assertEqual(code, 1)

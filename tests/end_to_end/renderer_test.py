@@ -38,13 +38,13 @@ class Renderer(unittest.TestCase):
             drawn("splat")
             h.say("renderer mesh")
             drawn("mesh")
-            screen.do("key", "Tab")
+            screen.do("key", "m")
             drawn("blend")
             with self.subTest("a participant is meant by name, and cannot choose while it is locked"):
                 h.say("renderer Dr. A disc lock")
                 drawn("disc")
                 before = screen.pixels(*MIDDLE)
-                screen.do("key", "Tab", "click", "--repeat", 5, 4)
+                screen.do("key", "m", "click", "--repeat", 5, 4)
                 # The wheel comes behind the key.
                 wait_until(lambda: difference(before, screen.pixels(*MIDDLE)) > 0.1, "the picture from closer by")
                 self.assertIn(" disc ", screen.title())
@@ -58,7 +58,7 @@ class Renderer(unittest.TestCase):
                 drawn("disc")
             with self.subTest("the choice is given back"):
                 h.say("renderer all free")
-                wait_until(lambda: screen.do("key", "Tab") == "" and " disc " not in screen.title(), every=0.5)
+                wait_until(lambda: screen.do("key", "m") == "" and " disc " not in screen.title(), every=0.5)
             with self.subTest("auto is mesh for one camera"):
                 h.say("renderer all auto lock")
                 drawn("mesh")

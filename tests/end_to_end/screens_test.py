@@ -36,7 +36,7 @@ def is_green(pixel):
 
 
 def row_of(buttons, count):
-    """The first row with so many buttons."""
+    """The first row with `count` buttons."""
     rows = {}
     for x, y in buttons:
         rows.setdefault(y, []).append((x, y))
@@ -167,7 +167,7 @@ class Screens(unittest.TestCase):
             self.assertIn("--share", errors)
 
     def test_the_mouse_moves_a_screen_and_its_panel_pins_and_ends_it(self):
-        # High enough for the panel of screens below people and places.
+        # High enough for the panel of screens.
         width, height, middle = 720, 760, (360, 380)
         shared = f"{self.video},loop=1,width=0.2,place=0:1.5:-0.5"
         environment = os.environ | {"XDG_STATE_HOME": str(self.folder / "cart")}
@@ -189,8 +189,11 @@ class Screens(unittest.TestCase):
             self.assertAlmostEqual(moved["scale"], 0.2 * 1.15)
             wait_until(lambda: is_shown(440, 380))
 
-            x11.do("mousemove", 700, 750, "key", "p")
+            # The last button of the bar, and "Screens" in its panel, by the keyboard.
             buttons = lambda: x11.buttons(width, height)
+            x11.do("mousemove", 700, 600, "key", "shift+Tab", "key", "Return")
+            wait_until(lambda: len(buttons()) >= 6)
+            x11.do(*["key", "Tab"] * 5, "key", "Return", "key", "Escape")
             # Smaller, Larger, Pin in place, End share: the first row of four.
             four = lambda: wait_until(lambda: len(row := row_of(buttons(), 4)) == 4 and row)
             x11.click_until(lambda: four()[2], ben, lambda f: scope(f)["screen"]["pinned"])

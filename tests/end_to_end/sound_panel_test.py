@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The panel of people (P) has the sound devices of the machine; the one that is chosen is used, and kept."""
+"""The panel of sound, which "More" opens, has the devices of the machine; the one that is chosen is used, and kept."""
 import pathlib
 import shutil
 import tempfile
 import unittest
 
 from theatron_process import Process, host, make_recording, wait_until
-from virtual_screen import VirtualScreen
+from virtual_screen import VirtualScreen, brightness
 
 WIDTH, HEIGHT = 640, 900
 
@@ -27,9 +27,14 @@ class SoundPanel(unittest.TestCase):
                     Process("join", h.greeting["link"], "--name", "Wim", "--size", f"{WIDTH}x{HEIGHT}",
                             env=environment) as window:
                 ada.wait_for(lambda f: any(p["name"] == "Wim" for p in f["room"]["people"]))
+                wait_until(lambda: screen.has_bar(WIDTH, HEIGHT) and brightness(screen.pixels(100, 350, 200, 100)) > 20)
                 before = screen.buttons(WIDTH, HEIGHT)
                 self.assertEqual(before, [])
-                screen.do("mousemove", 600, 850, "key", "p")
+                # The last button of the bar, and the second one of its panel, by the keyboard.
+                screen.do("mousemove", 600, 700, "key", "shift+Tab", "key", "Return")
+                wait_until(lambda: len(screen.buttons(WIDTH, HEIGHT)) >= 6)
+                screen.do("key", "Tab", "key", "Tab", "key", "Return", "key", "Escape")
+                wait_until(lambda: len(screen.buttons(WIDTH, HEIGHT)) < 6)
                 # Both kinds have two devices: the usual one and the dummy; none is in use yet.
                 screen.click_until(lambda: self.button(screen, -4), ada, lambda _: "speaks yes" in kept())
                 self.assertIn("\nmicrophone default\n", kept())
@@ -40,7 +45,7 @@ class SoundPanel(unittest.TestCase):
                 self.assertEqual(window.end(), 0, "".join(window.errors))
 
     def button(self, screen, number):
-        """The middle of this one of the buttons that stand alone, once there are so many."""
+        """The middle of this one of the buttons that stand alone, once it is there."""
         return wait_until(lambda: len(alone := self.alone(screen)) >= abs(number) and alone)[number]
 
     def alone(self, screen):

@@ -52,7 +52,7 @@ class Sources(unittest.TestCase):
                 self.assertNotIn("kn", "".join(cart.errors))
 
     def assert_plays(self, h, server, url, frames=90):
-        """So many pictures, for longer than two keep-alives, from one connection."""
+        """`frames` pictures come, for longer than two keep-alives, from one connection."""
         before = server.connections
         with Process("publish", h.greeting["publish_link"], "--share", url + ",name=tower", "--every", "0.2") as cart:
             cart.wait_for(shown("tower", frames))

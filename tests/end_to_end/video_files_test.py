@@ -31,7 +31,7 @@ class VideoFiles(unittest.TestCase):
         return path
 
     def pictures(self, video, options=""):
-        """What `record` says, and every picture that is in the recording."""
+        """The answer of `record`, and every picture that is in the recording."""
         recording = video.with_suffix(".recording.mkv")
         code, out, errors = run("record", "--camera", f"video:{video}{options}", recording, "--color-codec", "raw", "--json")
         self.assertIn(code, (0, 3), errors)

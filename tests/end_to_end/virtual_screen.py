@@ -66,20 +66,33 @@ class VirtualScreen:
             return [image[start + y * stride + 4 * left:start + y * stride + 4 * (left + width)]
                     for y in range(top, top + height)]
 
-    def buttons(self, width, height, apart=40):
-        """Middles of the panels' buttons, from top to bottom and left to right; `apart`: pixels between two of a row."""
-        rows = self.pixels(0, 0, width, height)
+    def has_bar(self, width, height):
+        """The bar at the bottom of the window is drawn: its labels have the brightest colour of texts."""
+        color = bytes((250, 247, 245))
+        return sum(row[4 * x:4 * x + 3] == color for row in self.pixels(0, height - 50, width, 50) for x in range(width)) >= 20
+
+    def buttons(self, width, height):
+        """Middles of the panels' buttons, a little below their upper edges, from top to bottom and left to right."""
         color = bytes((84, 66, 52))
-        found = []
-        for y, row in enumerate(rows):
+        boxes = []  # [left, right, top, last row]
+        for y, row in enumerate(self.pixels(0, 0, width, height)):
             x = 0
-            while x < width:
+            while 0 <= (at := row.find(color, 4 * x)) < 4 * width:
+                if at % 4:
+                    x = at // 4 + 1
+                    continue
+                x = at // 4
                 end = x
                 while end < width and row[4 * end:4 * end + 3] == color:
                     end += 1
-                if end - x > 20 and not any(abs(x + (end - x) // 2 - bx) < apart and y - by < 30 for bx, by in found):
-                    found.append((x + (end - x) // 2, y + 3))
-                x = end + 1
+                # Letters break the rows of a button into pieces, but not those at its edges.
+                box = next((b for b in boxes if b[0] - 3 <= x and end <= b[1] + 3 and y - b[3] <= 2), None)
+                if box:
+                    box[:] = min(box[0], x), max(box[1], end), box[2], y
+                elif end - x > 20:
+                    boxes.append([x, end, y, y])
+                x = end
+        found = [((left + right) // 2, top + 3) for left, right, top, last in boxes if last - top > 10]
         return sorted(found, key=lambda place: (round(place[1] / 30), place[0]))
 
 

@@ -60,7 +60,7 @@ def loudness(samples, block=480):
 
 
 def best_correlation(a, b):
-    """Of a's course with each part of b that is as long."""
+    """The best correlation of a's course with a part of b that is as long."""
     def normal(values):
         mean = sum(values) / len(values)
         values = [v - mean for v in values]

@@ -79,7 +79,7 @@ class WebAccess(unittest.TestCase):
         cls.stack.close()
 
     def check(self):
-        """What holds for whatever the page shows now."""
+        """Checks the rules that hold for everything that the page shows."""
         page = self.page
         self.assertIn(page.evaluate("document.documentElement.lang"), ("en", "de"))
         controls = [node for node in page.call("Accessibility.getFullAXTree")["nodes"]
@@ -98,6 +98,8 @@ class WebAccess(unittest.TestCase):
 
     def tab_order(self, from_element):
         """Names of what the Tab key reaches from there until it leaves the page."""
+        # A key first: a browser shows the focus that a script has set only to somebody who uses the keyboard.
+        self.page.press("Tab", "Tab", 9)
         self.page.evaluate(f"document.querySelector('{from_element}').focus()")
         reached = []
         while not (focus := self.page.evaluate(FOCUS))["is_body"] and len(reached) < 60:
@@ -112,7 +114,7 @@ class WebAccess(unittest.TestCase):
         page = self.page
         self.check()
         page.wait_for("document.getElementById('session_lines').children.length > 0")
-        page.evaluate("document.getElementById('devices').open = true")
+        page.evaluate("document.getElementById('choices').open = document.getElementById('devices').open = true")
         page.wait_for("document.getElementById('microphone_choice').options.length > 0")
         self.check()
         expected = page.evaluate(f"{REACHABLE}.map({NAME})")
@@ -122,11 +124,16 @@ class WebAccess(unittest.TestCase):
         page.press("Enter", "Enter", 13, "\r")
         page.wait_for("theatron.state.phase === 'joined'")
         self.assertEqual(page.evaluate("document.activeElement.id"), "view")
-        page.wait_for("!!document.querySelector('#room_panels section')")
-        page.evaluate("document.getElementById('show_picture').click()")
-        page.wait_for("document.getElementById('renderer_now').textContent !== ''")
         self.check()
         self.assertEqual(self.tab_order("#view"), page.evaluate(f"{REACHABLE}.map({NAME})"))
+        for name in ("people", "case", "more", "details", "picture"):
+            page.open_sheet(name)
+            if name == "picture":
+                page.wait_for("document.getElementById('renderer_now').textContent !== ''")
+            with self.subTest(panel=name):
+                self.check()
+                self.assertEqual(self.tab_order("#view"), page.evaluate(f"{REACHABLE}.map({NAME})"))
+        page.open_sheet("")
 
         page.evaluate("document.getElementById('view').focus()")
         page.press("h", "KeyH")

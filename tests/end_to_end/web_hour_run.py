@@ -107,7 +107,7 @@ class Use:
 
 
 def measure(page):
-    """What must not grow, with garbage collected."""
+    """The figures that must not grow, with garbage collected."""
     page.call("HeapProfiler.collectGarbage")
     return {"program_bytes": page.evaluate("theatron.memory()"), "script_bytes": page.call("Runtime.getHeapUsage")["usedSize"],
             "nodes": page.call("Memory.getDOMCounters")["nodes"], "listeners": page.call("Memory.getDOMCounters")["jsEventListeners"],
@@ -121,7 +121,7 @@ def growth_a_round(rounds, figure):
 
 
 def growth(rounds):
-    """What each figure has gained a round, and sentences on those that have gained too much."""
+    """The gain of each figure a round, and sentences on those that have gained too much."""
     gained = {key: growth_a_round(rounds, lambda r: r[key]) for key in MOST_GROWTH}
     gained["gl"] = {kind: growth_a_round(rounds, lambda r: r["gl"][kind]) for kind in rounds[0]["gl"]}
     problems = []

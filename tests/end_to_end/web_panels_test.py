@@ -10,7 +10,7 @@ from theatron_process import Process, host
 
 CAMERA = "synthetic:seconds=2,fps=10,quality=quick,loop=1"
 FOCUSED = "document.activeElement?.dataset?.label ?? document.activeElement?.id"
-AGES = "[...document.querySelectorAll('#room_panels li')].map(row => row.textContent).find(line => line.startsWith('or0: '))"
+AGES = "document.getElementById('camera_list').textContent"
 MUTE = "#room_panels [data-label$=\"/Mute\"]"
 
 
@@ -27,6 +27,7 @@ class WebPanels(PageCase):
         with Process("join", self.links["operator"], "--no-window", "--name", "Ben", "--every", "0.5", "--json") as ben:
             page = self.enter()
             page.wait_for("theatron.state.people.some(p => p.name === 'Ben') && theatron.state.cameras[0]?.frames > 3")
+            page.open_sheet("people")
             page.wait_for(f"!!document.querySelector('{MUTE}')")
             page.evaluate(f"document.querySelector('{MUTE}').scrollIntoView()")
             self.assertIn("Mute: Ben", page.evaluate(f"document.querySelector('{MUTE}').ariaLabel"))
@@ -37,8 +38,8 @@ class WebPanels(PageCase):
             page.mouse("mouseReleased", *at)
             ben.wait_for(lambda f: f["muted"])
             page.wait_for(f"!document.querySelector('{MUTE}') && document.querySelector('#room_panels').textContent.includes('Unmute')")
-            # Beside the buttons the ages go on.
-            self.assertIn(" ms", ages)
+            # The ages go on.
+            self.assertIn(" s old", ages)
             page.wait_for(f"{AGES} !== {ages!r}")
             # By the keyboard: its label changes under the focus.
             page.evaluate("[...document.querySelectorAll('#room_panels button')].find(b => b.textContent === 'Unmute').focus()")
@@ -67,8 +68,9 @@ class WebPanels(PageCase):
             self.assertLessEqual(page.evaluate("document.getElementById('lobby').scrollWidth"), 360)
             page = self.enter(size=(1280, 720))
             page.wait_for("theatron.state.people.some(p => p.name.startsWith('WW'))")
+            page.open_sheet("people")
             page.wait_for(f"!!document.querySelector('{MUTE}')")
-            side = page.evaluate("document.getElementById('side').getBoundingClientRect().right")
+            side = page.evaluate("document.getElementById('sheet').getBoundingClientRect().right")
             rights = page.evaluate("[...document.querySelectorAll('#room_panels button')].map(b => b.getBoundingClientRect().right)")
             self.assertLessEqual(max(rights), side)
             self.leave(page)
@@ -76,8 +78,9 @@ class WebPanels(PageCase):
     def test_the_2d_view_has_the_keys_of_the_voice_and_no_buttons_of_the_room(self):
         page = self.enter("flat")
         page.wait_for("theatron.state.has_picture")
-        self.assertFalse(page.evaluate("[...document.querySelectorAll('#tools [data-key]')].some(b => b.checkVisibility())"))
-        page.evaluate("document.getElementById('show_picture').focus(); document.getElementById('flat').focus()")
+        self.assertFalse(page.evaluate("['webcam', 'point', 'draw', 'show_case'].some(id => document.getElementById(id).checkVisibility())"))
+        self.assertTrue(page.evaluate("document.getElementById('next_camera').checkVisibility()"))
+        page.evaluate("document.getElementById('show_people').focus(); document.getElementById('flat').focus()")
         page.press("F7", "F7", 118)
         page.wait_for("document.getElementById('push_to_talk').getAttribute('aria-pressed') === 'true'")
         page.press("h", "KeyH", 72, "h")
@@ -97,6 +100,7 @@ class WebPanels(PageCase):
     def test_in_the_2d_view_an_operator_decides_on_people(self):
         with Process("join", self.links["operator"], "--no-window", "--name", "Ben", "--every", "0.5", "--json") as ben:
             page = self.enter("flat")
+            page.open_sheet("people")
             page.wait_for(f"!!document.querySelector('{MUTE}')")
             self.assertFalse(page.evaluate("[...document.querySelectorAll('#room_panels button')].some(b => ['Go', 'See'].includes(b.textContent.split(' ')[0]))"))
             page.evaluate(f"document.querySelector('{MUTE}').click()")
@@ -116,6 +120,9 @@ class WebPanels(PageCase):
             page.enter("Ada", way="flat")
             page.wait_for("theatron.state.phase === 'joined'")
             with Process("join", links["expert"], "--no-window", "--name", "Größe", "--every", "0.5", "--json") as guest:
+                page.wait_for("document.getElementById('door').checkVisibility()")
+                self.assertIn("Größe", page.evaluate("document.getElementById('door').textContent"))
+                page.evaluate("document.getElementById('door').click()")
                 let_in = "[...document.querySelectorAll('#room_panels button')].find(b => b.dataset.label.endsWith('Größe/Let in'))"
                 page.wait_for("!!" + let_in)
                 page.evaluate(let_in + ".click()")
@@ -123,11 +130,12 @@ class WebPanels(PageCase):
 
     def test_observers_have_no_buttons_that_their_role_forbids(self):
         page = self.enter(role="observer")
-        shown = "[...document.querySelectorAll('#tools [data-key]')].filter(b => b.offsetParent).map(b => b.dataset.key).join('')"
-        page.wait_for(f"{shown} === 'por'")
+        page.open_sheet("more")
+        shown = "[...document.querySelectorAll('#tools button, #more [data-key]')].filter(b => b.offsetParent).map(b => b.id || b.dataset.key).join(' ')"
+        page.wait_for(f"{shown} === 'show_case show_people leave show_more r'")
         name = page.evaluate("theatron.state.people.find(person => person.self).name")
         self.host.say(f"role {name} expert")
-        page.wait_for(f"{shown} === 'ponzr'")
+        page.wait_for(f"{shown} === 'microphone webcam point draw show_case show_people leave show_more r n'")
         self.leave(page)
 
     def test_a_phone_in_landscape_begins_with_the_room_and_has_its_buttons_whole(self):
@@ -137,8 +145,8 @@ class WebPanels(PageCase):
         page.call("Page.navigate", url=self.links["operator"])
         page.enter("Ada", way="room")
         page.wait_for("theatron.state.pictures > 0")
-        self.assertTrue(page.evaluate("document.getElementById('side').classList.contains('folded')"))
-        boxes = page.evaluate("""[...document.querySelectorAll('#touch button, #menu')].filter(b => b.checkVisibility()).map(b => {
+        self.assertTrue(page.evaluate("document.getElementById('sheet').hidden"))
+        boxes = page.evaluate("""[...document.querySelectorAll('#touch button, #bar button')].filter(b => b.checkVisibility()).map(b => {
             const { left, top, right, bottom } = b.getBoundingClientRect();
             return [left, top, right, bottom];
         })""")
@@ -147,7 +155,7 @@ class WebPanels(PageCase):
             self.assertTrue(0 <= left and 0 <= top and right <= 640 and bottom <= 360, boxes[i])
             for other in boxes[:i]:
                 self.assertFalse(left < other[2] and other[0] < right and top < other[3] and other[1] < bottom, (boxes[i], other))
-        page.evaluate("document.getElementById('menu').click()")
+        page.evaluate("document.getElementById('show_more').click()")
         page.wait_for("!document.getElementById('touch').checkVisibility()")
         self.leave(page)
 
@@ -171,7 +179,7 @@ class WebPanels(PageCase):
             form.wait_for("document.getElementById('session_lines').innerText.includes('does not answer')")
             self.assertFalse(form.evaluate("document.getElementById('session_lines').innerText.includes('live')"))
             page.wait_for("!['joined', 'left'].includes(theatron.state.phase)")
-            page.evaluate("document.getElementById('show_picture').focus()")
+            page.evaluate("document.getElementById('show_people').focus()")
             page.press("Escape", "Escape", 27)
             page.wait_for("theatron.state.phase === 'left'")
 

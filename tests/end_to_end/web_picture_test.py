@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the page draws, and what both eyes of a headset in it see, are the native client's pictures from the same places."""
+"""The page draws, and both eyes of a headset in it see, the native client's pictures from the same places."""
 import contextlib
 import json
 import os

@@ -77,7 +77,7 @@ class WebSmall(unittest.TestCase):
             page.evaluate("theatron.Patience.slowest_per_s = 1e6; theatron.Patience.longest_ms = 500")
             self.enter(page)
             page.wait_for("theatron.state.renderer === 'flat' && theatron.state.has_picture")
-            page.wait_for("document.getElementById('drawing_text').innerText.includes('too slowly')")
+            page.wait_for("document.getElementById('drawing_text').textContent.includes('too slowly')")
             self.assertGreater(page.wait_for(f"{COLORS} > 20 && {COLORS}"), 20)
             self.picture(page, "flat")
             # Five pictures a second are its choice, and no panel covers them.
@@ -129,7 +129,7 @@ class WebSmall(unittest.TestCase):
             page.evaluate("document.getElementById('next_camera').click()")
             page.wait_for(f"theatron.state.flat_camera && theatron.state.flat_camera !== '{shown}'")
             wait_until(lambda: [bool(sum(frames)) for frames in came(page)[0]] == [False, True])
-            self.assertIn("not sent", page.evaluate("document.getElementById('camera_list').innerText"))
+            self.assertIn("not sent", page.evaluate("document.getElementById('camera_list').textContent"))
             page.evaluate("document.getElementById('other_way').click()")
             page.wait_for("theatron.state.renderer !== 'flat' && theatron.state.cameras.every(c => c.depth_frames > 0 && c.color_frames > 0)")
             room, whole = came(page)
@@ -146,15 +146,12 @@ class WebSmall(unittest.TestCase):
             self.enter(page, "room")
             self.assertEqual(page.evaluate(BESIDE), [])
             self.picture(page, "small_room")
-            # The menu is folded: the room is seen and reached.
+            # No panel is open: the room is seen and reached.
             self.assertEqual(page.evaluate("document.elementFromPoint(150, 250).id"), "view")
-            self.assertFalse(page.evaluate("document.getElementById('tools').checkVisibility()"))
-            page.evaluate("document.getElementById('menu').click()")
-            self.assertTrue(page.evaluate("document.getElementById('tools').checkVisibility()"))
-            page.evaluate("document.querySelector('[data-key=p]').click()")
-            page.wait_for("!!document.querySelector('#room_panels section')")
-            self.assertEqual(page.evaluate(BESIDE), [])
-            self.picture(page, "small_menu")
+            for name in ("people", "case", "more", "details", "picture"):
+                page.open_sheet(name)
+                self.assertEqual(page.evaluate(BESIDE), [], name)
+                self.picture(page, f"small_{name}")
             page.evaluate("document.getElementById('show_help').click()")
             self.assertEqual(page.evaluate(BESIDE), [])
             self.picture(page, "small_help")

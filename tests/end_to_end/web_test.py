@@ -96,10 +96,12 @@ class Web(PageCase):
 
             # A brick before the eye, seen and then dragged.
             # Behind a click on a button the keys still act in the room.
+            page.open_sheet("more")
             x, y = page.evaluate("(b => [b.x + b.width / 2, b.y + b.height / 2])"
                                  "(document.querySelector('[data-key=r]').getBoundingClientRect())")
             page.mouse("mousePressed", x, y)
             page.mouse("mouseReleased", x, y)
+            page.open_sheet("")
             page.press("n", "KeyN")
             bricks = lambda f: [o for o in f["room"]["objects"] if o["kind"] == "brick"]
             before = bricks(ben.wait_for(bricks))[0]["position"]
@@ -169,8 +171,9 @@ class Web(PageCase):
         self.assertNotIn("nobody", page.evaluate("document.getElementById('invitation').textContent"))
         page.enter()
         page.wait_for("theatron.state.phase === 'joined' && theatron.state.people.length > 0")
+        page.open_sheet("people")
         page.wait_for("document.getElementById('room_panels').innerText.includes('Niemand sonst ist hier')")
-        facts = page.wait_for("document.getElementById('facts').innerText")
+        facts = page.wait_for("document.getElementById('facts').textContent")
         for word in ("Gastgeber", "Kameras", "Daten"):
             self.assertIn(word, facts)
         # Keys of the client and its sentences, which come from the program.
@@ -206,7 +209,7 @@ class Web(PageCase):
             first.end()
             page.wait_for("theatron.state.phase === 'lost'")
             # Nothing that the page shows calls a camera live.
-            page.wait_for("document.getElementById('camera_list').innerText.includes('no connection')")
+            page.wait_for("document.getElementById('camera_list').textContent.includes('no connection')")
             with host(self.folder / "other", listen=listen):
                 page.wait_for("theatron.state.phase === 'joined' && theatron.state.joins === 2")
 

@@ -63,6 +63,14 @@ class WebTouch(unittest.TestCase):
         page.touch("touchStart", page.middle(selector))
         page.touch("touchEnd")
 
+    def tap_more(self, page, key):
+        """A button behind "More"."""
+        self.tap(page, "#show_more")
+        page.wait_for("document.getElementById('more').checkVisibility()")
+        self.tap(page, f"#more [data-key={key}]")
+        self.tap(page, "#close_sheet")
+        page.wait_for("document.getElementById('sheet').hidden")
+
     def moved(self, page, before, least_m=0.05):
         return page.wait_for("(() => { const p = theatron.state.ear.position;"
                              f"return Math.hypot(p[0] - {before[0]}, p[1] - {before[1]}, p[2] - {before[2]}) > {least_m} && p; }})()")
@@ -108,9 +116,9 @@ class WebTouch(unittest.TestCase):
             self.assertLess(distance(before["position"], self.ear(page)["position"]), 0.01, "it turned the picture, too")
             self.tap(page, "[data-tool=points]")
         with self.subTest("a finger holds an object, another one removes it"):
-            self.tap(page, "[data-key=r]")
+            self.tap_more(page, "r")
             self.drawn(page)
-            self.tap(page, "[data-key=n]")
+            self.tap_more(page, "n")
             bricks = lambda f: [o for o in f["room"]["objects"] if o["kind"] == "brick"]
             ben.wait_for(bricks)
             page.wait_for("theatron.state.bricks === 1")
@@ -122,7 +130,7 @@ class WebTouch(unittest.TestCase):
             ben.wait_for(lambda f: not bricks(f))
             page.touch("touchEnd")
         with self.subTest("go to a place"):
-            self.tap(page, "[data-key=r]")
+            self.tap_more(page, "r")
             self.drawn(page)
             before = self.ear(page)["position"]
             for share in ((0.5, 0.3), (0.5, 0.75), (0.4, 0.5), (0.62, 0.85), (0.8, 0.3), (0.35, 0.15)):  # some of it is free floor
@@ -137,17 +145,18 @@ class WebTouch(unittest.TestCase):
             else:
                 self.fail("no finger went anywhere")
         with self.subTest("no text names a key"):
-            self.tap(page, "#show_help")
+            self.tap(page, "#show_more")
+            page.wait_for("document.getElementById('show_help').checkVisibility()")
+            page.evaluate("document.getElementById('show_help').click()")
             page.wait_for("document.getElementById('help').open")
             self.assertIn("Two fingers", page.evaluate("document.getElementById('help').innerText"))
             self.assertIsNone(KEYS.search(page.evaluate("document.body.innerText")), page.evaluate("document.body.innerText"))
-            page.evaluate("document.getElementById('help').close()")
-            self.assertNotIn("Help", page.evaluate("document.getElementById('facts').innerText"))
-        with self.subTest("the menu leaves the room alone, and comes again"):
-            self.tap(page, "#menu")
-            page.wait_for("!document.getElementById('tools').checkVisibility()")
-            self.tap(page, "#menu")
-            page.wait_for("document.getElementById('tools').checkVisibility()")
+            page.evaluate("document.getElementById('help').close(); theatron.sheet.close()")
+            self.assertNotIn("Help", page.evaluate("document.getElementById('facts').textContent"))
+        with self.subTest("a panel comes and goes by touch"):
+            for shown in (True, False):
+                self.tap(page, "#show_people")
+                page.wait_for(f"document.getElementById('sheet').checkVisibility() === {str(shown).lower()}")
         self.assertEqual(page.problems, [])
 
     def test_buttons_come_with_the_first_touch_and_fit_on_a_telephone(self):

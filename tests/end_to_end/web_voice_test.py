@@ -33,7 +33,7 @@ LISTEN = """(() => {
 })()"""
 
 
-# heard_frames(count): the frames that were sent of the newest `count` ones of the microphone, once there were so many since
+# heard_frames(count): the frames that were sent of the newest `count` ones of the microphone, once that number came since
 # the last answer; -1 before.
 COUNT = """(() => {
     const { voice } = theatron, send = voice.send, sent = [];
@@ -83,7 +83,7 @@ def mouse(page, kind, element):
 
 
 def pitches(samples):
-    """Of each 20 ms in Hz, 97 to 200, by the delay after which 40 ms are most like themselves; 0 in silence."""
+    """The pitch of each 20 ms in Hz, 97 to 200, by the delay after which 40 ms are most like themselves; 0 in silence."""
     rate = RATE // 8
     low = [sum(samples[i:i + 8]) for i in range(0, len(samples) - 7, 8)]
     found = []

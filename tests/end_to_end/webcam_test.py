@@ -32,7 +32,7 @@ class Webcam(unittest.TestCase):
         cls.lamp = f"folder:{make_recording(cls.folder / 'lamp', color=False)},loop=1,preload=1,place=0:1.5:0"
 
     def seen(self, link, name, seconds=1):
-        """What another person sees who stands where the camera is."""
+        """The view of another person who stands where the camera is."""
         picture = self.folder / f"{name}.png"
         code, _, errors = run("join", link, "--offscreen", picture, "--size", "{}x{}".format(*SIZE), "--seconds", str(seconds))
         self.assertEqual(code, 0, errors)

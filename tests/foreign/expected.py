@@ -123,7 +123,7 @@ def part_problem(path, said, wanted):
 
 
 def problem(wanted, code, text, case):
-    """What is wrong with an import; None if nothing is."""
+    """The fault of an import; None if it has none."""
     if wanted.refused is not None:
         return None if code == 1 and wanted.refused in text else "was not refused so: " + text
     if code != 0:

@@ -17,6 +17,7 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import case_seeds  # noqa: E402
 import dicom_inputs  # noqa: E402
+import folder_inputs  # noqa: E402
 import label_inputs  # noqa: E402
 import mesh_inputs  # noqa: E402
 from expected import problem  # noqa: E402
@@ -28,7 +29,7 @@ LONGEST_SEED = 1 << 16
 
 
 def inputs():
-    for module in (dicom_inputs, label_inputs, mesh_inputs):
+    for module in (dicom_inputs, label_inputs, mesh_inputs, folder_inputs):
         yield from module.inputs()
 
 
@@ -83,6 +84,9 @@ class ForeignFiles(unittest.TestCase):
 
     def test_surfaces_and_pictures(self):
         self.run_all(mesh_inputs)
+
+    def test_whole_folders(self):
+        self.run_all(folder_inputs)
 
     def test_there_are_enough_and_each_has_its_name(self):
         names = [one.name for one in inputs()]

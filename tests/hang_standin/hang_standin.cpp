@@ -5,7 +5,7 @@
 //
 //   join    the first thread waits for another one for ever, from SIGTERM on
 //   sound   SDL opens no sound device, and does not come back
-//   swap    eglSwapBuffers, while the file that HANG_STANDIN_FILE names is there
+//   swap    SDL_GL_SwapWindow, while the file that HANG_STANDIN_FILE names is there
 #ifndef _GNU_SOURCE
 #define _GNU_SOURCE
 #endif
@@ -64,9 +64,9 @@ EXPORTED unsigned SDL_OpenAudioDevice(const char* name, int captures, const void
     return next<Open>("SDL_OpenAudioDevice")(name, captures, wanted, got, changes);
 }
 
-EXPORTED unsigned eglSwapBuffers(void* display, void* surface) {
+EXPORTED void SDL_GL_SwapWindow(void* window) {
     const char* file = getenv("HANG_STANDIN_FILE");
     while (file && hangs("swap") && access(file, F_OK) == 0)
         usleep(10'000);
-    return next<unsigned (*)(void*, void*)>("eglSwapBuffers")(display, surface);
+    next<void (*)(void*)>("SDL_GL_SwapWindow")(window);
 }

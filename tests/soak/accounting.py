@@ -156,7 +156,7 @@ def share_outside(windows, begin, end, step=0.05):
 
 
 def growing(rows, allowed_mib):
-    """Of the rows of one role's processes, those that grow. The process that lived longest shows the growth over time, and the
+    """The rows of one role's processes that grow. The process that lived longest shows the growth over time, and the
     level that a role needs. One that was killed early may have grown in steps up to this level: a codec was chosen, a backlog
     came."""
     if not rows:

@@ -2,8 +2,8 @@
 // A video device that does not exist: a library for LD_PRELOAD. The program that it is preloaded
 // into opens the device and hands it to a reader process, as it would a real one.
 //
-// V4L2_STANDIN_DEVICE is the path that is opened. V4L2_STANDIN_PICTURES: after so many pictures the
-// device is unplugged; it can be opened again.
+// V4L2_STANDIN_DEVICE is the path that is opened. V4L2_STANDIN_PICTURES: the number of pictures
+// after which the device is unplugged; it can be opened again.
 //
 // The device is a memory file, whose bytes are its buffers. Each control, mapping and poll is also
 // made as the real system call, so the reader's filter judges it as it would with a real device.

@@ -25,12 +25,14 @@ void draw_lit_scene() {
     const SceneTexture texture({16, 8});
     frame.objects.push_back({&ball, {Quat{}, {-0.5, 0, 0}}, {}});
     frame.objects.back().look.texture = &texture;
+    const SceneLineMesh line({{{-0.5, 0, 0.5}, {0.5, 0, 0.5}, 0.002, 0.002}});
+    frame.lines = {{&line, {}, {230, 159, 0}}};
     ScenePasses passes;
     const RenderTarget target(golden_picture_size);
     target.clear({});
     for (const SceneQuality quality : {SceneQuality::low, SceneQuality::high}) {
         frame.quality = quality;
-        passes.prepare(frame);
+        passes.prepare(frame, golden_view(), golden_picture_size);
         passes.draw_opaque(frame, golden_view(), target.target());
         passes.draw_translucent(frame, golden_view(), target.target());
     }

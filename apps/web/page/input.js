@@ -6,6 +6,7 @@ const walking = {
     KeyD: [1, 0, 0], KeyA: [-1, 0, 0], KeyE: [0, 1, 0], KeyQ: [0, -1, 0], KeyW: [0, 0, 1], KeyS: [0, 0, -1],
     ArrowRight: [1, 0, 0], ArrowLeft: [-1, 0, 0], ArrowUp: [0, 0, 1], ArrowDown: [0, 0, -1],
 };
+const of_page = new Set(["b", "o", "p"]);  // panels, which the page itself opens
 const pixels_per_click = 100;  // of a wheel or of a pinch
 
 // The result is for the buttons of touch.js.
@@ -14,6 +15,7 @@ export function listen(canvas, client) {
     let tool = "";         // "points" or "teleports": what a press on the picture does instead of turning it
     let using = null;      // the pointer that does it
     let used = () => {};
+    let is_over = false;   // a mouse, which points wherever it is
     const share = event => [event.offsetX / canvas.clientWidth, event.offsetY / canvas.clientHeight];
     const pointers = new Map();  // id -> place in pixels
     const middle = () => {
@@ -25,10 +27,18 @@ export function listen(canvas, client) {
         return Math.hypot(a[0] - b[0], a[1] - b[1]);
     };
 
+    const points_by = ({ pointerType }) => tool === "points" && pointerType === "mouse";
+    const hover = now => {
+        if (is_over === now)
+            return;
+        is_over = now;
+        hold();
+    };
+    canvas.addEventListener("pointerleave", () => hover(false));
     canvas.addEventListener("pointerdown", event => {
         canvas.focus({ preventScroll: true });
         canvas.setPointerCapture(event.pointerId);
-        if (tool && using === null) {
+        if (tool && using === null && !points_by(event)) {
             using = event.pointerId;
             client.point(...share(event));
             return hold();
@@ -44,6 +54,7 @@ export function listen(canvas, client) {
         if (using !== null && using !== event.pointerId)
             return;
         client.point(...share(event));
+        hover(points_by(event));
         const before = pointers.get(event.pointerId);
         if (!before)
             return;
@@ -81,14 +92,14 @@ export function listen(canvas, client) {
             walking[code]?.forEach((part, i) => sum[i] += part);
         const uses = name => using !== null && tool === name;
         client.hold(...sum.map(part => Math.sign(part)), event?.shiftKey ? 1 : 0,
-                    held.has("KeyT") || uses("teleports") ? 1 : 0, held.has("KeyF") || uses("points") ? 1 : 0);
+                    held.has("KeyT") || uses("teleports") ? 1 : 0, held.has("KeyF") || uses("points") || is_over ? 1 : 0);
     };
     canvas.addEventListener("keydown", event => {
         if (event.ctrlKey || event.altKey || event.metaKey)
             return;
         held.add(event.code);
         hold(event);
-        if (!event.repeat)
+        if (!event.repeat && !of_page.has(event.key.toLowerCase()))
             client.key(event.key.toLowerCase(), event.code);
         if (event.code in walking || event.key === "Home")
             event.preventDefault();
@@ -111,6 +122,7 @@ export function listen(canvas, client) {
         choose_tool(name, on_used) {
             [tool, used] = [name, on_used];
             using = null;
+            is_over = false;
             hold();
         },
     };

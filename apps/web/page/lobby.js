@@ -11,8 +11,9 @@ export class Lobby {
     is_watching = false;
     turn = 0;  // an answer of an older one is late
 
-    constructor(token) {
-        this.token = token;
+    // `on_role` gets the role that the link gives, `on_refusal` is called where the host does not know the link.
+    constructor(token, { on_role, on_refusal }) {
+        Object.assign(this, { token, on_role, on_refusal });
     }
 
     watch() {
@@ -56,11 +57,13 @@ export class Lobby {
         if (answer.status === 401) {
             $("invitation").hidden = true;
             this.tell([text("lobby_unknown")]);
+            this.on_refusal();
             return false;
         }
         if (!answer.ok)
             throw new Error(answer.statusText);
         const lobby = await answer.json();
+        this.on_role(lobby?.role);
         const session = lobby?.sessions?.[0];
         if (!session || !this.is_watching)
             return true;

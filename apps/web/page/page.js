@@ -9,10 +9,14 @@ import { FlatView, Patience, find_graphics, note_lost_graphics, take_lost_graphi
 import { Headset, headset_kinds } from "./headset.js";
 import { listen } from "./input.js";
 import { Lobby } from "./lobby.js";
+import { Notices } from "./notices.js";
 import { command_of, face_problem, fill_texts, show, show_face, show_voices } from "./panels.js";
 import { Person } from "./person.js";
 import { PicturePanel } from "./picture.js";
 import { put_bytes, with_patience, with_program } from "./program.js";
+import { ask_for_right_link } from "./right_link.js";
+import { Sheet } from "./sheet.js";
+import { StillCover } from "./still.js";
 import { store, stored } from "./storage.js";
 import { hold_to_talk } from "./talk.js";
 import { language, text, texts } from "./texts.js";
@@ -22,6 +26,7 @@ import { offer_h264 } from "./video_decoder.js";
 import { Voice } from "./voice.js";
 
 const $ = id => document.getElementById(id);
+const still = new StillCover($("panels"));
 const texts_every_ms = 250;
 const poll_every_ms = 1;
 const longest_wait_ms = 500;
@@ -106,7 +111,7 @@ async function load_client() {
 
 // For tests and measurements: the newest state, and milliseconds since the link was opened.
 const page = globalThis.theatron = { state: { phase: "left" }, first_picture_ms: null, complete_ms: null, workers: [],
-    graphics: "card", way: "room", visit: 0, headset_kinds: {}, voice_may_record: false, Patience };
+    graphics: "card", way: "room", visit: 0, role: "", headset_kinds: {}, voice_may_record: false, Patience };
 
 function is_complete({ cameras, has_picture }) {
     return has_picture && cameras.every(camera => !camera.is_asked_for ||
@@ -117,7 +122,13 @@ function run({ client, voice, face, module, flat }) {
     const canvas = $("view");
     let patience = new Patience();
     let next_texts = 0;
-    const help = () => $("help").open || $("help").showModal();
+    const help = () => {
+        if (!$("help").open)
+            $("help").showModal();
+        $("help_text").scrollTop = 0;
+    };
+    const sheet = page.sheet = new Sheet(name => text(titles[name]), () => next_texts = 0);
+    let notices = new Notices();
     offer_touch($("touch"), listen(canvas, client), client);
     const picture_panel = new PicturePanel(client, () => next_texts = 0);
     follow_touch(() => picture_panel.name());
@@ -127,12 +138,18 @@ function run({ client, voice, face, module, flat }) {
             client.command(command);
         next_texts = 0;
     });
-    $("tools").addEventListener("click", event => {
+    for (const [id, key] of [["draw", "z"], ["back_to_live", "end"]])
+        $(id).addEventListener("click", () => client.key(key, ""));
+    $("more").addEventListener("click", event => {
         const { key } = event.target.dataset;
         if (key)
             client.key(key, "");
         next_texts = 0;
     });
+    // The people have a row for everybody who waits or calls.
+    for (const id of ["door", "call"])
+        $(id).addEventListener("click", event => sheet.open("people", event.detail === 0 ? $(id) : null));
+    $("webcam").addEventListener("click", () => ["asking", "on"].includes(face.state) ? face.hide() : face.show());
     $("microphone").addEventListener("click", () => voice.toggle_microphone());
     $("push_to_talk").addEventListener("click", () => change_push_to_talk(voice));
     const change_voice_recording = () => {
@@ -142,11 +159,15 @@ function run({ client, voice, face, module, flat }) {
     $("voice_recording").addEventListener("click", change_voice_recording);
     hold_to_talk($("talk"), voice);
     // After a click on a button the keys go on to act in the room; a button reached by Tab keeps the focus.
-    $("side").addEventListener("click", event => event.detail > 0 && event.target.closest("button") &&
+    $("panels").addEventListener("click", event => event.detail > 0 && event.target.closest("button") && !event.target.closest("dialog") &&
         $(page.way === "flat" ? "flat" : "view").focus({ preventScroll: true }));
     document.addEventListener("keydown", event => {
-        if (event.key === "Escape" && !["joined", "left"].includes(page.state.phase) && !$("help").open)
+        if (event.key !== "Escape" || page.state.phase === "left" || $("help").open)
+            return;
+        if (page.state.phase !== "joined")
             client.leave();
+        else if (sheet.name)
+            sheet.close();
     });
     // Both ways of seeing have these keys; input.js has the keys of the room.
     const on_key = event => {
@@ -155,8 +176,11 @@ function run({ client, voice, face, module, flat }) {
             event.preventDefault();
             return help();
         }
-        if (event.key.toLowerCase() === "l" && !event.repeat && is_plain)
+        const key = event.key.toLowerCase();
+        if (key === "l" && !event.repeat && is_plain)
             voice.toggle_microphone();
+        if (Object.hasOwn(sheets, key) && !event.repeat && is_plain && (key !== "o" || page.way === "room"))
+            sheet.toggle(sheets[key]);
         if (!["F7", "F8"].includes(event.key))
             return;
         event.preventDefault();  // F7 is the browser's, too
@@ -172,13 +196,6 @@ function run({ client, voice, face, module, flat }) {
         picture.addEventListener("keydown", on_key);
     }
     $("show_help").addEventListener("click", help);
-    // Only narrow pages and touch have this button; narrow ones begin with the room alone.
-    const fold = is_folded => {
-        $("side").classList.toggle("folded", is_folded);
-        $("menu").setAttribute("aria-expanded", String(!is_folded));
-    };
-    $("menu").addEventListener("click", () => fold(!$("side").classList.contains("folded")));
-    fold(matchMedia("(max-width: 30rem)").matches || (by_touch() && matchMedia("(max-height: 30rem)").matches));
     $("leave").addEventListener("click", () => client.leave());
     canvas.addEventListener("webglcontextlost", () => {
         if (page.state.phase !== "left")
@@ -199,17 +216,24 @@ function run({ client, voice, face, module, flat }) {
     };
     const show_state = () => {
         page.state = JSON.parse(client.state());
-        if (page.state.phase === "left")
+        // Nothing of a session stays once it is over for this person.
+        if (page.state.phase === "ended" || (page.state.phase === "refused" && page.state.joins > 0)) {
+            const problem = text("session_over", { why: page.state.problem });
+            client.leave();
+            page.state = { phase: "left", problem };
+        }
+        if (page.state.phase === "left") {
+            sheet.close();
             return leave(voice, face, page.state.problem);
+        }
         follow_face();
         page.state.face_problem ||= face_problem(face, page.way);
-        show(page.state);
+        const way_sentence = show_way(page.state);
+        show(page.state, { sheet, notices, way: page.way, way_sentence, now_ms: performance.now() });
+        still.show(page.state);
         picture_panel.show(page.state);
-        show_way(page.state);
         place_voices(voice, page.state);
         show_voices(voice, page.state);
-        for (const key of ["n", "z"])
-            document.querySelector(`#tools [data-key="${key}"]`).hidden = !page.state.may_handle;
         document.title = `${page.state.host || host} - Theatron`;
     };
     // Asks soon, because the time that drawing takes decides on the quality.
@@ -236,6 +260,7 @@ function run({ client, voice, face, module, flat }) {
     const forget_picture = () => {
         ++page.visit;
         is_drawing = false;
+        notices = new Notices();
     };
     // The same person enters again, in the other way of seeing.
     const change_way = (way, why) => {
@@ -272,6 +297,7 @@ function run({ client, voice, face, module, flat }) {
     const headset = page.headset = new Headset({
         canvas, module, client,
         after_frame: now => {
+            still.beat(now);
             voice.hands_free = true;
             show_texts(now);
             prepare_room(now);
@@ -309,6 +335,9 @@ function run({ client, voice, face, module, flat }) {
         if (page.state.phase === "left")
             return;
         go_on_drawing();
+        // A picture that the graphics card does not finish is not drawn.
+        if (page.state.has_picture && !is_drawing)
+            still.beat(now);
         if (page.way === "flat") {
             if (flat.draw(now))
                 note_picture();
@@ -351,19 +380,23 @@ function place_voices(voice, { ear, people }) {
                                  : others.map(({ id }) => [id, [0, 0, -1]])));
 }
 
+// The panels that keys open, and the titles of all.
+const sheets = { p: "people", o: "case", b: "details" };
+const titles = { people: "people", case: "case", draw: "draw", more: "more", details: "details", picture: "picture_settings" };
+
+// Returns the sentence on what is drawn; "": nothing is to be said.
 function show_way({ has_picture, flat_camera, cameras }) {
     const is_flat = page.way === "flat";
-    $("drawing").hidden = !is_flat && page.graphics === "card";
-    const sentence = !is_flat ? text("drawn_by_processor")
+    const sentence = !is_flat ? (page.graphics === "card" ? "" : text("drawn_by_processor"))
         : !has_picture ? text(cameras.length ? "flat_waits" : "lobby_no_cameras")
         : (page.why ? text(page.why) + " " : "") + text("flat_is_shown", { camera: flat_camera });
     if ($("drawing_text").textContent !== sentence)
         $("drawing_text").textContent = sentence;
     $("other_way").textContent = text(is_flat ? "to_room" : "to_flat");
     $("other_way").hidden = page.graphics === "none";
-    $("next_camera").hidden = !is_flat;
     for (const kind of ["vr", "ar"])
         $(`enter_${kind}`).hidden = is_flat || !has_picture || !page.headset_kinds[kind];
+    return sentence;
 }
 
 // As --render-scale of theatron join; 0: chosen by drawing time.
@@ -398,12 +431,22 @@ function follow_way(face) {
 function leave(voice, face, problem) {
     voice.leave();
     face.hide();
-    $("view").hidden = $("flat").hidden = $("panels").hidden = true;
+    still.rest();
+    $("view").hidden = $("flat").hidden = $("panels").hidden = $("session_picture").hidden = true;
+    // The canvases would keep their last pictures.
+    for (const canvas of [$("view"), $("flat"), $("session_picture")])
+        canvas.width = canvas.height = 1;
     $("lobby").hidden = false;
     page.lobby.watch();
     if (problem)
         $("problem").textContent = problem;
     $("name").focus();
+}
+
+// An observer neither speaks nor is seen, so the form does not offer it.
+function follow_role(role) {
+    page.role = role;
+    document.body.classList.toggle("observer", role === "observer");
 }
 
 async function main() {
@@ -431,11 +474,12 @@ async function main() {
     if (!token) {
         $("invitation").textContent = text("no_token");
         $("enter").disabled = true;
-        return;
+        return ask_for_right_link();
     }
 
     Voice.warm_up();
-    page.lobby = new Lobby(token);
+    follow_role(role);
+    page.lobby = new Lobby(token, { on_role: follow_role, on_refusal: ask_for_right_link });
     page.lobby.watch();
     const devices = page.devices = new DeviceCheck();
     page.graphics = find_graphics();
@@ -463,7 +507,7 @@ async function main() {
             page.person.remember($("remember").checked, {
                 name, speaks: $("speaks").checked ? "yes" : "no", pushes: $("pushes").checked ? "yes" : "no" });
             page.voice = voice;
-            page.voice_may_record = $("may_record").checked;
+            page.voice_may_record = $("may_record").checked && page.role !== "observer";
             voice.set_push_to_talk($("pushes").checked);
             $("problem").textContent = "";
             $("lobby").hidden = true;
@@ -476,9 +520,9 @@ async function main() {
             await new Promise(soon => setTimeout(soon));
             // Without sound the rest goes on; the panels say what is missing.
             voice.begin().catch(error => console.warn(`no sound: ${error.message}`));
-            if ($("speaks").checked)
+            if ($("speaks").checked && page.role !== "observer")
                 voice.open_microphone();
-            if ($("shows_face").checked && page.way === "room")
+            if ($("shows_face").checked && page.role !== "observer" && page.way === "room")
                 face.show();
             begin ??= run(program);
             begin();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The panels around the picture, from the client's state. Texts of others are only ever text.
+import { judge, seconds, show_dot } from "./dot.js";
 import { text, texts } from "./texts.js";
 import { by_touch } from "./touch_mode.js";
 
@@ -13,14 +14,28 @@ function element(tag, content = "", name = "") {
     return made;
 }
 
+// The other buttons of the bar change their titles.
+const icon_titles = { point: "point_title", draw: "draw_title", show_case: "show_case_title", show_people: "show_people_title",
+                      next_camera: "next_camera_title", leave: "leave_title", show_more: "show_more_title" };
+
 export function fill_texts() {
     for (const place of document.querySelectorAll("[data-text]"))
         place.textContent = text(place.dataset.text);
     for (const place of document.querySelectorAll("[data-name]"))
         place.setAttribute("aria-label", text(place.dataset.name));
+    for (const [id, title] of Object.entries(icon_titles))
+        name_icon($(id), text(title));
     $("help_list").replaceChildren();
     for (const [keys, meaning] of by_touch() ? texts.touches : texts.keys)
         $("help_list").append(element("dt", keys), element("dd", meaning));
+}
+
+// Names a button that has an icon, for the pointer and for a screen reader.
+function name_icon(button, name) {
+    if (button.title === name)
+        return;
+    button.title = name;
+    button.setAttribute("aria-label", name);
 }
 
 // Rebuilds `place` only if `content` is another one, so that focus and scrolling stay.
@@ -80,18 +95,14 @@ function set_text(place, content) {
         place.textContent = content;
 }
 
-function age(ms) {
-    if (ms === null)
-        return "–";  // the session's time is not known yet
-    return ms < 1000 ? `${Math.round(ms / 10) * 10} ms` : `${Math.floor(ms / 1000)} s`;
-}
+const age = ms => ms === null ? "–" : seconds(ms);  // the session's time may not be known yet
 
 function fill_cameras(list, cameras) {
     for (const camera of cameras) {
         const row = element("li");
         const state = texts.states[camera.state] ?? camera.state;
         row.append(element("span", `${camera.name}: ${state}`, camera.state === "live" ? "" : "warning"),
-                   element("div", camera.line, "detail"));
+                   element("div", camera.line, "detail"), element("div", camera.detail, "detail"));
         list.append(row);
     }
 }
@@ -105,20 +116,26 @@ function fill_panels(place, panels) {
             item.append(element("div", row.text), element("div", row.detail, "detail"));
             const buttons = element("div", "", "buttons");
             for (const [i, { label, command }] of row.buttons.entries()) {
-                const button = element("button", label);
+                const chosen = /^\[(.+)\]$/.exec(label);  // as the client marks the chosen tool
+                const button = element("button", chosen?.[1] ?? label);
+                if (chosen)
+                    button.setAttribute("aria-pressed", "true");
                 button.dataset.command = command;
                 button.dataset.label = `${place_of(panel, at)}/${label}`;
                 button.dataset.place = `${place_of(panel, at).split(/[:,] /)[0]}/${i}`;
                 const subject = subject_of(panel, at);
                 if (subject)
-                    button.setAttribute("aria-label", `${label}: ${subject}`);
+                    button.setAttribute("aria-label", `${button.textContent}: ${subject}`);
                 buttons.append(button);
             }
             if (row.buttons.length)
                 item.append(buttons);
             list.append(item);
         }
-        section.append(element("h2", panel.title), list);
+        // The sheet has this title already.
+        if (panel.title !== $("sheet_title").textContent)
+            section.append(element("h3", panel.title));
+        section.append(list);
         place.append(section);
     }
 }
@@ -134,15 +151,17 @@ function fill_facts(place, facts) {
 }
 
 // The microphone's button and state, and who speaks at present.
-export function show_voices(voice, { people = [], is_heard, is_muted, is_recorded, voice_may_record = null }) {
+export function show_voices(voice, { people = [], is_heard, is_muted, is_recorded, may_speak = true, voice_may_record = null }) {
     const button = $("microphone");
     const is_open = voice.microphone === "open";
-    set_text(button, text(is_open ? "microphone_close" : "microphone_open"));
+    set_text(button.querySelector("span"), text(is_open ? "mute" : "speak"));
+    name_icon(button, text(is_open ? "mute_title" : "speak_title"));
     button.setAttribute("aria-pressed", String(is_open));
+    button.hidden = $("push_to_talk").hidden = !may_speak && !is_open;
     $("push_to_talk").setAttribute("aria-pressed", String(voice.pushes));
     $("talk").hidden = !is_open || !voice.pushes || voice.hands_free;
     $("talk").setAttribute("aria-pressed", String(voice.is_held));
-    $("voice_recording").hidden = voice_may_record === null;
+    $("voice_recording").hidden = voice_may_record === null || !may_speak;
     $("voice_recording").setAttribute("aria-pressed", String(voice_may_record === true));
     const recorded = !is_open || !is_heard || !is_recorded || voice_may_record === null ? ""
         : text(voice_may_record ? "voice_is_recorded" : "voice_is_not_recorded");
@@ -169,21 +188,86 @@ export function face_problem(face, way) {
 }
 
 export function show_face(face, way) {
-    $("own_face").hidden = face.state !== "on";
+    const is_on = face.state === "on";
+    $("own_face").hidden = !is_on;
+    $("webcam").setAttribute("aria-pressed", String(is_on));
+    name_icon($("webcam"), text(is_on ? "webcam_off_title" : "webcam_on_title"));
     set_text($("face_hint"), face.state === "asking" ? text("face_asking") : face_problem(face, way));
 }
 
-export function show(state) {
-    const { overlay } = state;
-    set_text($("message"), [overlay.message, overlay.detail].filter(Boolean).join("\n"));
-    set_text($("notice"), [overlay.warning, overlay.notice].filter(Boolean).join("\n"));
-    update($("facts"), overlay.facts, fill_facts);
+// The kinds of the client's panels that each of the page's panels has, from top to bottom.
+const kinds = { people: ["door", "call", "people", "screens", "sound", "places"], case: ["case"], draw: ["marks"], more: ["past"] };
+
+const of_kind = (overlay, kind) => overlay.panels.filter(panel => panel.kind === kind);
+const is_drawing = overlay => of_kind(overlay, "marks").length > 0;
+
+// Shows what the role and the way of seeing allow.
+function show_buttons(state, way) {
+    const is_flat = way === "flat";
+    $("webcam").hidden = is_flat || !state.may_be_seen;
+    $("point").hidden = is_flat || !state.may_point;
+    $("draw").hidden = is_flat || !state.may_handle;
+    $("show_case").hidden = is_flat;
+    $("next_camera").hidden = !is_flat;
+    $("draw").setAttribute("aria-pressed", String(is_drawing(state.overlay)));
+    for (const key of ["r", "n"])
+        document.querySelector(`#more [data-key="${key}"]`).hidden = is_flat || (key === "n" && !state.may_handle);
+}
+
+// The panel of the tools comes and goes with them.
+let was_drawing = false;
+function follow_drawing(overlay, sheet) {
+    const is_on = is_drawing(overlay);
+    if (is_on && !was_drawing)
+        sheet.open("draw");
+    if (!is_on && sheet.name === "draw" && !overlay.message)
+        sheet.close();
+    was_drawing = is_on;
+}
+
+// These are shown whatever else is hidden: a recording, a person at the door, a call.
+function show_chips({ overlay, is_past }) {
+    const fact_of = kind => overlay.facts.find(fact => fact.kind === kind);
+    const recorded = fact_of("recording"), door = fact_of("door"), [call] = of_kind(overlay, "call");
+    set_text($("recorded"), recorded ? `${recorded.label}: ${recorded.value}` : "");
+    set_text($("door"), door ? `${door.label}: ${door.value}` : "");
+    $("door").hidden = !door;
+    set_text($("call"), call ? `${call.rows.map(row => row.text).join(", ")}: ${call.title}` : "");
+    $("call").hidden = !call;
+    $("back_to_live").hidden = !is_past;
+}
+
+function show_details(state, signs) {
+    update($("signs"), signs, (place, lines) => place.append(...lines.map(line => element("li", line))));
+    update($("facts"), state.overlay.facts, fill_facts);
     $("cameras").hidden = state.cameras.length === 0;
     // Without a connection no camera is live, whatever the host said last.
     const is_connected = state.phase === "joined";
-    update($("camera_list"), state.cameras.map(({ name, state, is_asked_for, frames, fps, age_ms }) => ({
-        name, state: is_connected || state !== "live" ? state : "stale",
+    const details = of_kind(state.overlay, "cameras").flatMap(panel => panel.rows.map(row => row.detail));
+    update($("camera_list"), state.cameras.map(({ name, state, is_asked_for, frames, fps, age_ms }, i) => ({
+        name, state: is_connected || state !== "live" ? state : "stale", detail: details[i] ?? "",
         line: !is_connected ? text("no_connection") : !is_asked_for ? text("not_shown") : frames ? text("camera_line", { fps: Math.round(fps), age: age(age_ms) }) : text("no_picture"),
     })), fill_cameras);
-    update_panels($("room_panels"), overlay.panels);
+}
+
+// `sheet` is the page's Sheet, `notices` its Notices; `way` is "room" or "flat",
+// and `way_sentence` says why, or which camera is shown.
+export function show(state, { sheet, notices, way, way_sentence, now_ms }) {
+    const { overlay } = state;
+    set_text($("message"), [overlay.message, overlay.detail].filter(Boolean).join("\n"));
+    // That a picture is not of the present is said as long as it is so.
+    const played = overlay.facts.find(fact => fact.kind === "not_live");
+    set_text($("not_live"), !state.is_not_live ? "" : overlay.warning || (played ? `${played.label}: ${played.value}` : ""));
+    const { shown, warning, unrest } = notices.at(now_ms, {
+        warning: state.is_not_live ? "" : overlay.warning, notice: overlay.notice, of_camera: state.is_of_camera, once: way_sentence });
+    set_text($("notice"), shown.join("\n"));
+    show_dot($("dot"), judge(state, unrest));
+    show_chips(state);
+    show_buttons(state, way);
+    follow_drawing(overlay, sheet);
+    if (way === "flat" && ["case", "draw"].includes(sheet.name))
+        sheet.close();  // nothing of them is in this view
+    show_details(state, [warning, unrest ? text("unrest", { count: unrest }) : ""].filter(Boolean));
+    sheet.entitle();
+    update_panels($("room_panels"), (kinds[sheet.name] ?? []).flatMap(kind => of_kind(overlay, kind)));
 }

@@ -17,11 +17,6 @@ export class PicturePanel {
                 client.choose(what, target.value);
                 next_state();
             });
-        $("show_picture").addEventListener("click", () => {
-            $("picture").hidden = !$("picture").hidden;
-            $("show_picture").setAttribute("aria-expanded", String(!$("picture").hidden));
-            next_state();
-        });
         this.name();
     }
 
@@ -35,7 +30,7 @@ export class PicturePanel {
     }
 
     show(state) {
-        if ($("picture").hidden)
+        if ($("sheet").hidden || $("picture").hidden)
             return;
         const { chosen, color, cameras = [] } = state;
         const is_flat = !chosen;

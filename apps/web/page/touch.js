@@ -12,7 +12,7 @@ export function offer_touch(place, controls, client) {
     for (const button of place.querySelectorAll("[data-key]"))
         on_press(button, () => client.key(button.dataset.key, ""));
 
-    const tools = [...place.querySelectorAll("[data-tool]")];
+    const tools = [...document.querySelectorAll("[data-tool]")];  // pointing is in the bar
     let chosen = "";
     const choose = name => {
         chosen = name;

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "room/mark_mesh.h"
+#include "room/mark_shape.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace theatron;
@@ -11,12 +11,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::optional<session::Mark> mark = session::decode_mark(bytes);
     if (!mark)
         return 0;
-    const render::MeshData mesh = room::make_mark_mesh(*mark);
-    for (const render::MeshData::Vertex& v : mesh.vertices)
-        if (!std::isfinite(v.px + v.py + v.pz + v.nx + v.ny + v.nz))
+    for (const render::LinePiece& piece : room::mark_line(*mark))
+        if (!std::isfinite(length(piece.from) + length(piece.to)) || piece.from_radius_m < 0 ||
+            piece.to_radius_m < 0)
             std::abort();
-    for (const std::uint32_t i : mesh.indices)
-        if (i >= mesh.vertices.size())
-            std::abort();
+    if (room::label_places(*mark).empty())
+        std::abort();
     return 0;
 }

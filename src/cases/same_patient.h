@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tells if two sets of texts may name the same patient. A case is of one patient.
+//
+// Pure; safe for any bytes.
+#pragma once
+
+#include <vector>
+
+#include "cases/dicom_slice.h"
+
+namespace theatron::cases {
+
+// False only if it is certain: both have a number that differs, or the same one with another name
+// and another date of birth, or one of them has none and names or dates of birth differ. Only
+// PatientName, PatientBirthDate and PatientID count.
+bool may_be_one_patient(const std::vector<Identifier>& a, const std::vector<Identifier>& b);
+
+}  // namespace theatron::cases

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: Apache-2.0
+// The bar of buttons of the window, the panel that one of them opens, and notices with buttons.
+#include <utility>
+
+#include "phrases/phrase.h"
+#include "session/permissions.h"
+#include "viewer/bar_items.h"
+#include "viewer/mark_panel.h"
+#include "viewer/screen_panel.h"
+#include "viewer/viewer.h"
+#include "wire/sentence.h"
+
+namespace theatron::viewer {
+namespace {
+
+xr::Action action_of(xr::ToolIcon item) {
+    switch (item) {
+        case xr::ToolIcon::microphone:
+            return xr::Action::microphone;
+        case xr::ToolIcon::webcam:
+            return xr::Action::own_face;
+        case xr::ToolIcon::point:
+            return xr::Action::point;
+        case xr::ToolIcon::draw:
+            return xr::Action::marks;
+        case xr::ToolIcon::patient_case:
+            return xr::Action::show_case;
+        case xr::ToolIcon::people:
+            return xr::Action::people;
+        case xr::ToolIcon::leave:
+            return xr::Action::leave_session;
+        case xr::ToolIcon::more:
+            break;
+    }
+    return xr::Action::more;
+}
+
+xr::PanelButton button(RoomPanel& panel, Phrase label, RoomCommand command) {
+    panel.commands.push_back(std::move(command));
+    return {say(label), int(panel.commands.size()) - 1};
+}
+
+}  // namespace
+
+Sheet Viewer::sheet() const {
+    return shows_panels_           ? Sheet::people
+           : shows_case_           ? Sheet::patient_case
+           : marking_.tool()       ? Sheet::draw
+           : adjusting_.is_shown() ? Sheet::adjust
+                                   : sheet_;
+}
+
+bool Viewer::shows_sound() const {
+    return options_.one_panel ? sheet_ == Sheet::sound : shows_panels_;
+}
+
+// Closes all others.
+void Viewer::open_sheet(Sheet sheet) {
+    shows_panels_ = sheet == Sheet::people;
+    shows_case_ = sheet == Sheet::patient_case;
+    if (sheet != Sheet::draw && marking_.tool()) {
+        marking_.choose(std::nullopt, scene_.meeting());
+        scene_changed_ = true;
+    }
+    if (sheet != Sheet::adjust)
+        adjusting_.show(false);
+    sheet_ = sheet > Sheet::adjust ? sheet : Sheet::none;
+}
+
+// A key has opened or closed a panel: what was open before gives way to it.
+void Viewer::keep_one_panel(Sheet before) {
+    if (!options_.one_panel)
+        return;
+    const bool is_open[] = {shows_panels_, shows_case_, marking_.tool().has_value(),
+                            adjusting_.is_shown(), sheet_ != Sheet::none};
+    const Sheet sheets[] = {Sheet::people, Sheet::patient_case, Sheet::draw, Sheet::adjust, sheet_};
+    for (std::size_t i = 0; i < std::size(sheets); ++i)
+        if (is_open[i] && sheets[i] != before)
+            return open_sheet(sheets[i]);
+}
+
+void Viewer::toggle_sheet(Sheet sheet) {
+    open_sheet(this->sheet() == sheet ? Sheet::none : sheet);
+}
+
+void Viewer::ask_leave(TimePoint now, Duration within) {
+    leave_asked_until_ = now + within;
+}
+
+void Viewer::remark(const std::string& text, TimePoint now) {
+    std::vector<std::string> names;
+    std::uint64_t generation = 0;
+    for (const auto& camera : participant_.cameras(generation))
+        names.push_back(camera.description.name);
+    if (unrest_.tells(text, names, now))
+        note(text, now);
+}
+
+void Viewer::add_tools(Facts& facts, RoomPanel& panel, TimePoint now) const {
+    const auto& status = facts.received.status;
+    BarFacts bar;
+    bar.joined = status.phase == client::Participant::Phase::joined;
+    bar.role = status.standing.role;
+    bar.muted = status.standing.muted;
+    bar.microphone = voices_.microphone;
+    bar.own_face = own_face_;
+    bar.points = points_;
+    bar.draws = marking_.tool().has_value();
+    bar.shows_case = shows_case_;
+    bar.shows_people = shows_panels_;
+    bar.shows_more = sheet_ != Sheet::none && sheet_ != Sheet::details;
+    bar.is_past = !facts.past.empty();
+    bar.visitors = facts.visitors.size();
+    bar.asks_leave = now < leave_asked_until_;
+    xr::ToolBar tools;
+    const auto command = [&](xr::Action action) {
+        panel.commands.push_back(PressKey{action});
+        return int(panel.commands.size()) - 1;
+    };
+    tools.dot.command = command(xr::Action::facts);
+    for (const BarItem& item : bar_items(bar)) {
+        const bool is_microphone = item.id == xr::ToolIcon::microphone;
+        tools.tools.push_back({item.id, say(item.label), say(item.hint), item.pressed,
+                               is_microphone || item.id == xr::ToolIcon::webcam ? item.off : false,
+                               item.alarm, item.badge, command(action_of(item.id))});
+    }
+    facts.tools = std::move(tools);
+    facts.unrest = unrest_.count(now);
+}
+
+// Somebody at the door, a call, and the way back to the present.
+void Viewer::add_offers(Facts& facts, RoomPanel& panel, TimePoint now) const {
+    if (!facts.past.empty()) {
+        RoomPanel back;
+        looking_back_.add_panel(facts.past, scene_.meeting().knows_shown_moment(), participant_,
+                                now, back);
+        const int first = int(panel.commands.size());
+        xr::PanelRow row = back.panels.front().rows.front();
+        row.detail.clear();
+        for (xr::PanelButton& one : row.buttons)
+            one.command += first;
+        panel.commands.insert(panel.commands.end(), back.commands.begin(), back.commands.end());
+        facts.offers.push_back(std::move(row));
+    }
+    if (may(session::Right::manage) && !facts.visitors.empty()) {
+        using Action = wire::ManageAction;
+        const wire::Visitor& first = facts.visitors.front();
+        facts.offers.push_back(
+            {say(Phrase::visitor_waits, first.name, wire::spoken(first)),
+             facts.visitors.size() > 1
+                 ? say(Phrase::more_visitors, std::to_string(facts.visitors.size() - 1))
+                 : "",
+             {button(panel, Phrase::let_in, Decide{Action::admit, first.participant, {}}),
+              button(panel, Phrase::refuse, Decide{Action::turn_away, first.participant, {}})}});
+    }
+    for (const room::RoomPerson& person : callers())
+        facts.offers.push_back({say(Phrase::person_calls_you, person.name),
+                                "",
+                                {button(panel, Phrase::go_there, AnswerCall{person.id, true}),
+                                 button(panel, Phrase::stay_here, AnswerCall{person.id, false})}});
+}
+
+void Viewer::add_more_panel(RoomPanel& panel) const {
+    xr::Panel more{say(Phrase::bar_more), {}};
+    const auto row = [&](Phrase text, RoomCommand command) {
+        more.rows.push_back(
+            {say(text), "", {button(panel, Phrase::more_open, std::move(command))}});
+    };
+    row(Phrase::more_help, PressKey{xr::Action::help});
+    row(Phrase::sound, ShowSheet{Sheet::sound});
+    row(Phrase::more_pictures, PressKey{xr::Action::camera_pictures});
+    row(Phrase::places, ShowSheet{Sheet::places});
+    row(Phrase::screens, ShowSheet{Sheet::screens});
+    if (participant_.can_look_back())
+        row(Phrase::look_back_alone, ShowSheet{Sheet::look_back});
+    row(Phrase::more_details, PressKey{xr::Action::facts});
+    row(Phrase::more_home, PressKey{xr::Action::own_view});
+    row(Phrase::more_full_screen, PressKey{xr::Action::full_screen});
+    row(Phrase::more_save, PressKey{xr::Action::save_picture});
+    if (may(session::Right::adjust))
+        row(Phrase::more_adjust, PressKey{xr::Action::adjust_cameras});
+    panel.panels.push_back(std::move(more));
+}
+
+// The one that is open.
+void Viewer::add_sheet(const Facts& facts, RoomPanel& panel, TimePoint now) {
+    const wire::Role role = facts.received.status.standing.role;
+    // A question about a case is asked anew when its panel opens again.
+    if (sheet() != Sheet::patient_case || !facts.past.empty())
+        asked_case_.reset();
+    switch (sheet()) {
+        case Sheet::none:
+        case Sheet::details:  // overlay_of() adds it
+            break;
+        case Sheet::people:
+            panel = joined(std::move(panel), room_panel({scene_.meeting().room(),
+                                                         scene_.meeting().people(),
+                                                         {},
+                                                         followed_,
+                                                         role == wire::Role::operator_,
+                                                         {},
+                                                         session::may(role, session::Right::point),
+                                                         is_calling(now),
+                                                         voices_.speaking,
+                                                         OwnFace::none,
+                                                         removal_.asked(now)}));
+            break;
+        case Sheet::patient_case:
+            // Its buttons would change the present by what is shown of the past.
+            if (facts.past.empty())
+                add_case(panel);
+            break;
+        case Sheet::draw:
+            add_mark_panel(marking_.tool(), role == wire::Role::operator_, panel);
+            break;
+        case Sheet::adjust:
+            adjusting_.add_panel(panel);
+            break;
+        case Sheet::more:
+            add_more_panel(panel);
+            break;
+        case Sheet::sound:
+            add_sound_panel(sound_choices_, panel);
+            break;
+        case Sheet::places: {
+            xr::Panel where{say(Phrase::places), {}};
+            for (const Place& place : places_of(cameras()))
+                where.rows.push_back(
+                    {place.name, "", {button(panel, Phrase::go, GoToPlace{place})}});
+            if (where.rows.empty())
+                where.rows.push_back({say(Phrase::more_no_places), "", {}});
+            panel.panels.push_back(std::move(where));
+            break;
+        }
+        case Sheet::screens: {
+            const client::Participant::Room& room = scene_.meeting().room();
+            ScreenPanelFacts screens{&room.objects, room.self, role, {}};
+            for (const room::RoomPerson& person : scene_.meeting().people())
+                screens.names[person.id] = person.name;
+            const std::size_t before = panel.panels.size();
+            add_screen_panel(screens, panel);
+            if (panel.panels.size() == before)
+                panel.panels.push_back(
+                    {say(Phrase::screens), {{say(Phrase::more_no_screens), "", {}}}});
+            break;
+        }
+        case Sheet::look_back:
+            looking_back_.add_panel(facts.past, scene_.meeting().knows_shown_moment(), participant_,
+                                    now, panel);
+            break;
+    }
+}
+
+}  // namespace theatron::viewer
