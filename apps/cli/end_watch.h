@@ -23,7 +23,8 @@ public:
         if (!told_at_)
             told_at_ = now;
     }
-    // Something must be saved, for which the program has this long once it was told to end.
+    // Something must be saved, for which the program has this long once it was told to end, or once
+    // something else was saved after that.
     void begin_saving(Duration patience) { saving_.insert(patience); }
     // Something that was begun with this patience is saved.
     void end_saving(Duration patience, TimePoint now) {
@@ -37,8 +38,10 @@ public:
         if (!told_at_)
             return std::nullopt;
         const TimePoint usual = *told_at_ + end_within;
+        // What is left may have waited for what was saved just now: it has its own time from then.
         if (is_saving())
-            return std::max(usual, *told_at_ + *saving_.rbegin());
+            return std::max(usual,
+                            std::max(*told_at_, saved_at_.value_or(*told_at_)) + *saving_.rbegin());
         return saved_at_ ? std::max(usual, *saved_at_ + end_after_saving) : usual;
     }
 

@@ -30,9 +30,22 @@ TEST(EndWatch, WhatIsSavedHasLonger) {
     watch.tell(told);
     EXPECT_EQ(watch.due(), told + 30s);
     watch.end_saving(30s, told + 3s);
-    EXPECT_EQ(watch.due(), told + 5s) << "the other's";
+    EXPECT_EQ(watch.due(), told + 8s) << "the other's";
     watch.end_saving(5s, told + 4s);
     EXPECT_EQ(watch.due(), told + 4500ms);
+}
+
+// A host that opens cameras for longer than its room needs: the end of that is not the end of the
+// time.
+TEST(EndWatch, WhatIsSavedAfterAnotherHasItsOwnTime) {
+    EndWatch watch;
+    watch.begin_saving(5s);
+    watch.begin_saving(60s);
+    watch.tell(told);
+    watch.end_saving(60s, told + 20s);
+    EXPECT_EQ(watch.due(), told + 25s);
+    watch.end_saving(5s, told + 21s);
+    EXPECT_EQ(watch.due(), told + 21500ms);
 }
 
 TEST(EndWatch, SavedBeforeItCostsNothing) {
