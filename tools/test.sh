@@ -56,6 +56,10 @@ if [ "$all" = --all ]; then
     step "Rates, ages and shaped links" ctest --preset timing
     step "Frame rate beside strangers and expensive guests" env PYTHONPATH=tests/end_to_end \
         python3 tests/end_to_end/guests_run.py
+    step "Recorders over a link that breaks for 20 minutes" env PYTHONPATH=tests/end_to_end \
+        python3 tests/end_to_end/breaks_run.py --minutes 20
+    step "Two sessions beside 200 hostile connections" env PYTHONPATH=tests/end_to_end \
+        python3 tests/end_to_end/hostile_links_run.py --minutes 10
     step "Cameras registered, four seeds" build/release/apps/theatron/theatron_bench registration \
         --seeds 4 --json build/registration.json
     step "Accuracy of registration as promised" tools/check_registration.py build/registration.json

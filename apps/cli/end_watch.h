@@ -38,7 +38,7 @@ public:
         if (!told_at_)
             return std::nullopt;
         const TimePoint usual = *told_at_ + end_within;
-        // What is left may have waited for what was saved just now: it has its own time from then.
+        // The rest may have waited for what was saved just now, and has its own time from then.
         if (is_saving())
             return std::max(usual,
                             std::max(*told_at_, saved_at_.value_or(*told_at_)) + *saving_.rbegin());
