@@ -120,14 +120,19 @@ class Page:
         self.requests = []  # addresses
         self.bytes = 0      # that came, without those of WebSockets
         self.socket_bytes = 0
-        target = browser.call("Target.createTarget", url="about:blank", newWindow=True)["targetId"]
-        self.session = browser.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
+        self.target = browser.call("Target.createTarget", url="about:blank", newWindow=True)["targetId"]
+        self.session = browser.call("Target.attachToTarget", targetId=self.target, flatten=True)["sessionId"]
         browser.pages[self.session] = self
         for domain in ("Runtime", "Log", "Network", "Page"):
             self.call(f"{domain}.enable")
         self.call("Emulation.setDeviceMetricsOverride", width=size[0], height=size[1], deviceScaleFactor=1,
                   mobile=False)
         self.call("Page.navigate", url=url)
+
+    def close(self):
+        """Once: it draws no more, and tells nothing more."""
+        if self.browser.pages.pop(self.session, None):
+            self.browser.call("Target.closeTarget", targetId=self.target)
 
     def call(self, method, **parameters):
         return self.browser.call(method, session=self.session, **parameters)

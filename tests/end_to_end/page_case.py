@@ -29,6 +29,11 @@ class PageCase(unittest.TestCase):
         cls.links = cls.host.greeting["links"]
         cls.browser = cls.stack.enter_context(Browser(*cls.flags))
 
+    def setUp(self):
+        # A page that stays open draws on, and takes the processor from those of the next test.
+        of_class = set(self.browser.pages.values())
+        self.addCleanup(lambda: [page.close() for page in set(self.browser.pages.values()) - of_class])
+
     def leave(self, page):
         page.evaluate("document.getElementById('leave').click()")
         page.wait_for("theatron.state.phase === 'left'")

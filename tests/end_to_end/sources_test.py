@@ -5,6 +5,7 @@ import json
 import os
 import pathlib
 import shutil
+import signal
 import subprocess
 import tempfile
 import unittest
@@ -178,10 +179,18 @@ class Devices(unittest.TestCase):
         return {**os.environ, "LD_PRELOAD": str(pathlib.Path(STANDIN).resolve()), "V4L2_STANDIN_DEVICE": self.DEVICE, **more}
 
     def recorded(self, link, name):
-        """The colour pictures of a second, without loss."""
+        """Six colour pictures, without loss."""
         file = self.folder / f"{name}.mkv"
-        code, _, errors = run("record", link, file, "--seconds", "1", "--color-codec", "raw")
-        self.assertIn(code, (0, INCOMPLETE), errors)
+
+        # Depth may begin half a second behind colour, and a picture without depth is not exported.
+        def has_enough():
+            code, out, _ = run("inspect", file, "--json")
+            cameras = json.loads(out)["cameras"] if code in (0, INCOMPLETE) else []
+            return bool(cameras) and all(kind and kind["frames"] > 6 for one in cameras for kind in (one["depth"], one["color"]))
+        with Process("record", link, file, "--color-codec", "raw") as recorder:
+            recorder.wait_until(lambda: file.exists() and has_enough())
+            recorder.send(signal.SIGINT)
+            self.assertIn(recorder.end(), (0, INCOMPLETE), recorder.last_words())
         code, _, errors = run("export", file, "--png", self.folder / name)
         self.assertEqual(code, 0, errors)
         return [read_png(picture) for picture in sorted((self.folder / name / "color").glob("*.png"))[:6]]

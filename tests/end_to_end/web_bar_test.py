@@ -55,6 +55,10 @@ class WebBar(PageCase):
         page.wait_for("theatron.state.phase === 'joined' && theatron.state.has_picture")
         return page
 
+    def leave(self, page):
+        super().leave(page)
+        page.close()
+
     def picture(self, page, name):
         if PICTURES:
             page.screenshot(pathlib.Path(PICTURES) / f"{name}.png")
@@ -177,6 +181,7 @@ class WebBar(PageCase):
                     page.evaluate("for (const d of document.querySelectorAll('details')) d.open = true")
                     self.assertEqual(page.evaluate("[...document.querySelectorAll('.of_voice')].some(e => e.checkVisibility())"), role != "observer")
                     self.picture(page, f"form_{size[0]}_{role}")
+                    page.close()
 
     def test_an_observer_has_no_button_of_what_an_observer_may_not(self):
         page = self.enter(role="observer")
@@ -197,6 +202,7 @@ class WebBar(PageCase):
                 page.evaluate(fill % self.links["expert"])
                 page.wait_for("document.getElementById('session_lines')?.innerText.includes('The session is open')")
                 self.assertTrue(page.evaluate("document.getElementById('name').checkVisibility()"))
+                page.close()
 
     def test_the_help_opens_at_its_top_and_is_opaque(self):
         page = self.enter((640, 360))
