@@ -142,12 +142,16 @@ class Marks(unittest.TestCase):
                 for _ in range(60):
                     seen.add(refusal(create(stroke_bytes(color, "E", 200))))
                 self.assertEqual(seen - {0}, {TOO_MANY}, "bytes of one author")
-                # All at once: a slow sender is none who asks too often.
+                # All at once: a slow sender is none who asks too often. One message is made and numbered anew, since somebody
+                # who makes hundreds, and reads nothing meanwhile, is taken for gone.
+                mould = 0x7a6b5c4d
+                message = control_message(stranger.says, "RoomRequest", number=mould, request=create(stroke_bytes(color, "E", 2)))
+                self.assertEqual(message.count(struct.pack("<I", mould)), 1)
                 flood = []
                 for _ in range(900):
                     decided += 1
-                    message = control_message(stranger.says, "RoomRequest", number=decided, request=create(stroke_bytes(color, "E", 2)))
-                    flood.append(stranger.frame(bytes([CONTROL]) + message))
+                    numbered = message.replace(struct.pack("<I", mould), struct.pack("<I", decided))
+                    flood.append(stranger.frame(bytes([CONTROL]) + numbered))
                 stranger.send_bytes(b"".join(flood))
                 while True:
                     fields = stranger.receive_control("RoomDecision")[1]
