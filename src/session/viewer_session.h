@@ -61,6 +61,7 @@ public:
         direct,            // direct_grants(): the publishers that this participant may connect to
         direct_receivers,  // direct_receivers(): who may connect to this participant
         goodbye,           // goodbye() says why: the session is over, the connection will end
+        other_protocol,    // refusal() says why and what to do: the connection must be ended
     };
     // Safe for untrusted input: damaged and unknown messages change nothing.
     Change on_control(ByteView message);
