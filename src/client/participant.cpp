@@ -373,11 +373,10 @@ void Participant::on_control(ByteView message) {
             if (cases_)
                 cases_->on_content(session_.content(), steady_now());
             break;
-        case Change::other_protocol:
-            // The sentence is made of the refusal.
+        case Change::refused:
+            // A host closes the connection, too. The sentence is made of the refusal.
             shared_->client->end("");
             break;
-        case Change::refused:
         case Change::goodbye:
         case Change::nothing:
             break;

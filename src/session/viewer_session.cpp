@@ -71,7 +71,7 @@ ViewerSession::Change ViewerSession::on_control(ByteView bytes) {
     if (auto* welcome = std::get_if<wire::Welcome>(&*message)) {
         if (wire::Text problem = protocol_problem(welcome->protocol); !problem.empty()) {
             refusal_ = std::move(problem);
-            return Change::other_protocol;
+            return Change::refused;
         }
         std::vector<wire::Camera> cameras = std::exchange(welcome->cameras, {});
         welcome_ = std::move(*welcome);

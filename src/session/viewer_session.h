@@ -38,7 +38,7 @@ public:
         nothing,
         welcomed,    // cameras() are known; they may be others than those of the connection before
         cameras,     // some of cameras() came, left or are described anew
-        refused,     // refusal() says why; the connection will end
+        refused,     // refusal() says why; the connection is to be ended
         settings,    // settings(), and note(): the host's comment on them
         camera,      // camera_states()
         pong,        // pong() answers a ping
@@ -61,7 +61,6 @@ public:
         direct,            // direct_grants(): the publishers that this participant may connect to
         direct_receivers,  // direct_receivers(): who may connect to this participant
         goodbye,           // goodbye() says why: the session is over, the connection will end
-        other_protocol,    // refusal() says why and what to do: the connection must be ended
     };
     // Safe for untrusted input: damaged and unknown messages change nothing.
     Change on_control(ByteView message);

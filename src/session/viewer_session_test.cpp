@@ -78,14 +78,14 @@ TEST(ViewerSession, AWelcomeInAnotherProtocolIsNotEnteredAndSaysWhatToUpdate) {
     const std::string before = std::to_string(wire::protocol_min - 1);
     ViewerSession viewer({});
     EXPECT_EQ(viewer.on_control(of_protocol(wire::protocol_max + 1)),
-              ViewerSession::Change::other_protocol);
+              ViewerSession::Change::refused);
     EXPECT_FALSE(viewer.joined());
     EXPECT_EQ(wire::english(viewer.refusal()), "Your Theatron is too old for this host (protocol " +
                                                    newest + ", it needs " + next + "); update it.");
     (void)viewer.begin();
     EXPECT_TRUE(viewer.refusal().empty()) << "the host may be another one now";
     EXPECT_EQ(viewer.on_control(of_protocol(wire::protocol_min - 1)),
-              ViewerSession::Change::other_protocol);
+              ViewerSession::Change::refused);
     EXPECT_EQ(wire::english(viewer.refusal()), "This host is older than your Theatron (protocol " +
                                                    before + ", you need " + oldest +
                                                    "); update the host.");

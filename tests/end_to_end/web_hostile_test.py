@@ -129,6 +129,7 @@ class HostileHost(unittest.TestCase):
         for script, protocol in ((refuse(newer), 4), (refuse(older), 2), (lambda guest: guest.welcome(protocol=4), 4),
                                  (welcome_then_refuse, 4)):
             with self.subTest(protocol=protocol):
+                self.page.evaluate("document.getElementById('problem').textContent = ''")
                 self.enter(script)
                 self.page.wait_for(f"theatron.state.phase === 'left' && document.getElementById('problem').textContent === 'This page is "
                                    f"from before its host was changed (it speaks protocol 3, the host {protocol}); reload the page.'")
