@@ -263,7 +263,7 @@ def stereo(program, table, row):
             if row[table.columns.index(column)]}
 
 
-@Figure("docs/filters.md", "stereo truth", "theatron bench filter --quality --stereo --filters off default stereo", slow=True)
+@Figure("docs/filters.md", "stereo truth", "theatron bench filter --quality --stereo --filters off default stereo")
 def stereo_truth(program, table, row):
     chains = {c["name"]: c for c in program.bench("filter", "--quality", "--stereo",
                                                   "--filters", "off", "default", "stereo")}

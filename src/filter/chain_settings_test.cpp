@@ -25,6 +25,15 @@ TEST(ChainSettings, TheSpellingSaysWhatDiffersFromTheUsual) {
               "range:max_mm=3000+holes+kalman");
 }
 
+TEST(ChainSettings, PresetsAreChainsOfTheirOwn) {
+    EXPECT_EQ(good(parse_chain("default")).spelling(), "holes+flying_pixels+kalman");
+    EXPECT_EQ(good(parse_chain("stereo")).spelling(), "holes+flying_pixels+steady");
+    EXPECT_EQ(good(parse_chain_json(R"({"preset": "stereo",
+                                        "filters": [{"filter": "steady", "frames": 5}]})"))
+                  .spelling(),
+              "holes+flying_pixels+steady:frames=5");
+}
+
 TEST(ChainSettings, ASpellingReadsBackAsItself) {
     for (const char* text :
          {"paper", "default", "stereo+kalman:gain_1000=90", "steady:frames=3,squared_mm=15",
