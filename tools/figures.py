@@ -28,7 +28,7 @@ ALL_SKIPPED = 77  # for ctest
 # A figure is the page's if it differs by one in its last digit or by this share. Strata's weights come
 # from sums in floating point, whose order depends on the instruction set.
 SAME_SHARE = 0.002
-PICTURES_A_KEY_FRAME = 45  # 1.5 s of recordings and of looking back
+PICTURES_A_KEY_FRAME = 45  # 1.5 s of recordings
 
 
 class Missing(Exception):

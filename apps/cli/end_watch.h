@@ -40,8 +40,7 @@ public:
         const TimePoint usual = *told_at_ + end_within;
         // The rest may have waited for what was saved just now, and has its own time from then.
         if (is_saving())
-            return std::max(usual,
-                            std::max(*told_at_, saved_at_.value_or(*told_at_)) + *saving_.rbegin());
+            return std::max(usual, *std::max(told_at_, saved_at_) + *saving_.rbegin());
         return saved_at_ ? std::max(usual, *saved_at_ + end_after_saving) : usual;
     }
 

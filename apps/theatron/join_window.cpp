@@ -114,8 +114,10 @@ void join_in_window(const JoinFlags& flags) {
             const WindowEnd end = show(window, std::move(now));
             if (end == WindowEnd::closed || !asks)
                 return;
-            fields.shows_face = face.is_wanted();
         } catch (const SessionEnded& ended) {
+            // Nobody is there to fill in a form.
+            if (flags.seconds > 0)
+                throw;
             // Its last picture makes way for the form.
             asks = true;
             problem = ended.what();
@@ -125,6 +127,11 @@ void join_in_window(const JoinFlags& flags) {
                 throw;
             problem = error.what();
         }
+        // The next form begins with the person's last choices.
+        fields.shows_face = face.is_wanted();
+        fields.hears = shown.settings.hears;
+        fields.speaks = shown.settings.speaks;
+        fields.voice_may_record = shown.settings.voice_may_record;
     }
 }
 

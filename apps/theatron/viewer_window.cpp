@@ -424,6 +424,10 @@ WindowEnd show(xr::DesktopWindow& window, ViewerWindow options) {
             const viewer::Facts facts = viewer.facts(now);
             xr::OverlayContent content = viewer::overlay_of(facts, address, host::shown_filter);
             content.hovered = hovered;
+            // Another button may stand where the keyboard was.
+            if (content.tools && texts.tools &&
+                content.tools->tools.size() != texts.tools->tools.size())
+                focus.reset();
             content.focused = focus;
             texts_changed = texts_changed || content != texts;
             texts = std::move(content);

@@ -68,13 +68,12 @@ json to_json(const xr::OverlayContent& overlay) {
 }
 
 // A camera that stands still for a moment, or goes on: under load that happens all the time.
-bool is_of_camera(const std::string& notice, const client::ParticipantFigures& received) {
-    return std::any_of(received.cameras.begin(), received.cameras.end(),
-                       [&](const client::CameraFigures& one) {
-                           const std::string& name = one.camera.description.name;
-                           return notice.starts_with(say(Phrase::camera_stale, name, "")) ||
-                                  notice == say(Phrase::camera_live_again, name);
-                       });
+bool is_of_camera(const std::string& notice, const client::Participant& participant) {
+    std::uint64_t generation = 0;
+    const auto cameras = participant.cameras(generation);
+    return std::any_of(cameras.begin(), cameras.end(), [&](const auto& camera) {
+        return viewer::is_of_unrest(notice, camera.description.name);
+    });
 }
 
 // Null before the first frame since the session's time is known.
@@ -175,10 +174,9 @@ json state_of(const viewer::Facts& facts, const client::Participant& participant
             // The age of the picture that is shown; null: not known.
             {"age_ms", facts.age_ms ? json(*facts.age_ms) : json()},
             {"is_past", !facts.past.empty()},
-            {"is_not_live", facts.frozen || !facts.past.empty() || !facts.played.empty()},
-            {"is_slow", overlay.warning == say(Phrase::slow_press_m) ||
-                            overlay.warning == say(Phrase::slow_not_connection)},
-            {"is_of_camera", is_of_camera(overlay.notice, facts.received)},
+            {"is_not_live", facts.is_of_another_time()},
+            {"is_slow", !overlay.warning.empty() && overlay.warning == viewer::slow_text(facts)},
+            {"is_of_camera", is_of_camera(overlay.notice, participant)},
             {"drawn_per_second", facts.drawn_per_second},
             {"renderer", facts.way.renderer},
             {"depth_step", facts.way.depth_step},

@@ -6,8 +6,8 @@
 #include <cstdlib>
 
 #include "base/error.h"
+#include "base/lasting_error.h"
 #include "base/shown_address.h"
-#include "base/wrong_options.h"
 
 namespace theatron {
 namespace {
@@ -108,7 +108,7 @@ std::string Options::problem() const {
 
 void Options::require_no_problem() const {
     if (const std::string wrong = problem(); !wrong.empty())
-        throw WrongOptions(wrong);
+        throw LastingError(wrong);
 }
 
 void Options::note(std::string problem) {

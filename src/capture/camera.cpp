@@ -5,8 +5,8 @@
 #include <new>
 
 #include "base/error.h"
+#include "base/lasting_error.h"
 #include "base/options.h"
-#include "base/wrong_options.h"
 #include "capture/cropped_camera.h"
 #include "capture/face_camera.h"
 #include "capture/faulty_camera.h"
@@ -87,11 +87,11 @@ std::unique_ptr<Camera> open_camera(std::string_view specification, const Progre
         if (options.kind() == kind.name)
             return open(kind, options, progress);
     if (const std::string advice = advice_on_path(std::string(specification)); !advice.empty())
-        throw WrongOptions(advice);
+        throw LastingError(advice);
     std::string names;
     for (const Kind& kind : kinds)
         names += (names.empty() ? "" : ", ") + std::string(kind.name);
-    throw WrongOptions("There is no camera '" + options.kind() + "'; there are " + names + ".");
+    throw LastingError("There is no camera '" + options.kind() + "'; there are " + names + ".");
 }
 
 std::vector<std::string> camera_kinds() {

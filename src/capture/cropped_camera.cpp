@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "base/wrong_options.h"
+#include "base/lasting_error.h"
 #include "capture/crop.h"
 #include "video/camera_pixels_native.h"
 #include "video/jpeg_crop_native.h"
@@ -27,10 +27,10 @@ Crop whole(Size size) {
 Crop read_crop(const char* key, const std::string& text, Size picture) {
     const auto crop = parse_crop(text);
     if (!crop)
-        throw WrongOptions(std::string(key) + "=" + text + " is not X:Y:WxH, for example " + key +
+        throw LastingError(std::string(key) + "=" + text + " is not X:Y:WxH, for example " + key +
                            "=50:50:540x476.");
     if (!lies_in(*crop, picture))
-        throw WrongOptions(std::string(key) + "=" + text + " reaches beyond the picture of " +
+        throw LastingError(std::string(key) + "=" + text + " reaches beyond the picture of " +
                            in_words(picture) + ".");
     return *crop;
 }
@@ -66,10 +66,10 @@ Size color_size(const CropOptions& options, const Calibration& calibration, Size
     }
     const auto parsed = parse_size(options.color_size);
     if (!parsed)
-        throw WrongOptions("color_size=" + options.color_size +
+        throw LastingError("color_size=" + options.color_size +
                            " is not WIDTHxHEIGHT or depth, for example color_size=1280x720.");
     if (parsed->width > part.width || parsed->height > part.height)
-        throw WrongOptions("color_size=" + options.color_size +
+        throw LastingError("color_size=" + options.color_size +
                            " is larger than the colour there is, " + in_words(part) + ".");
     return *parsed;
 }

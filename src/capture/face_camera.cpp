@@ -7,8 +7,8 @@
 #include <numbers>
 #include <thread>
 
+#include "base/lasting_error.h"
 #include "base/steady_clock.h"
-#include "base/wrong_options.h"
 #include "geometry/screen.h"
 #include "image/frame_pool.h"
 
@@ -179,7 +179,7 @@ std::unique_ptr<Camera> open_face_camera(Options& options, const Progress& progr
     options.require_no_problem();
     std::string device = options.value();
     if (device.empty())
-        throw WrongOptions("Name a webcam, as in /dev/video0, a video file, or test.");
+        throw LastingError("Name a webcam, as in /dev/video0, a video file, or test.");
     if (device == test_device)
         return std::make_unique<TestFace>();
     constexpr std::string_view v4l2 = "v4l2:";

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/lasting_error.h"
 #include "base/log.h"
-#include "base/wrong_options.h"
 #include "capture/folder_calibration.h"
 #include "capture/folder_files.h"
 #include "capture/playback.h"
@@ -212,7 +212,7 @@ Size parse_tile_size(const std::string& text) {
     char rest = 0;
     if (std::sscanf(text.c_str(), "%dx%d%c", &size.width, &size.height, &rest) != 2 ||
         !is_valid(size))
-        throw WrongOptions("tile=" + text + " is not WIDTHxHEIGHT, for example tile=640x576.");
+        throw LastingError("tile=" + text + " is not WIDTHxHEIGHT, for example tile=640x576.");
     return size;
 }
 
@@ -225,7 +225,7 @@ std::unique_ptr<Camera> open_folder_camera(Options& options, const Progress& pro
     const PlaybackOptions playback = take_playback_options(options);
     options.require_no_problem();
     if (options.value().empty())
-        throw WrongOptions("The camera 'folder' needs a folder, as in folder:DIR.");
+        throw LastingError("The camera 'folder' needs a folder, as in folder:DIR.");
 
     const Size tile_size = tile.empty() ? Size{} : parse_tile_size(tile);
     // Removes a trailing slash, which would leave no name.
@@ -246,11 +246,10 @@ std::unique_ptr<Camera> open_folder_camera(Options& options, const Progress& pro
     std::size_t bytes = frames->bytes();
     std::unique_ptr<Recording> recording = std::move(frames);
     if (!tile.empty()) {
-        const Size size = tile_size;
-        recording = std::make_unique<TiledRecording>(std::move(recording), size);
-        info.calibration.depth = tiled(info.calibration.depth, size);
-        info.calibration.color = tiled(info.calibration.color, size);
-        bytes = count * size.area() * (sizeof(std::uint16_t) + sizeof(Rgb));
+        recording = std::make_unique<TiledRecording>(std::move(recording), tile_size);
+        info.calibration.depth = tiled(info.calibration.depth, tile_size);
+        info.calibration.color = tiled(info.calibration.color, tile_size);
+        bytes = count * tile_size.area() * (sizeof(std::uint16_t) + sizeof(Rgb));
     }
     if (playback.preload.value_or(bytes <= usual_preload_bytes))
         recording = std::make_unique<MemoryRecording>(*recording, count, progress);

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "capture/missing_library.h"
+#include "base/lasting_error.h"
 
 namespace theatron::capture::k4a {
 namespace {
@@ -24,15 +24,15 @@ template <class Function>
 void find(void* library, const char* name, Function*& function) {
     function = reinterpret_cast<Function*>(dlsym(library, name));
     if (!function)
-        throw MissingLibrary("The camera library that was found lacks the function '" +
-                             std::string(name) + "'; install libk4a 1.4 or Orbbec's K4A wrapper.");
+        throw LastingError("The camera library that was found lacks the function '" +
+                           std::string(name) + "'; install libk4a 1.4 or Orbbec's K4A wrapper.");
 }
 
 void* open_any() {
     if (const char* chosen = std::getenv("THEATRON_K4A_LIBRARY")) {
         void* library = dlopen(chosen, RTLD_NOW | RTLD_LOCAL);
         if (!library)
-            throw MissingLibrary(
+            throw LastingError(
                 "The camera library named by THEATRON_K4A_LIBRARY cannot be loaded: " +
                 last_problem() + ".");
         return library;
@@ -47,9 +47,9 @@ void* open_any() {
             broken = problem;
     }
     if (!broken.empty())
-        throw MissingLibrary("The camera library libk4a is there but cannot be loaded: " + broken +
-                             ".");
-    throw MissingLibrary(
+        throw LastingError("The camera library libk4a is there but cannot be loaded: " + broken +
+                           ".");
+    throw LastingError(
         "Live cameras need the library libk4a.so, which is not installed: install Microsoft's "
         "package libk4a1.4 for Azure Kinect, or Orbbec's K4A wrapper for Femto; a recording "
         "(mkv:FILE) or a synthetic camera works without it.");

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "capture/k4a_settings.h"
-#include "base/wrong_options.h"
 
 #include <charconv>
+
+#include "base/lasting_error.h"
 
 namespace theatron::capture::k4a {
 namespace {
@@ -54,7 +55,7 @@ const Choice<T>& take_choice(Options& options, const char* key, const Choice<T> 
         if (*choice.name)
             names += (names.empty() ? "" : ", ") + std::string(choice.name);
     }
-    throw WrongOptions("The camera 'k4a' has no " + std::string(key) + "=" + wanted +
+    throw LastingError("The camera 'k4a' has no " + std::string(key) + "=" + wanted +
                        "; there are " + names + ".");
 }
 
@@ -75,7 +76,7 @@ ControlSetting take_control(Options& options, const char* key, ColorControl cont
         return setting;
     const std::optional<int> value = read_int(wanted);
     if (!value || *value < min || *value > max)
-        throw WrongOptions("The camera 'k4a' takes " + std::string(key) +
+        throw LastingError("The camera 'k4a' takes " + std::string(key) +
                            "=auto or a number from " + std::to_string(min) + " to " +
                            std::to_string(max) + ", not '" + wanted + "'.");
     setting.mode = ControlMode::manual;
@@ -87,7 +88,7 @@ std::uint32_t read_index(const std::string& text) {
     constexpr int max_index = 255;
     const std::optional<int> index = text.empty() ? 0 : read_int(text);
     if (!index || *index < 0 || *index > max_index)
-        throw WrongOptions("The camera 'k4a' takes a number, as in k4a:0, not '" + text + "'.");
+        throw LastingError("The camera 'k4a' takes a number, as in k4a:0, not '" + text + "'.");
     return std::uint32_t(*index);
 }
 
@@ -95,17 +96,17 @@ std::uint32_t read_index(const std::string& text) {
 void check_together(const Settings& settings, int max_fps, const char* limiting) {
     const Configuration& c = settings.configuration;
     if (settings.frames_per_second > max_fps)
-        throw WrongOptions("The camera 'k4a' gives at most " + std::to_string(max_fps) +
+        throw LastingError("The camera 'k4a' gives at most " + std::to_string(max_fps) +
                            " fps with " + limiting + "; write fps=15 or fps=5.");
     if (c.sync == SyncRole::master && c.color == ColorResolution::off)
-        throw WrongOptions(
+        throw LastingError(
             "A master gives the beat with its colour camera, so sync=master needs colour other "
             "than off.");
     if (c.sync != SyncRole::subordinate && c.delay_off_master_us != 0)
-        throw WrongOptions(
+        throw LastingError(
             "delay_us is the distance from the master, so it needs sync=subordinate.");
     if (Duration(c.delay_off_master_us) > settings.period())
-        throw WrongOptions("delay_us may not be longer than from one frame to the next.");
+        throw LastingError("delay_us may not be longer than from one frame to the next.");
 }
 
 }  // namespace

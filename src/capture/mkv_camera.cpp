@@ -4,8 +4,8 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "base/lasting_error.h"
 #include "base/log.h"
-#include "base/wrong_options.h"
 #include "capture/azure_calibration.h"
 #include "capture/folder_calibration.h"
 #include "capture/mkv_file.h"
@@ -182,7 +182,7 @@ std::unique_ptr<Camera> open_mkv_camera(Options& options, const Progress& progre
     const PlaybackOptions playback = take_playback_options(options);
     options.require_no_problem();
     if (options.value().empty())
-        throw WrongOptions("The camera 'mkv' needs a file, as in mkv:FILE.");
+        throw LastingError("The camera 'mkv' needs a file, as in mkv:FILE.");
 
     const fs::path path = options.value();
     auto file = std::make_unique<MkvRecording>(path);

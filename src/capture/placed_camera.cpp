@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "capture/placed_camera.h"
-#include "base/wrong_options.h"
+#include "base/lasting_error.h"
 
 namespace theatron::capture {
 namespace {
@@ -43,7 +43,7 @@ std::optional<Pose> take_place_option(Options& options) {
         return {};
     const auto place = parse_place(text);
     if (!place)
-        throw WrongOptions(
+        throw LastingError(
             "place=" + text +
             " is not X:Y:Z or X:Y:Z:YAW:PITCH:ROLL in metres and degrees, for example "
             "place=0:1.5:2:180.");

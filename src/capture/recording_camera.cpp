@@ -7,8 +7,8 @@
 #include <tuple>
 
 #include "base/error.h"
+#include "base/lasting_error.h"
 #include "base/log.h"
-#include "base/wrong_options.h"
 #include "record/remarks.h"
 #include "video/depth_codecs.h"
 #include "video/jpeg_header.h"
@@ -402,7 +402,7 @@ std::unique_ptr<Camera> open_recording_camera(Options& options, const Progress& 
     const PlaybackOptions playback = take_playback_options(options);
     options.require_no_problem();
     if (options.value().empty())
-        throw WrongOptions("The camera 'recording' needs a file, as in recording:FILE.mkv.");
+        throw LastingError("The camera 'recording' needs a file, as in recording:FILE.mkv.");
     const std::string& file = options.value();
     const std::shared_ptr<const record::RecordingFile> opened = record::RecordingFile::open(file);
     for (const std::string& remark : record::remarks_on_files(*opened))

@@ -10,9 +10,9 @@
 #include <thread>
 
 #include "base/error.h"
+#include "base/lasting_error.h"
 #include "base/shown_address.h"
 #include "base/steady_clock.h"
-#include "base/wrong_options.h"
 #include "capture/readable_file.h"
 #include "capture/rtsp_text.h"
 #include "capture/source_inputs.h"
@@ -223,7 +223,7 @@ ScreenOptions take_screen_options(Options& options) {
         if (std::sscanf(size.c_str(), "%4dx%4d%c", &taken.wanted.width, &taken.wanted.height,
                         &end) != 2 ||
             !is_valid(taken.wanted) || taken.wanted.area() > max_color_pixels)
-            throw WrongOptions("size=" + size +
+            throw LastingError("size=" + size +
                                " is no size of a picture; write for example size=1280x720.");
     }
     return taken;
@@ -246,7 +246,7 @@ std::unique_ptr<Camera> open_rtsp_camera(Options& options, const Progress&) {
     options.require_no_problem();
     const auto url = parse_rtsp_url("rtsp:" + options.value());
     if (!url)
-        throw WrongOptions(
+        throw LastingError(
             "A network stream is written as rtsp://HOST/PATH or "
             "rtsp://USER:PASSWORD@HOST:PORT/PATH.");
     const std::string subject = "the stream '" + shown_address(url->address) + "'";
@@ -279,7 +279,7 @@ std::unique_ptr<Camera> open_v4l2_camera(Options& options, const Progress&) {
     const ScreenOptions taken = take_screen_options(options);
     options.require_no_problem();
     if (options.value().empty())
-        throw WrongOptions("A video device needs its file, as in v4l2:/dev/video0.");
+        throw LastingError("A video device needs its file, as in v4l2:/dev/video0.");
     const std::filesystem::path path = options.value();
     const SourceInput device = open_video_device(path);
     const Opening opening{ffmpeg::needed_by("v4l2"),
@@ -315,7 +315,7 @@ std::unique_ptr<Camera> open_x11_camera(Options& options, const Progress&) {
     const bool cursor = options.take_flag("cursor", true);
     options.require_no_problem();
     if (options.value().empty())
-        throw WrongOptions(
+        throw LastingError(
             "Name a window, or display for all of it, as in x11:display; 'theatron cameras' lists "
             "the windows.");
     const X11Window window = find_window(options.value());

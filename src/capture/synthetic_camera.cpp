@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "capture/synthetic_camera.h"
 
+#include "base/lasting_error.h"
 #include "base/time.h"
-#include "base/wrong_options.h"
 #include "capture/playback.h"
 #include "synthetic/frame_cache.h"
 
@@ -44,7 +44,7 @@ Size color_size(const std::string& name, const std::string& specification) {
         return {640, 360};
     if (name == "off")
         return {};
-    throw WrongOptions("In the camera '" + specification +
+    throw LastingError("In the camera '" + specification +
                        "', color must be 720, 1080, depth or off, not '" + name + "'.");
 }
 
@@ -55,14 +55,14 @@ bool take_switch(Options& options, const std::string& name) {
         return true;
     if (value == "off" || value == "0")
         return false;
-    throw WrongOptions("In the camera '" + options.text() + "', " + name + " must be on or off.");
+    throw LastingError("In the camera '" + options.text() + "', " + name + " must be on or off.");
 }
 
 synthetic::LoopOptions take_loop_options(Options& options) {
     synthetic::LoopOptions loop;
     const std::string variant = options.value();
     if (!variant.empty() && variant != "room" && variant != "surgeon")
-        throw WrongOptions("There is no synthetic scene '" + variant +
+        throw LastingError("There is no synthetic scene '" + variant +
                            "'; there are room and surgeon.");
     loop.variant = variant == "surgeon" ? synthetic::Variant::surgeon : synthetic::Variant::room;
     loop.cameras = options.take_int("cameras", 2, 1, synthetic::max_viewpoints);
@@ -81,7 +81,7 @@ synthetic::LoopOptions take_loop_options(Options& options) {
         if (loop.color.area() > 0)
             loop.color = {640, 360};
     } else if (quality != "full") {
-        throw WrongOptions("In the camera '" + options.text() +
+        throw LastingError("In the camera '" + options.text() +
                            "', quality must be full or quick.");
     }
     return loop;

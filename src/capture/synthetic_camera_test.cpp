@@ -48,7 +48,7 @@ TEST(SyntheticCamera, DeliversRegisteredFramesWithColor) {
     EXPECT_EQ(from_memory.frame->depth.size, (Size{320, 288}));
 }
 
-TEST(SyntheticCamera, ExplainsWrongOptions) {
+TEST(SyntheticCamera, ExplainsLastingError) {
     EXPECT_NE(problem_of("synthetic:kitchen").find("room and surgeon"), std::string::npos);
     EXPECT_NE(problem_of("synthetic:color=9").find("color"), std::string::npos);
     EXPECT_NE(problem_of("synthetic:camera=2,cameras=2").find("camera"), std::string::npos);

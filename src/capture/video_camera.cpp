@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "base/error.h"
-#include "base/wrong_options.h"
+#include "base/lasting_error.h"
 #include "capture/playback.h"
 #include "capture/readable_file.h"
 #include "capture/source_camera.h"
@@ -155,7 +155,7 @@ std::unique_ptr<Camera> open_video_camera(Options& options, const Progress&) {
                                                largest_screen_width_m);
     options.require_no_problem();
     if (options.value().empty())
-        throw WrongOptions("A shared video needs a file, as in video:FILE.");
+        throw LastingError("A shared video needs a file, as in video:FILE.");
     const std::filesystem::path path = options.value();
     auto video = std::make_unique<VideoRecording>(path);
     (void)video->offset();  // throws if there is no picture

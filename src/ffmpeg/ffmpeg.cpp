@@ -10,7 +10,7 @@ extern "C" {
 #include <libswscale/version_major.h>
 }
 
-#include "base/error.h"
+#include "base/lasting_error.h"
 #include "ffmpeg/entries.h"
 
 namespace theatron::ffmpeg {
@@ -76,7 +76,7 @@ const std::string& problem() {
 
 const char* needed_by(const char* user) {
     if (!problem().empty())
-        throw Error(problem());
+        throw LastingError(problem());
     return user;
 }
 

@@ -171,6 +171,7 @@ bool CaseShelf::look_at(const std::string& name, Folder& folder) {
         taken += known.shared ? known.shared->bytes : 0;
     try {
         folder.shared = cases::share_case(path, net::content_hash, max_content_bytes - taken);
+        read_patient(path, folder);
         log::info("host", "case is offered",
                   {log::outside("name", folder.shared->description.name),
                    {"parts", folder.shared->description.parts.size()},
@@ -179,20 +180,17 @@ bool CaseShelf::look_at(const std::string& name, Folder& folder) {
                    {"bytes", folder.shared->bytes}});
     } catch (const std::exception& error) {
         log::say(std::string(error.what()) + " This case is not offered.");
+        folder.shared.reset();
         folder.is_refused = true;
     }
-    if (folder.shared)
-        read_patient(path, folder);
     return true;
 }
 
 void CaseShelf::read_patient(const fs::path& path, Folder& folder) {
     try {
         folder.patient = cases::read_patient_texts(path);
-    } catch (const cases::MoreThanOnePatient& error) {
-        log::say(std::string(error.what()) + " This case is not offered.");
-        folder.shared.reset();
-        folder.is_refused = true;
+    } catch (const cases::MoreThanOnePatient&) {
+        throw;  // the case is not offered
     } catch (const std::exception& error) {
         log::say(std::string(error.what()) + " Nobody is told who the patient is.");
         folder.hides_its_patient = true;

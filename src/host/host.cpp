@@ -347,11 +347,12 @@ void Host::follow_filter_files() {
             const auto changed = impl_->filters[i].changed();
             if (!changed)
                 continue;
+            // A camera that is found is missing until it has its lane.
+            const std::lock_guard lock(impl_->missing_mutex);
             if (send::CameraLane* lane = impl_->lanes.find(i)) {
                 check_background(*changed, lane->info().calibration.depth.size);
                 lane->set_filter(changed->settings, changed->background);
             } else {
-                const std::lock_guard lock(impl_->missing_mutex);
                 impl_->missing.at(i).filter = *changed;
             }
             log::info("host", "filter changed",

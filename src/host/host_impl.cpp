@@ -250,6 +250,9 @@ void Host::Impl::say_goodbye() {
 // While every receiver of a camera still waits for its last frame, the next is not even
 // begun: dropped after encoding, it would be missing as a reference.
 void Host::Impl::hold_lane(std::size_t camera) {
+    send::CameraLane* const lane = lanes.find(camera);
+    if (!lane)
+        return;
     const bool hold = session->all_wait(CameraId(camera), [&](ParticipantId id) {
         const net::PeerId peer{std::uint32_t(id)};
         return server->is_behind(peer, depth_stream(CameraId(camera))) ||
@@ -261,14 +264,12 @@ void Host::Impl::hold_lane(std::size_t camera) {
         held.insert(camera);
     else
         held.erase(camera);
-    if (send::CameraLane* lane = lanes.find(camera))
-        lane->hold(hold);
+    lane->hold(hold);
 }
 
 void Host::Impl::hold_lanes() {
     for (std::size_t camera = 0; camera < lanes.size(); ++camera)
-        if (lanes.find(camera))
-            hold_lane(camera);
+        hold_lane(camera);
 }
 
 // A frame that leaves can only end a wait.

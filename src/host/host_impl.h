@@ -67,8 +67,8 @@ struct Host::Impl {
     struct Missing {
         std::string specification, name;  // as expected_name()
         LoadedFilter filter;
-        std::string refused;  // why it is not taken although it is there; empty: it is tried
-        std::unique_ptr<MissingCamera> search;
+        std::string problem;  // why it is not there, or not taken; `search` knows the newest
+        std::unique_ptr<MissingCamera> search;  // null: it is not tried any more
     };
     mutable std::mutex missing_mutex;
     std::map<std::size_t, Missing> missing;   // guarded by missing_mutex
@@ -178,7 +178,8 @@ struct Host::Impl {
     // All below on the server's thread.
     // A camera that was missing is there.
     void take_found(std::size_t number, std::unique_ptr<capture::Camera> camera);
-    void add_found(std::size_t number, std::unique_ptr<capture::Camera> camera);
+    void add_found(std::size_t number, const Missing& expected,
+                   std::unique_ptr<capture::Camera> camera);
     void carry_out();
     void carry_out(const session::action::Send& a);
     void carry_out(const session::action::Close& a);

@@ -4,9 +4,8 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/lasting_error.h"
 #include "base/log.h"
-#include "base/wrong_options.h"
-#include "capture/missing_library.h"
 #include "capture/placed_camera.h"
 #include "host/host_impl.h"
 
@@ -18,9 +17,7 @@ std::unique_ptr<capture::Camera> Host::Impl::open_or_miss(std::size_t number,
                                                           const capture::Progress& progress) {
     try {
         return capture::open_camera_at(specification, places, progress);
-    } catch (const WrongOptions&) {
-        throw;
-    } catch (const capture::MissingLibrary&) {
+    } catch (const LastingError&) {
         throw;
     } catch (const Error& error) {
         if (!may_come_later(specification))
@@ -39,16 +36,16 @@ void Host::Impl::require_any(const std::vector<std::unique_ptr<capture::Camera>>
     for (const auto& [number, camera] : missing)
         is_any = is_any || is_live_kind(camera.specification);
     if (!is_any)
-        throw Error(missing.begin()->second.refused);
+        throw Error(missing.begin()->second.problem);
 }
 
 void Host::Impl::start_searches() {
     const std::lock_guard lock(missing_mutex);
     for (auto& [number, camera] : missing) {
         log::warning("host", "camera is missing, and is tried again",
-                     {{"camera", int(number)}, {"problem", camera.refused}});
+                     {{"camera", int(number)}, {"problem", camera.problem}});
         camera.search = std::make_unique<MissingCamera>(
-            std::exchange(camera.refused, ""),
+            camera.problem,
             [specification = camera.specification, places = places] {
                 return capture::open_camera_at(specification, places);
             },
@@ -66,36 +63,37 @@ void Host::Impl::drop_missing() {
         const std::lock_guard lock(missing_mutex);
         dropped.swap(missing);
     }
+    // All at once, or each would have the patience of the others.
+    for (auto& [number, camera] : dropped)
+        if (camera.search)
+            camera.search->stop();
 }
 
 void Host::Impl::take_found(std::size_t number, std::unique_ptr<capture::Camera> camera) {
     std::unique_ptr<MissingCamera> search;  // destroyed outside the lock
-    try {
-        add_found(number, std::move(camera));
+    {
         const std::lock_guard lock(missing_mutex);
-        search = std::move(missing.at(number).search);
-        missing.erase(number);
-        log::info("host", "camera is there", {{"camera", int(number)}});
-    } catch (const Error& error) {
-        log::error("host", "camera is there, but cannot be taken",
-                   {{"camera", int(number)}, {"problem", error.what()}});
-        const std::lock_guard lock(missing_mutex);
-        search = std::move(missing.at(number).search);
-        missing.at(number).refused = error.what();
+        const auto found = missing.find(number);
+        if (found == missing.end())
+            return;  // the host ends
+        search = std::move(found->second.search);
+        try {
+            add_found(number, found->second, std::move(camera));
+            missing.erase(found);
+            log::info("host", "camera is there", {{"camera", int(number)}});
+        } catch (const Error& error) {
+            log::error("host", "camera is there, but cannot be taken",
+                       {{"camera", int(number)}, {"problem", error.what()}});
+            found->second.problem = error.what();
+        }
     }
     carry_out();
 }
 
 // Throws Error if it cannot be taken: what is refused at the beginning is refused later, too.
-void Host::Impl::add_found(std::size_t number, std::unique_ptr<capture::Camera> camera) {
+void Host::Impl::add_found(std::size_t number, const Missing& expected,
+                           std::unique_ptr<capture::Camera> camera) {
     const capture::CameraInfo info = camera->info();
-    std::string specification;
-    LoadedFilter filter;
-    {
-        const std::lock_guard lock(missing_mutex);
-        specification = missing.at(number).specification;
-        filter = missing.at(number).filter;
-    }
     for (const send::CameraLane* lane : lanes.all())
         if (places.find(info.name) && lane->info().name == info.name)
             throw Error("Two cameras are called '" + info.name +
@@ -104,11 +102,11 @@ void Host::Impl::add_found(std::size_t number, std::unique_ptr<capture::Camera> 
     if (session->streams().cameras().size() >= wire::max_cameras)
         throw Error("The session has " + std::to_string(wire::max_cameras) +
                     " cameras already, and can have no more.");
-    check_background(filter, info.calibration.depth.size);
+    check_background(expected.filter, info.calibration.depth.size);
     wire::Camera description = describe(info, false);
     description.id = CameraId(number);
     session->add_camera(std::move(description));
-    start_lane(number, specification, std::move(camera), filter);
+    start_lane(number, expected.specification, std::move(camera), expected.filter);
     crop(*session->streams().cameras().find(CameraId(number)));
 }
 
@@ -130,13 +128,16 @@ send::LaneFigures Host::Impl::figures_of_missing(std::size_t number) const {
     figures.camera.trouble = capture::Trouble::gone;
     const std::lock_guard lock(missing_mutex);
     const auto found = missing.find(number);
-    if (found == missing.end())
-        return figures;
+    if (found == missing.end()) {
+        // It was found just now.
+        const send::CameraLane* lane = lanes.find(number);
+        return lane ? lane->figures() : figures;
+    }
     const Missing& camera = found->second;
     figures.name = camera.name;
-    const auto search = camera.search ? camera.search->figures() : MissingCamera::Figures();
-    figures.camera.problem =
-        wire::as_written(camera.refused.empty() ? search.problem : camera.refused);
+    const auto search =
+        camera.search ? camera.search->figures() : MissingCamera::Figures{camera.problem};
+    figures.camera.problem = wire::as_written(search.problem);
     figures.camera.figures.failed_reopens = search.failed;
     return figures;
 }

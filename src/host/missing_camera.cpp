@@ -10,6 +10,7 @@
 
 #include "base/options.h"
 #include "base/outside_text.h"
+#include "base/steady_clock.h"
 #include "base/thread_name.h"
 #include "wire/control.h"
 
@@ -68,13 +69,20 @@ MissingCamera::MissingCamera(std::string problem, Open open, Found found, Pauses
     });
 }
 
+void MissingCamera::stop() {
+    const std::lock_guard lock(shared_->mutex);
+    if (!std::exchange(shared_->stopping, true))
+        wait_until_ = steady_now() + last_patience;
+    shared_->changed.notify_all();
+}
+
 MissingCamera::~MissingCamera() {
+    stop();
     bool done = false;
     {
         std::unique_lock lock(shared_->mutex);
-        shared_->stopping = true;
-        shared_->changed.notify_all();
-        done = shared_->changed.wait_for(lock, last_patience, [this] { return shared_->done; });
+        done = shared_->changed.wait_for(lock, wait_until_ - steady_now(),
+                                         [this] { return shared_->done; });
     }
     if (done)
         thread_.join();

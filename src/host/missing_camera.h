@@ -44,6 +44,8 @@ public:
         : MissingCamera(std::move(problem), std::move(open), std::move(found), Pauses()) {}
     // Afterwards `found` is not called any more.
     ~MissingCamera();
+    // It ends soon: the destructor then waits less for an `open` that hangs.
+    void stop();
 
     // Why it could not be opened the last time, one sentence, and how often it was tried here.
     struct Figures {
@@ -57,6 +59,7 @@ private:
     static void run(Shared& shared, const Open& open, Pauses pauses);
 
     const std::shared_ptr<Shared> shared_;
+    TimePoint wait_until_{};  // for `open`, from stop() on
     std::thread thread_;
 };
 

@@ -61,7 +61,6 @@ std::string direction_letters(Vec3 direction);
 
 struct EdgeLetters {
     std::string left, right, top, bottom;
-    bool operator==(const EdgeLetters&) const = default;
 };
 EdgeLetters edge_letters(const SlicePlane& plane);
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "render/cloud_passes.h"
+#include "render/matrix.h"
 #include "render/steady_colors.h"
 #include "render/surface_maps.h"
 #include "render/texture_units.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/cloud_passes.h"
 
+#include "render/matrix.h"
 #include "render/surface_maps.h"
 #include "render/texture_units.h"
 
@@ -116,11 +117,6 @@ Program make_cloud_program(ShaderFiles vertex, ShaderFiles fragment) {
     program.set_sampler("surfaces", texture_unit::surfaces);
     program.bind_block("Camera", camera_block_binding);
     return program;
-}
-
-void set_depth_from_w(const CameraView& view, GLint uniform) {
-    const double n = view.near_m, f = view.far_m;
-    glUniform2f(uniform, float(f / (f - n)), float(-f * n / (f - n)));
 }
 
 }  // namespace theatron::render

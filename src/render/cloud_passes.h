@@ -53,8 +53,4 @@ inline constexpr unsigned camera_block_binding = 0;
 // points of CloudCamera::bind and of the maps' classes (texture_units.h).
 Program make_cloud_program(ShaderFiles vertex, ShaderFiles fragment);
 
-// Sets the current program's uniform depth_from_w, with which shaders turn distance
-// into window depth and back.
-void set_depth_from_w(const CameraView& view, GLint uniform);
-
 }  // namespace theatron::render

@@ -45,13 +45,6 @@ Mat4 clip_from_pixels(Size picture, Vec2 origin, double distance_m, const Camera
              depth * w, w}};
 }
 
-std::array<float, 16> floats(const Mat4& matrix) {
-    std::array<float, 16> values{};
-    std::transform(matrix.m.begin(), matrix.m.end(), values.begin(),
-                   [](double value) { return float(value); });
-    return values;
-}
-
 }  // namespace
 
 std::vector<std::optional<LabelPlate>> label_plates(const std::vector<SceneLabel>& labels,
@@ -125,10 +118,9 @@ void LabelPass::draw(const std::vector<SceneLabel>& labels, TextPass& text, cons
         // Whole pixels keep letters sharp.
         const Vec2 corner{std::round(at->pixel.x + label.plate.x - label.place.x),
                           std::round(at->pixel.y + label.plate.y - label.place.y)};
-        const Mat4 clip = clip_from_pixels(target.size, corner, at->distance_m, view);
         program_.use();
         glBindVertexArray(nothing_.name());
-        glUniformMatrix4fv(clip_from_picture_, 1, GL_FALSE, floats(clip).data());
+        set_matrix(clip_from_picture_, clip_from_pixels(target.size, corner, at->distance_m, view));
         glUniform2f(plate_, float(label.plate.width), float(label.plate.height));
         glUniform4f(ground_, float(ground.r) / 255, float(ground.g) / 255, float(ground.b) / 255,
                     float(ground_opacity));

@@ -2,7 +2,7 @@
 #include "render/label_place.h"
 
 #include <algorithm>
-#include <optional>
+#include <limits>
 
 namespace theatron::render {
 
@@ -17,14 +17,8 @@ Rect label_place(Vec2 at, Vec2 size, double apart, const Rect& area,
     const auto kept = [](double value, double least, double most) {
         return std::clamp(value, least, std::max(least, most));
     };
-    const auto covered = [&](const Rect& label) {
-        double sum = 0;
-        for (const Rect& other : there)
-            sum += shared_area(label, other);
-        return sum;
-    };
-    std::optional<Rect> best;
-    double least = 0;
+    Rect best;
+    double least = std::numeric_limits<double>::infinity();
     // Near places first; at each distance below and to the right first.
     for (const double reach : {1.0, 2.5, 4.0})
         for (const int down : {1, 0, -1})
@@ -37,15 +31,19 @@ Rect label_place(Vec2 at, Vec2 size, double apart, const Rect& area,
                 const Rect label{kept(begin(at.x, size.x, right), area.x, area.right() - size.x),
                                  kept(begin(at.y, size.y, down), area.y, area.bottom() - size.y),
                                  size.x, size.y};
-                const double covers = covered(label);
-                if (!best || covers < least) {
+                double covers = 0;
+                // A label that covers no less than the best one is not looked at any further.
+                for (const Rect& other : there)
+                    if ((covers += shared_area(label, other)) >= least)
+                        break;
+                if (covers < least) {
                     best = label;
                     least = covers;
                 }
                 if (least == 0)
-                    return *best;
+                    return best;
             }
-    return *best;
+    return best;
 }
 
 }  // namespace theatron::render

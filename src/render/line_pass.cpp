@@ -104,14 +104,13 @@ void LinePass::draw(const std::vector<SceneLine>& lines, const CameraView& view,
     if (lines.empty())
         return;
     const Mat4 clip_from_room = projection(view) * matrix(inverse(view.room_from_eye));
-    const double n = view.near_m, f = view.far_m;
     program_.use();
     glUniform2f(picture_, float(target.size.width), float(target.size.height));
     glUniform2f(origin_, float(target.x), float(target.y));
     glUniform1f(pixels_per_slope_, float(target.size.height / std::abs(view.bottom - view.top)));
     glUniform1f(least_radius_, float(least_line_width(target.size) / 2));
-    glUniform1f(near_m_, float(n));
-    glUniform2f(depth_from_w_, float(f / (f - n)), float(-f * n / (f - n)));
+    glUniform1f(near_m_, float(view.near_m));
+    set_depth_from_w(view, depth_from_w_);
     const auto draw_part = [&](const SceneLine& line, double around, Rgb color, double opacity) {
         glUniform1f(outline_, float(around));
         glUniform4f(ink_, float(color.r) / 255, float(color.g) / 255, float(color.b) / 255,
@@ -121,11 +120,7 @@ void LinePass::draw(const std::vector<SceneLine>& lines, const CameraView& view,
         glDrawElements(GL_TRIANGLES, buffers.count, GL_UNSIGNED_INT, nullptr);
     };
     for (const SceneLine& line : lines) {
-        const Mat4 clip = clip_from_room * matrix(line.room_from_line);
-        float values[16];
-        for (std::size_t i = 0; i < 16; ++i)
-            values[i] = float(clip.m[i]);
-        glUniformMatrix4fv(clip_from_line_, 1, GL_FALSE, values);
+        set_matrix(clip_from_line_, clip_from_room * matrix(line.room_from_line));
         glUniform2f(nearer_, float(line.nearer_m), float(line.nearer_per_distance));
         const Cut whole{{0, 0, 0}, 0};
         const Cut& plane = line.cut ? *line.cut : whole;

@@ -32,4 +32,16 @@ Mat4 projection(const CameraView& view) {
              0, 0, -2 * f * n / (f - n), 0}};
 }
 
+void set_matrix(GLint uniform, const Mat4& matrix) {
+    float values[16];
+    for (std::size_t i = 0; i < 16; ++i)
+        values[i] = float(matrix.m[i]);
+    glUniformMatrix4fv(uniform, 1, GL_FALSE, values);
+}
+
+void set_depth_from_w(const CameraView& view, GLint uniform) {
+    const double n = view.near_m, f = view.far_m;
+    glUniform2f(uniform, float(f / (f - n)), float(-f * n / (f - n)));
+}
+
 }  // namespace theatron::render

@@ -6,6 +6,7 @@
 
 #include "geometry/vec.h"
 #include "render/camera_view.h"
+#include "render/gl.h"
 
 namespace theatron::render {
 
@@ -19,5 +20,10 @@ Mat4 matrix(const Pose& pose);
 // Clip coordinates from the eye's frame. Their w is the distance along the
 // view's axis in metres, which the shaders rely on.
 Mat4 projection(const CameraView& view);
+
+// These two set a uniform of the current program.
+void set_matrix(GLint uniform, const Mat4& matrix);
+// depth_from_w, with which shaders turn distance into window depth and back.
+void set_depth_from_w(const CameraView& view, GLint uniform);
 
 }  // namespace theatron::render

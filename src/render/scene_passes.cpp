@@ -21,13 +21,6 @@ namespace {
 constexpr int environment_unit = 0, shadow_unit = 1, scene_depth_unit = 2, surface_unit = 3;
 constexpr std::size_t most_spots = 2;  // as in scene.frag
 
-void set_matrix(GLint uniform, const Mat4& matrix) {
-    float values[16];
-    for (std::size_t i = 0; i < 16; ++i)
-        values[i] = float(matrix.m[i]);
-    glUniformMatrix4fv(uniform, 1, GL_FALSE, values);
-}
-
 void set_vector(GLint uniform, Vec3 v) {
     glUniform3f(uniform, float(v.x), float(v.y), float(v.z));
 }
@@ -260,8 +253,7 @@ struct ScenePasses::Parts {
         glUniform1f(in_use->light, float(frame.light));
         glUniform1f(in_use->surroundings, float(frame.surroundings));
         glUniform1f(in_use->shadow_texel, 1.0f / float(shadow_side));
-        const double n = view.near_m, f = view.far_m;
-        glUniform2f(in_use->depth_from_w, float(f / (f - n)), float(-f * n / (f - n)));
+        set_depth_from_w(view, in_use->depth_from_w);
         glUniform1i(in_use->occludes, picture.occludes);
         set_spots(frame.spots);
     }

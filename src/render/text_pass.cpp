@@ -79,10 +79,7 @@ void TextPass::draw_line(std::string_view utf8, const Mat4& clip_from_text, doub
         }
         pen += g.advance;
     }
-    float values[16];
-    for (std::size_t i = 0; i < 16; ++i)
-        values[i] = float(clip_from_text.m[i]);
-    glUniformMatrix4fv(clip_from_text_, 1, GL_FALSE, values);
+    set_matrix(clip_from_text_, clip_from_text);
     glUniform3f(color_, float(color.r) / 255, float(color.g) / 255, float(color.b) / 255);
     glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(corners.size() * sizeof(float)), corners.data(),
                  GL_STREAM_DRAW);

@@ -15,6 +15,8 @@ std::string whose_camera(const std::string& camera, ParticipantId publisher,
 }
 
 std::string whose_camera(const wire::Camera& camera, const RoomObjects& room) {
+    if (camera.publisher == ParticipantId{})
+        return camera.name;
     std::string name;
     for (const auto& [id, object] : room)
         if (object.kind == ObjectKind::person && object.creator == camera.publisher &&

@@ -12,7 +12,7 @@ using xr::ToolIcon;
 BarItem microphone_item(const BarFacts& facts) {
     BarItem item{ToolIcon::microphone, Phrase::microphone, Phrase::bar_mute};
     if (facts.muted) {
-        item.label = Phrase::bar_muted_by_operator;
+        item.label = Phrase::bar_muted;
         item.hint = Phrase::bar_muted_hint;
         item.off = item.alarm = true;
         return item;

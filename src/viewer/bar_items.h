@@ -37,8 +37,6 @@ struct BarItem {
     bool off = false;    // nobody hears or sees the person
     bool alarm = false;  // the person should see it
     std::size_t badge = 0;
-
-    bool operator==(const BarItem&) const = default;
 };
 
 // Those that this role may use now.

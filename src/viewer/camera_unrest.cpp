@@ -7,13 +7,17 @@
 
 namespace theatron::viewer {
 
+bool is_of_unrest(const std::string& remark, const std::string& camera) {
+    // Behind the sentence may stand how many remarks were left out.
+    return remark.starts_with(say(Phrase::camera_stale, camera, "")) ||
+           remark.starts_with(say(Phrase::camera_live_again, camera));
+}
+
 bool CameraUnrest::tells(const std::string& remark, const std::vector<std::string>& cameras,
                          TimePoint now) {
     const bool is_unrest =
-        std::any_of(cameras.begin(), cameras.end(), [&](const std::string& name) {
-            return remark.starts_with(say(Phrase::camera_stale, name, "")) ||
-                   remark == say(Phrase::camera_live_again, name);
-        });
+        std::any_of(cameras.begin(), cameras.end(),
+                    [&](const std::string& name) { return is_of_unrest(remark, name); });
     if (!is_unrest)
         return true;
     while (!seen_.empty() && now - seen_.front() > remembered)

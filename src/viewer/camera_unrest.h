@@ -12,6 +12,10 @@
 
 namespace theatron::viewer {
 
+// True if this remark of a participant says that a camera stands still, or is live again. `camera`:
+// its name as its publisher gives it.
+bool is_of_unrest(const std::string& remark, const std::string& camera);
+
 // Not thread safe.
 class CameraUnrest {
 public:

@@ -246,12 +246,7 @@ std::string warning_of(const Facts& facts) {
         return say(Phrase::this_picture_is_old, age_text(*facts.age_ms));
     if (const std::string text = not_live_text(facts.received); !text.empty())
         return text;
-    if (drawing_is_slow(facts))
-        return say(facts.renderer_chosen_by == Facts::ChosenBy::person &&
-                           !facts.most_drawn_per_second
-                       ? Phrase::slow_press_m
-                       : Phrase::slow_not_connection);
-    return {};
+    return slow_text(facts);
 }
 
 struct Message {
@@ -290,22 +285,20 @@ Message message_of(const Facts& facts, const std::string& address) {
 // A window with a bar shows little else unless asked: the dot and the offers say it.
 void make_calm(const Facts& facts, xr::OverlayContent& content) {
     const auto& status = facts.received.status;
-    const bool is_slow = drawing_is_slow(facts);
+    const std::string slow = slow_text(facts);
     DotFacts dot;
     dot.phase = status.phase;
     dot.has_picture = facts.has_picture;
     dot.age_ms = facts.age_ms;
-    dot.is_of_another_time = facts.frozen || !facts.past.empty() || !facts.played.empty();
+    dot.is_of_another_time = facts.is_of_another_time();
     dot.is_missing_a_camera = !not_live_text(facts.received).empty();
-    dot.is_late = is_slow || status.delivery.level > 0;
+    dot.is_late = !slow.empty() || status.delivery.level > 0;
     dot.unrest = facts.unrest;
     content.tools = facts.tools;
-    const int command = content.tools->dot.command;
     content.tools->dot = picture_dot(dot);
-    content.tools->dot.command = command;
-    for (const Phrase slow : {Phrase::slow_press_m, Phrase::slow_not_connection})
-        if (content.warning == say(slow))
-            content.tools->dot.hint = std::exchange(content.warning, "");
+    content.tools->dot.command = facts.tools->dot.command;
+    if (!slow.empty() && content.warning == slow)
+        content.tools->dot.hint = std::exchange(content.warning, "");
     if (content.message.empty() && !facts.help)
         content.offers = facts.offers;
     // The offer to return to the present begins with the same words.
@@ -322,6 +315,14 @@ void make_calm(const Facts& facts, xr::OverlayContent& content) {
 }
 
 }  // namespace
+
+std::string slow_text(const Facts& facts) {
+    if (!drawing_is_slow(facts))
+        return {};
+    return say(facts.renderer_chosen_by == Facts::ChosenBy::person && !facts.most_drawn_per_second
+                   ? Phrase::slow_press_m
+                   : Phrase::slow_not_connection);
+}
 
 xr::OverlayContent overlay_of(const Facts& facts, const std::string& address,
                               const std::function<std::string(const std::string&)>& filter_name) {

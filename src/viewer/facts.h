@@ -46,7 +46,13 @@ struct Facts {
     std::optional<xr::ToolBar> tools = {};
     std::vector<xr::PanelRow> offers = {};  // notices with buttons
     std::size_t unrest = 0;                 // CameraUnrest::count()
+
+    // The present is not what is seen: it is frozen, looked back at, or played.
+    bool is_of_another_time() const { return frozen || !past.empty() || !played.empty(); }
 };
+
+// The warning that this computer draws too slowly; empty: it does not.
+std::string slow_text(const Facts& facts);
 
 // `address` is shown until the host's name is known. `filter_name` turns a filter's spelling into
 // a text for people.

@@ -6,12 +6,10 @@
 
 #include "phrases/phrase.h"
 #include "viewer/age_text.h"
+#include "xr/drawing_watch.h"
 
 namespace theatron::viewer {
 namespace {
-
-// An older picture is not live.
-constexpr double not_live_ms = 2000;
 
 // "0.1": of a live picture, in tenths, at least one.
 std::string tenths(double ms) {
@@ -42,7 +40,7 @@ xr::PictureDot picture_dot(const DotFacts& facts) {
         return dot(Level::bad, say(Phrase::dot_not_live));
     if (!facts.has_picture)
         return dot(Level::slow, say(Phrase::dot_no_picture));
-    if (facts.age_ms.value_or(0) >= not_live_ms)
+    if (facts.age_ms.value_or(0) >= to_ms(xr::still_after))
         return dot(Level::bad, say(Phrase::dot_old, age_text(*facts.age_ms)));
     if (facts.is_missing_a_camera)
         return dot(Level::bad, say(Phrase::dot_not_live));

@@ -59,6 +59,15 @@ std::string doing(const RoomPanelFacts& facts, const room::RoomPerson& person) {
 
 }  // namespace
 
+void add_places_panel(const std::vector<Place>& places, RoomPanel& panel) {
+    xr::Panel where{say(Phrase::places), {}};
+    for (const Place& place : places) {
+        panel.commands.push_back(GoToPlace{place});
+        where.rows.push_back({place.name, "", {{say(Phrase::go), int(panel.commands.size()) - 1}}});
+    }
+    panel.panels.push_back(std::move(where));
+}
+
 RoomPanel room_panel(const RoomPanelFacts& facts) {
     RoomPanel panel;
     const auto labelled = [&](std::string label, RoomCommand command) {
@@ -113,12 +122,8 @@ RoomPanel room_panel(const RoomPanelFacts& facts) {
         who.rows.push_back(
             {"", say(Phrase::you_are_seen), {button(Phrase::hide_face, ShowFace{false})}});
     panel.panels.push_back(std::move(who));
-    if (!facts.places.empty()) {
-        xr::Panel where{say(Phrase::places), {}};
-        for (const Place& place : facts.places)
-            where.rows.push_back({place.name, "", {button(Phrase::go, GoToPlace{place})}});
-        panel.panels.push_back(std::move(where));
-    }
+    if (!facts.places.empty())
+        add_places_panel(facts.places, panel);
     // Below the others: they stay in their places when somebody knocks.
     if (facts.is_operator && !facts.visitors.empty()) {
         xr::Panel door{say(Phrase::at_the_door), {}};

@@ -120,6 +120,9 @@ struct RoomPanelFacts {
 };
 RoomPanel room_panel(const RoomPanelFacts& facts);
 
+// A row for each place, with the way there.
+void add_places_panel(const std::vector<Place>& places, RoomPanel& panel);
+
 // An offer to go to each of these people, who ask the user to come; comes before the others.
 RoomPanel call_panel(const std::vector<room::RoomPerson>& callers);
 // The panels of both, below each other.

@@ -14,7 +14,6 @@ struct SliceTexts {
     std::string case_name, series;
     std::string plane;   // "axial 110.0 mm"
     std::string window;  // "L 40  W 400"
-    bool operator==(const SliceTexts&) const = default;
 };
 
 // `plane` is that of the picture which is shown: the letters are of its own directions.

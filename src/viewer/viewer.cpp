@@ -61,10 +61,8 @@ void Viewer::on_input(xr::WindowInput input, std::optional<double> grabbed_m, Si
     else
         draw_region(input, picture, now);
     mark(input, picture);
-    if (is_past || input.pointer_covered)
-        input.points = input.points && !is_past;
-    else
-        input.points = input.points || points_;
+    if (points_ && !is_past && !input.pointer_covered)
+        input.points = true;
     point(input, picture);
     if (eye_.is_placed() && (!is_past || handling_.holds()))
         handling_.on_input(input, grabbed_m, double(picture.width) / picture.height,
@@ -98,11 +96,12 @@ void Viewer::carry_out(const xr::KeyPress& key, Size picture, TimePoint now) {
             help_ = !help_;
             break;
         case xr::Action::facts:
-            line_ = !line_;
+            // Another panel may have closed that of the facts.
+            line_ = options_.one_panel ? sheet() != Sheet::details : !line_;
             scene_.set_ages_shown(line_);
             scene_changed_ = true;
-            if (options_.one_panel && line_ != (sheet() == Sheet::details))
-                toggle_sheet(line_ ? Sheet::details : Sheet::none);
+            if (options_.one_panel)
+                toggle_sheet(Sheet::details);
             break;
         case xr::Action::point:
             points_ = !points_;
@@ -533,6 +532,10 @@ Facts Viewer::facts(TimePoint now) {
     RoomPanel panel;
     facts.past = past(now);
     facts.played = played(now);
+    // A question about a case is asked anew when its panel opens again, and over a new connection.
+    if (!shows_case_ || !facts.past.empty() ||
+        facts.received.status.phase != client::Participant::Phase::joined)
+        asked_case_.reset();
     if (options_.one_panel) {
         add_tools(facts, panel, now);
         add_offers(facts, panel, now);
@@ -556,36 +559,50 @@ Facts Viewer::facts(TimePoint now) {
     return facts;
 }
 
+RoomPanelFacts Viewer::people_facts(const Facts& facts, TimePoint now) const {
+    const wire::Role role = facts.received.status.standing.role;
+    RoomPanelFacts people{scene_.meeting().room(), scene_.meeting().people(), {}, followed_};
+    people.is_operator = role == wire::Role::operator_;
+    people.may_call = session::may(role, session::Right::point);
+    people.is_calling = is_calling(now);
+    people.speaking = voices_.speaking;
+    people.asked = removal_.asked(now);
+    return people;
+}
+
+void Viewer::add_screens(const Facts& facts, RoomPanel& panel) const {
+    const client::Participant::Room& room = scene_.meeting().room();
+    ScreenPanelFacts screens{&room.objects, room.self, facts.received.status.standing.role, {}};
+    for (const room::RoomPerson& person : scene_.meeting().people())
+        screens.names[person.id] = person.name;
+    add_screen_panel(screens, panel);
+}
+
+void Viewer::add_look_back(const Facts& facts, RoomPanel& panel, TimePoint now) const {
+    looking_back_.add_panel(facts.past, scene_.meeting().knows_shown_moment(), participant_, now,
+                            panel);
+}
+
 void Viewer::add_open_panels(const Facts& facts, RoomPanel& panel, TimePoint now) {
     // The way back to the present comes first. Panels that others bring about come below people and
     // places, which stay where they are.
     if (!facts.past.empty())
-        looking_back_.add_panel(facts.past, scene_.meeting().knows_shown_moment(), participant_,
-                                now, panel);
+        add_look_back(facts, panel, now);
     if (shows_panels_) {
-        const wire::Role role = facts.received.status.standing.role;
-        const client::Participant::Room& room = scene_.meeting().room();
-        ScreenPanelFacts screens{&room.objects, room.self, role, {}};
-        for (const room::RoomPerson& person : scene_.meeting().people())
-            screens.names[person.id] = person.name;
-        panel =
-            joined(std::move(panel),
-                   room_panel({scene_.meeting().room(), scene_.meeting().people(),
-                               places_of(cameras()), followed_, role == wire::Role::operator_,
-                               facts.visitors, session::may(role, session::Right::point),
-                               is_calling(now), voices_.speaking, own_face_, removal_.asked(now)}));
-        add_screen_panel(screens, panel);
+        RoomPanelFacts people = people_facts(facts, now);
+        people.places = places_of(cameras());
+        people.visitors = facts.visitors;
+        people.own_face = own_face_;
+        panel = joined(std::move(panel), room_panel(people));
+        add_screens(facts, panel);
         add_sound_panel(sound_choices_, panel);
         if (facts.past.empty() && participant_.can_look_back())
-            looking_back_.add_panel(facts.past, scene_.meeting().knows_shown_moment(), participant_,
-                                    now, panel);
+            add_look_back(facts, panel, now);
     }
     panel = joined(std::move(panel), call_panel(callers()));
     // Its buttons would change the present by what is shown of the past.
     if (shows_case_ && facts.past.empty())
         add_case(panel);
-    else
-        asked_case_.reset();
     if (adjusting_.is_shown())
         adjusting_.add_panel(panel);
 }

@@ -225,6 +225,10 @@ private:
     void add_tools(Facts& facts, RoomPanel& panel, TimePoint now) const;
     void add_offers(Facts& facts, RoomPanel& panel, TimePoint now) const;
     void add_more_panel(RoomPanel& panel) const;
+    // Without places, visitors and the person's own face.
+    RoomPanelFacts people_facts(const Facts& facts, TimePoint now) const;
+    void add_screens(const Facts& facts, RoomPanel& panel) const;
+    void add_look_back(const Facts& facts, RoomPanel& panel, TimePoint now) const;
     void add_open_panels(const Facts& facts, RoomPanel& panel, TimePoint now);
     void add_sheet(const Facts& facts, RoomPanel& panel, TimePoint now);
     void show_slice_at(const xr::WindowInput& input, Size picture, TimePoint now);

@@ -119,9 +119,7 @@ void Viewer::add_tools(Facts& facts, RoomPanel& panel, TimePoint now) const {
     };
     tools.dot.command = command(xr::Action::facts);
     for (const BarItem& item : bar_items(bar)) {
-        const bool is_microphone = item.id == xr::ToolIcon::microphone;
-        tools.tools.push_back({item.id, say(item.label), say(item.hint), item.pressed,
-                               is_microphone || item.id == xr::ToolIcon::webcam ? item.off : false,
+        tools.tools.push_back({item.id, say(item.label), say(item.hint), item.pressed, item.off,
                                item.alarm, item.badge, command(action_of(item.id))});
     }
     facts.tools = std::move(tools);
@@ -131,16 +129,10 @@ void Viewer::add_tools(Facts& facts, RoomPanel& panel, TimePoint now) const {
 // Somebody at the door, a call, and the way back to the present.
 void Viewer::add_offers(Facts& facts, RoomPanel& panel, TimePoint now) const {
     if (!facts.past.empty()) {
-        RoomPanel back;
-        looking_back_.add_panel(facts.past, scene_.meeting().knows_shown_moment(), participant_,
-                                now, back);
-        const int first = int(panel.commands.size());
-        xr::PanelRow row = back.panels.front().rows.front();
-        row.detail.clear();
-        for (xr::PanelButton& one : row.buttons)
-            one.command += first;
-        panel.commands.insert(panel.commands.end(), back.commands.begin(), back.commands.end());
-        facts.offers.push_back(std::move(row));
+        add_look_back(facts, panel, now);
+        facts.offers.push_back(std::move(panel.panels.back().rows.front()));
+        facts.offers.back().detail.clear();
+        panel.panels.pop_back();
     }
     if (may(session::Right::manage) && !facts.visitors.empty()) {
         using Action = wire::ManageAction;
@@ -185,25 +177,12 @@ void Viewer::add_more_panel(RoomPanel& panel) const {
 // The one that is open.
 void Viewer::add_sheet(const Facts& facts, RoomPanel& panel, TimePoint now) {
     const wire::Role role = facts.received.status.standing.role;
-    // A question about a case is asked anew when its panel opens again.
-    if (sheet() != Sheet::patient_case || !facts.past.empty())
-        asked_case_.reset();
     switch (sheet()) {
         case Sheet::none:
         case Sheet::details:  // overlay_of() adds it
             break;
         case Sheet::people:
-            panel = joined(std::move(panel), room_panel({scene_.meeting().room(),
-                                                         scene_.meeting().people(),
-                                                         {},
-                                                         followed_,
-                                                         role == wire::Role::operator_,
-                                                         {},
-                                                         session::may(role, session::Right::point),
-                                                         is_calling(now),
-                                                         voices_.speaking,
-                                                         OwnFace::none,
-                                                         removal_.asked(now)}));
+            panel = joined(std::move(panel), room_panel(people_facts(facts, now)));
             break;
         case Sheet::patient_case:
             // Its buttons would change the present by what is shown of the past.
@@ -223,30 +202,22 @@ void Viewer::add_sheet(const Facts& facts, RoomPanel& panel, TimePoint now) {
             add_sound_panel(sound_choices_, panel);
             break;
         case Sheet::places: {
-            xr::Panel where{say(Phrase::places), {}};
-            for (const Place& place : places_of(cameras()))
-                where.rows.push_back(
-                    {place.name, "", {button(panel, Phrase::go, GoToPlace{place})}});
-            if (where.rows.empty())
-                where.rows.push_back({say(Phrase::more_no_places), "", {}});
-            panel.panels.push_back(std::move(where));
+            const std::vector<Place> places = places_of(cameras());
+            add_places_panel(places, panel);
+            if (places.empty())
+                panel.panels.back().rows.push_back({say(Phrase::more_no_places), "", {}});
             break;
         }
         case Sheet::screens: {
-            const client::Participant::Room& room = scene_.meeting().room();
-            ScreenPanelFacts screens{&room.objects, room.self, role, {}};
-            for (const room::RoomPerson& person : scene_.meeting().people())
-                screens.names[person.id] = person.name;
             const std::size_t before = panel.panels.size();
-            add_screen_panel(screens, panel);
+            add_screens(facts, panel);
             if (panel.panels.size() == before)
                 panel.panels.push_back(
                     {say(Phrase::screens), {{say(Phrase::more_no_screens), "", {}}}});
             break;
         }
         case Sheet::look_back:
-            looking_back_.add_panel(facts.past, scene_.meeting().knows_shown_moment(), participant_,
-                                    now, panel);
+            add_look_back(facts, panel, now);
             break;
     }
 }

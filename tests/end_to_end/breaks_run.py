@@ -67,9 +67,9 @@ def main():
     state, files = folder / "state", [folder / f"{n}.mkv" for n in range(len(NAMES))]
     camera = f"folder:{make_recording(folder / 'source', 160, 120, 6, color=False)},loop=1,preload=1"
     breaks, restarts, recorders = 0, 0, []
+    h = host(state, camera)
+    port = h.greeting["port"]
     try:
-        h = host(state, camera)
-        port = h.greeting["link"].split(":", 2)[2].split("/")[0]
         with PulledCable(h.greeting["link"]) as cable:
             links = [cable.through(expiring_link(state))] + 3 * [h.greeting["link"]]
             for link, file in zip(links, files):
@@ -101,8 +101,8 @@ def main():
             problems += found
         h.send(signal.SIGINT)
         h.end()
-        h.__exit__()
     finally:
+        h.__exit__()
         for recorder in recorders:
             recorder.__exit__()
         shutil.rmtree(folder)

@@ -17,13 +17,13 @@ import pathlib
 import random
 import shutil
 import signal
-import ssl
 import tempfile
 import threading
 import time
 
+from guests_run import seconds_to_join
 from raw_peer import CONTROL, PROTOCOL, Link, RawPeer, control_message
-from theatron_process import Process, make_recording, run, tell_result
+from theatron_process import Process, host, make_recording, run, tell_result
 
 CONNECTIONS = 200
 WORKERS = 4
@@ -81,7 +81,7 @@ def one(link, messages, number, end, joins):
     # Each has its own address, as in a network.
     address = f"127.{1 + number // 250}.{number % 250}.1"
     while time.monotonic() < end:
-        with contextlib.suppress(OSError, EOFError, ValueError, ssl.SSLError):
+        with contextlib.suppress(OSError, EOFError, ValueError):
             with RawPeer(link, address=address, timeout=5, receive_buffer=4096 if kind is deaf else None) as peer:
                 peer.send(random_.choice(messages["join"]))
                 joins[kind.__name__] = joins.get(kind.__name__, 0) + 1
@@ -99,14 +99,6 @@ def attack(links, numbers, end, counts):
     for thread in threads:
         thread.join()
     counts.put(joins)
-
-
-def seconds_to_join(link):
-    begin = time.monotonic()
-    with RawPeer(link) as peer:
-        peer.join(name="operator")
-        peer.receive_control("Welcome")
-        return time.monotonic() - begin
 
 
 class Viewer(Process):
@@ -130,10 +122,9 @@ def main():
     result, problems = {"minutes": options.minutes, "connections": CONNECTIONS}, []
     with contextlib.ExitStack() as stack:
         stack.callback(shutil.rmtree, folder)
-        host = stack.enter_context(Process("host", "--listen", "127.0.0.1:0", "--json", "--state", folder / "state", "--session",
-                                           "OR 3", "--camera", camera, "--session", "OR 4", "--camera", camera))
-        greeting = host.read_json()
-        third, fourth = greeting["links"], greeting["sessions"][0]["links"]
+        h = stack.enter_context(host(folder / "state", options=("--session", "OR 3", "--camera", camera, "--session", "OR 4",
+                                                                "--camera", camera)))
+        third, fourth = h.greeting["links"], h.greeting["sessions"][0]["links"]
         files = [folder / "3.mkv", folder / "4.mkv"]
         recorders = [stack.enter_context(Process("record", links["operator"], file, "--json")) for links, file in zip((third, fourth), files)]
         viewer = stack.enter_context(Viewer(third["operator"]))
@@ -180,10 +171,10 @@ def main():
             result[file.stem] = {"exit": code, "verify": verified}
             if code or verified:
                 problems.append(f"record ended with {code}, inspect --verify with {verified}: {''.join(recorder.errors[-5:])}{out}{errors}")
-        host.send(signal.SIGINT)
-        result["host_exit"] = host.end()
+        h.send(signal.SIGINT)
+        result["host_exit"] = h.end()
         if result["host_exit"]:
-            problems.append(f"the host ended with {result['host_exit']}: {''.join(host.errors[-5:])}")
+            problems.append(f"the host ended with {result['host_exit']}: {''.join(h.errors[-5:])}")
     raise SystemExit(tell_result(result, problems, options.json))
 
 

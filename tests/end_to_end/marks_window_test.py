@@ -134,7 +134,7 @@ class MarksWindow(unittest.TestCase):
                 self.assertEqual(place(anna.newest_json(), shell)["position"], [0, 0, 0])
                 self.drag(ORGAN, ORGAN_LEFT, "keydown", "shift", after=("sleep", 0.2, "keyup", "shift"))
                 anna.wait_for(lambda f: place(f, shell)["position"] != [0, 0, 0] and not held_by(shell)(f))
-            do("key", "Escape", "sleep", 0.3, "key", "Escape")
+            do("key", "Escape", "key", "Escape")
             self.assertEqual(window.end(), 0, "".join(window.errors))
             self.assertNotIn("reported", "".join(window.errors))
 

@@ -339,10 +339,13 @@ class RecordFaults(unittest.TestCase):
     def test_other_participants_never_end_or_change_a_recording(self):
         with host(self.state, self.camera) as h:
             link = h.greeting["link"]
-            peers = [RawPeer(link) for _ in range(3)]
+            peers = []
             try:
-                for peer, codec in zip(peers, ("rvl", "trvl", "lz4")):
-                    peer.join(depth_codec=codec)
+                # Each says at once who it is: a host waits 2 s for that.
+                for codec in ("rvl", "trvl", "lz4"):
+                    peers.append(RawPeer(link))
+                    peers[-1].join(depth_codec=codec)
+                for peer in peers:
                     peer.receive_control("Settings")
                 with self.recorder(link, self.file, "--depth-codec", "strata") as recorder:
                     self.begun(recorder)

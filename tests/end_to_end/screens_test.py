@@ -192,7 +192,7 @@ class Screens(unittest.TestCase):
             # The last button of the bar, and "Screens" in its panel, by the keyboard.
             buttons = lambda: x11.buttons(width, height)
             x11.do("mousemove", 700, 600, "key", "shift+Tab", "key", "Return")
-            wait_until(lambda: len(buttons()) >= 6)
+            window.wait_until(lambda: len(buttons()) >= 6)
             x11.do(*["key", "Tab"] * 5, "key", "Return", "key", "Escape")
             # Smaller, Larger, Pin in place, End share: the first row of four.
             four = lambda: wait_until(lambda: len(row := row_of(buttons(), 4)) == 4 and row)
@@ -202,7 +202,7 @@ class Screens(unittest.TestCase):
             two = lambda: wait_until(lambda: len(row := row_of(buttons(), 2)) == 2 and row)
             x11.click_until(lambda: two()[1], ben, lambda f: not scope(f))
             self.assertEqual(cart.end(), 0)
-            x11.do("key", "Escape", "sleep", 0.3, "key", "Escape")
+            x11.do("key", "Escape", "key", "Escape")
             self.assertEqual(window.end(), 0, "".join(window.errors))
 
 

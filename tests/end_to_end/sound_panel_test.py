@@ -32,16 +32,16 @@ class SoundPanel(unittest.TestCase):
                 self.assertEqual(before, [])
                 # The last button of the bar, and the second one of its panel, by the keyboard.
                 screen.do("mousemove", 600, 700, "key", "shift+Tab", "key", "Return")
-                wait_until(lambda: len(screen.buttons(WIDTH, HEIGHT)) >= 6)
+                window.wait_until(lambda: len(screen.buttons(WIDTH, HEIGHT)) >= 6)
                 screen.do("key", "Tab", "key", "Tab", "key", "Return", "key", "Escape")
-                wait_until(lambda: len(screen.buttons(WIDTH, HEIGHT)) < 6)
+                window.wait_until(lambda: len(screen.buttons(WIDTH, HEIGHT)) < 6)
                 # Both kinds have two devices: the usual one and the dummy; none is in use yet.
                 screen.click_until(lambda: self.button(screen, -4), ada, lambda _: "speaks yes" in kept())
                 self.assertIn("\nmicrophone default\n", kept())
                 # The device in use has no button any more.
                 screen.click_until(lambda: self.button(screen, -1), ada, lambda _: "hears yes" in kept())
                 self.assertNotIn("\nloudspeaker default\n", kept())
-                screen.do("key", "Escape", "sleep", 0.3, "key", "Escape")
+                screen.do("key", "Escape", "key", "Escape")
                 self.assertEqual(window.end(), 0, "".join(window.errors))
 
     def button(self, screen, number):

@@ -211,12 +211,13 @@ class Strangers(StrangersCase):
     def test_names_of_any_bytes_reach_neither_the_status_nor_the_terminal_as_they_are(self):
         with host(self.folder / "state", self.camera) as h:
             link = Link.parse(h.greeting["link"])
-            with RawPeer(link) as guest, RawPeer(link) as other:
+            with RawPeer(link) as guest:
                 guest.join(name=b"\x1b]0;owned\x07\xff\xfe\xc2\x9b" + b"x" * 300)
                 guest.receive_control("Welcome")
-                other.join(depth_codec=b"\x1b[2J" + b"y" * 1000)
-                other.receive_control("Refused")
-                other.wait_for_end()
+                with RawPeer(link) as other:
+                    other.join(depth_codec=b"\x1b[2J" + b"y" * 1000)
+                    other.receive_control("Refused")
+                    other.wait_for_end()
                 status, body = https_get(link, "/status", headers=[f"Authorization: Bearer {link.token}"])
                 self.assertEqual(status, 200)
                 body.decode()
@@ -276,7 +277,7 @@ class Strangers(StrangersCase):
 
 class HostileHost(unittest.TestCase):
     def test_a_host_that_sends_and_never_reads_does_not_end_a_viewer(self):
-        over = threading.Event()
+        over, left = threading.Event(), threading.Event()
 
         def script(guest):
             guest.receive_control("Join")
@@ -287,7 +288,7 @@ class HostileHost(unittest.TestCase):
             for _ in range(40):
                 guest.send_bytes(message * 1000)
             over.set()
-            threading.Event().wait(3)
+            left.wait()
 
         with FakeHost(script, receive_buffer=4096) as fake, \
                 Process("join", fake.link, "--no-window", "--every", "0.1") as viewer:
@@ -295,6 +296,7 @@ class HostileHost(unittest.TestCase):
             self.assertEqual(fake.faults, [])
             viewer.wait_for(lambda f: f["joins"] == 1)
             self.assertIsNone(viewer.process.poll(), "".join(viewer.errors))
+            left.set()
 
 
 if __name__ == "__main__":

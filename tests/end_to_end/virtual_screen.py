@@ -67,9 +67,15 @@ class VirtualScreen:
                     for y in range(top, top + height)]
 
     def has_bar(self, width, height):
-        """The bar at the bottom of the window is drawn: its labels have the brightest colour of texts."""
-        color = bytes((250, 247, 245))
-        return sum(row[4 * x:4 * x + 3] == color for row in self.pixels(0, height - 50, width, 50) for x in range(width)) >= 20
+        """The whole bar of a session is drawn in a window of less than 870 pixels: "More", its last button, has the last ninth
+        of the width. A window that connects, or has lost its host, has one button in the middle, which leaves."""
+        left = width * 8 // 9
+        return self.has((245, 247, 250), 1, left, height - 50, width - left, 50)
+
+    def has(self, color, least, left, top, width, height):
+        """At least `least` pixels there have this colour: red, green, blue."""
+        blue_green_red = bytes(reversed(color))
+        return sum(row[x:x + 3] == blue_green_red for row in self.pixels(left, top, width, height) for x in range(0, len(row), 4)) >= least
 
     def buttons(self, width, height):
         """Middles of the panels' buttons, a little below their upper edges, from top to bottom and left to right."""

@@ -24,14 +24,9 @@ class WindowBar(unittest.TestCase):
         width = min(int(5.4 * 18), WIDTH // (of + 1))
         return (WIDTH - of * width) // 2 + number * width + width // 2, HEIGHT - 29
 
-    def has(self, color, left, top, width, height, least=12):
-        blue_green_red = bytes(reversed(color))
-        return sum(row[x:x + 3] == blue_green_red for row in self.screen.pixels(left, top, width, height)
-                   for x in range(0, len(row), 4)) >= least
-
     def tool_has(self, number, color):
         x, y = self.tool(number)
-        return self.has(color, x - 45, y - 27, 90, 54)
+        return self.screen.has(color, 12, x - 45, y - 27, 90, 54)
 
     def click(self, number):
         self.screen.do("mousemove", *self.tool(number), "click", 1, "mousemove", 900, 300)
@@ -39,7 +34,7 @@ class WindowBar(unittest.TestCase):
     def test_microphone_people_and_leave_are_found_with_the_mouse_and_more_with_the_keyboard(self):
         camera = f"folder:{make_recording(self.folder / 'box', frames=1)},loop=1,preload=1,place=0:1.5:0"
         environment = {**self.screen.environment, "XDG_STATE_HOME": str(self.folder / "home"), "SDL_AUDIODRIVER": "dummy"}
-        panel = lambda: self.has(BUTTON, 10, 10, 340, 600, least=400)
+        panel = lambda: self.screen.has(BUTTON, 400, 10, 10, 340, 600)
         with host(self.folder / "state", camera) as h, \
                 Process("join", h.greeting["link"], "--name", "Ada", "--every", "0.2") as ada, \
                 Process("join", h.greeting["link"], "--name", "Wim", "--size", f"{WIDTH}x{HEIGHT}", "--renderer", "splat",
@@ -73,7 +68,7 @@ class WindowBar(unittest.TestCase):
                 # Ends with the notice; a second press in time leaves.
                 wait_until(lambda: not self.tool_has(6, ALARM))
                 x, y = self.tool(6)
-                self.screen.do("mousemove", x, y, "click", 1, "sleep", 0.4, "click", 1)
+                self.screen.do("mousemove", x, y, "click", 1, "click", 1)
                 self.assertEqual(window.end(), 0, "".join(window.errors))
 
 

@@ -326,9 +326,7 @@ class Window(unittest.TestCase):
                 self.assertEqual(again.end(), 0, again.errors)
 
     def has_color(self, color, least):
-        blue_green_red = bytes(reversed(color))
-        return sum(row[x:x + 3] == blue_green_red for row in self.screen.pixels(0, 0, WIDTH, HEIGHT)
-                   for x in range(0, len(row), 4)) >= least
+        return self.screen.has(color, least, 0, 0, WIDTH, HEIGHT)
 
     def has_warning(self):
         return self.has_color((255, 190, 70), 20)
