@@ -15,6 +15,9 @@ find_program(CCACHE ccache)
 if(CCACHE)
   # Paths below the base are kept as relative ones, so every clone finds what another has compiled.
   set(launcher ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${CMAKE_SOURCE_DIR} CCACHE_NOHASHDIR=1)
+  if(THEATRON_SANITIZE)
+    list(APPEND launcher CCACHE_EXTRAFILES=${CMAKE_SOURCE_DIR}/cmake/sanitizer_ignorelist.txt)
+  endif()
   if(EMSCRIPTEN)
     # It does not know em++ by its name.
     list(APPEND launcher CCACHE_COMPILERTYPE=clang)
@@ -39,7 +42,9 @@ if(THEATRON_SANITIZE)
   endif()
   # The thread sanitizer must see every access.
   if(NOT THEATRON_SANITIZE MATCHES "thread")
-    add_compile_options(-fsanitize-ignorelist=${CMAKE_SOURCE_DIR}/cmake/sanitizer_ignorelist.txt)
+    # Ninja compiles in the build folder. With a path of one clone, ccache would find nothing of another's.
+    file(RELATIVE_PATH ignorelist ${CMAKE_BINARY_DIR} ${CMAKE_SOURCE_DIR}/cmake/sanitizer_ignorelist.txt)
+    add_compile_options(-fsanitize-ignorelist=${ignorelist})
   endif()
 elseif(NOT EMSCRIPTEN)
   # The program reads bytes of strangers: an error that a check can still catch ends it instead of being used.

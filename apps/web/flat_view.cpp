@@ -12,11 +12,6 @@
 #include "wire/no_codec.h"
 
 namespace theatron::web {
-namespace {
-
-constexpr Duration notice_time = std::chrono::seconds(6);
-
-}  // namespace
 
 client::Participant::Options FlatView::options(client::Participant::Options join) {
     // Nothing until a camera is known: then ask() does.
@@ -81,6 +76,7 @@ bool FlatView::take(TimePoint now) {
     if (!is_new)
         return false;
     ++pictures_;
+    notice_.begin(now);
     drawn_.add(now);
     return true;
 }
@@ -102,8 +98,7 @@ void FlatView::show(const ColorImage& color) {
 }
 
 void FlatView::note(const std::string& text, TimePoint now) {
-    notice_ = text;
-    notice_until_ = now + notice_time;
+    notice_.say(text, now);
 }
 
 viewer::Facts FlatView::facts(TimePoint now) {
@@ -123,8 +118,7 @@ viewer::Facts FlatView::facts(TimePoint now) {
     facts.drawn_per_second = drawn_.per_second(now);
     facts.most_drawn_per_second = pictures_per_second;
     facts.way.renderer = "flat";
-    if (now < notice_until_)
-        facts.notice = notice_;
+    facts.notice = notice_.text(now);
     facts.visitors = participant_.visitors();
     add_people(facts, now);
     return facts;

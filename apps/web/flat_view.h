@@ -13,6 +13,7 @@
 #include "base/statistics.h"
 #include "client/participant.h"
 #include "viewer/facts.h"
+#include "viewer/notice.h"
 #include "viewer/removal_question.h"
 
 namespace theatron::web {
@@ -83,8 +84,7 @@ private:
     RateWindow drawn_;
     std::vector<viewer::RoomCommand> commands_;  // of the panel's buttons
     viewer::RemovalQuestion removal_;
-    std::string notice_;
-    TimePoint notice_until_;
+    viewer::Notice notice_;
 };
 
 }  // namespace theatron::web

@@ -18,7 +18,6 @@ namespace {
 
 constexpr Duration pose_interval = std::chrono::milliseconds(15);
 constexpr Duration pose_repeated_after = std::chrono::milliseconds(500);
-constexpr Duration notice_shown = std::chrono::seconds(5);
 // A picture that is presented for longer than this gets older with time.
 constexpr double repeated_picture_ms = 500;
 
@@ -47,8 +46,7 @@ client::Settings Viewer::settings(client::Settings before) const {
 }
 
 void Viewer::note(const std::string& text, TimePoint now) {
-    notice_ = text;
-    notice_until_ = now + notice_shown;
+    notice_.say(text, now);
 }
 
 void Viewer::on_input(xr::WindowInput input, std::optional<double> grabbed_m, Size picture,
@@ -476,6 +474,7 @@ void Viewer::on_presented(TimePoint begin, Duration processor, TimePoint end) {
     rest_.add(begin, processor);
     drawn_.add(end);
     ++pictures_;
+    notice_.begin(end);
     const std::set<CameraId> updated = std::exchange(updated_, {});
     if (updated.empty())
         return;
@@ -525,8 +524,7 @@ Facts Viewer::facts(TimePoint now) {
     facts.renderer_chosen_by = choice_.locked()                  ? Facts::ChosenBy::host
                                : choice_.renderer() == automatic ? Facts::ChosenBy::program
                                                                  : Facts::ChosenBy::person;
-    if (now < notice_until_)
-        facts.notice = notice_;
+    facts.notice = notice_.text(now);
     facts.help = help_;
     facts.frozen = frozen_;
     RoomPanel panel;

@@ -26,6 +26,7 @@
 #include "viewer/live_scene.h"
 #include "viewer/looking_back.h"
 #include "viewer/marking.h"
+#include "viewer/notice.h"
 #include "viewer/playing.h"
 #include "viewer/removal_question.h"
 #include "viewer/renderer_text.h"
@@ -301,8 +302,7 @@ private:
     std::vector<RoomCommand> commands_;  // of the panels' buttons
     bool help_ = false;
     bool line_ = true;
-    std::string notice_;
-    TimePoint notice_until_;
+    Notice notice_;
 
     std::set<CameraId> updated_;  // cameras whose new picture is not presented yet
     RateWindow drawn_;

@@ -68,7 +68,7 @@ void Viewer::on_headset(const xr::HeadsetFrame& frame, TimePoint now) {
     for (const std::string& part :
          {facts.past, played(now),
           headset_->places_table() ? say(Phrase::how_to_place_table) : std::string(),
-          now < notice_until_ ? notice_ : std::string()})
+          notice_.text(now)})
         if (!part.empty())
             text += (text.empty() ? "" : ". ") + part;
     scene_.set_headset_text(is_joined ? text : say(Phrase::headset_lost_connection));

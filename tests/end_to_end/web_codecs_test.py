@@ -67,6 +67,7 @@ class InThePage(unittest.TestCase):
             page.evaluate("document.getElementById('view').dispatchEvent(new KeyboardEvent('keydown', { key: 'c', code: 'KeyC', bubbles: true }))")
             comes(page, "lz4")
             self.assertEqual(page.problems, [])
+            page.close()  # it would draw on, and take the processor from the next one
             page = browser.open(source.greeting["link"] + "&depth=zstf", SIZE)
             page.enter(way="room")
             page.wait_for("document.body.textContent.includes('does not exist')")

@@ -2,8 +2,10 @@
 // H.264 by the browser's own decoders (WebCodecs), for the program's (src/video/h264_web.cpp). In a page as well as in a
 // worker; decoding itself happens on threads of the browser.
 
-// A picture of which nothing is heard for so long does not come any more.
-const longest_ms = 2000;
+// A picture of which nothing is heard in all these looks does not come any more. They are looks and no time: a page that
+// stood still for seconds has not heard yet what is there.
+const look_every_ms = 250;
+const most_looks = 8;
 // Any that the programs send; the stream's own is given with its first picture.
 const usual = "avc1.42c01f";
 
@@ -44,6 +46,7 @@ class Decoder {
     buffer = new ArrayBuffer(0);
     copying = Promise.resolve();
     waiting = 0;  // pictures
+    looks = 0;  // in vain, since anything was heard
     timer = null;
 
     constructor(id, module) {
@@ -56,8 +59,8 @@ class Decoder {
             if (!this.decoder || codec !== this.codec)
                 this.begin(codec);
             this.decoder.decode(new EncodedVideoChunk({ type: is_key ? "key" : "delta", timestamp: number, data }));
-            ++this.waiting;
-            this.watch();
+            if (++this.waiting === 1)
+                this.watch();
         } catch (error) {
             this.fail(error);
         }
@@ -115,9 +118,15 @@ class Decoder {
     }
 
     watch() {
-        clearTimeout(this.timer);
+        this.looks = 0;
+        clearInterval(this.timer);
         if (this.waiting > 0)
-            this.timer = setTimeout(() => this.fail(new Error(`no picture came for ${longest_ms} ms`)), longest_ms);
+            this.timer = setInterval(() => this.look(), look_every_ms);
+    }
+
+    look() {
+        if (++this.looks === most_looks)
+            this.fail(new Error(`no picture came for ${most_looks * look_every_ms} ms`));
     }
 
     // The program may be at work: it is told afterwards.
@@ -128,7 +137,7 @@ class Decoder {
     }
 
     close() {
-        clearTimeout(this.timer);
+        clearInterval(this.timer);
         if (this.decoder && this.decoder.state !== "closed")
             this.decoder.close();
         this.decoder = null;
