@@ -18,7 +18,8 @@
 
 namespace theatron::video {
 
-// Numbers of the codecs in the media header. Never reused, apart from depth's.
+// Numbers of the codecs in the media header, other ones than those of depth codecs. A number is
+// never used again.
 enum class ColorCodecId : std::uint8_t {
     raw = 65,
     jpeg = 66,
