@@ -253,6 +253,28 @@ def saved(program, table, row):
     return {"depth, Mbit/s": [room["depth_mbit_per_second"]]}
 
 
+@Figure("docs/filters.md", "stereo", "theatron bench filter FOLDER --quality --frames 60 --filters off default stereo")
+def stereo(program, table, row):
+    chains = program.bench("filter", program.sequence(row[0]), "--quality", "--frames", 60,
+                           "--filters", "off", "default", "stereo")
+    scenes = [chain["scenes"][0] for chain in chains]
+    scale = {"kb_per_frame": 1, "still_sigma_mm": 1, "still_changes": 100, "changes": 100, "flips": 100}
+    return {column: [scale[key] * scene[key] for scene in scenes] for column, key in zip(table.columns[1:], scale)
+            if row[table.columns.index(column)]}
+
+
+@Figure("docs/filters.md", "stereo truth", "theatron bench filter --quality --stereo --filters off default stereo")
+def stereo_truth(program, table, row):
+    chains = {c["name"]: c for c in program.bench("filter", "--quality", "--stereo",
+                                                  "--filters", "off", "default", "stereo")}
+    scale = {"depth_mbit_per_second": 1, "temporal_sigma_mm": 1, "rmse_mm": 1, "flips": 100, "flying": 100, "ghosts": 100}
+    keys = dict(zip((r[0] for r in table.rows), scale))
+    if row[0] not in keys:
+        return {}  # boards that move and cross: means of both directions
+    key = keys[row[0]]
+    return {name: [scale[key] * scene[key] for scene in chains[name]["scenes"]] for name in table.columns[1:]}
+
+
 @Figure("docs/rendering.md", "view", "theatron bench view --cameras 4 --filter FILTER", slow=True)
 def view(program, table, row):
     result = program.bench("view", "--cameras", 4, "--filter", row[0])

@@ -146,9 +146,11 @@ void add_publish_command(CLI::App& app) {
     cli::add_camera_option(*command, flags->cameras);
     add_share_option(*command, flags->shared);
     command
-        ->add_option("--filter", flags->filters,
-                     "Filters of depth: off, paper, default, a line of filters or a JSON file; "
-                     "CAMERA=... for one camera, by number from 0 or name")
+        ->add_option(
+            "--filter", flags->filters,
+            "Filters of depth: off, paper, default, stereo (for cameras that have few distinct "
+            "depths), a line of filters or a JSON file; "
+            "CAMERA=... for one camera, by number from 0 or name")
         ->allow_extra_args(false);
     command->add_option("--places", flags->places,
                         "Where the cameras are in the room: a file that 'theatron register' wrote");

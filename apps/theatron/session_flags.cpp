@@ -104,8 +104,9 @@ void add_session_options(CLI::App& command, SessionFlags& flags) {
     command
         .add_option(
             "--filter", flags.options.filters,
-            "Filters of depth: off, paper, default, a line of filters or a JSON file, which "
-            "may change meanwhile; CAMERA=... for one camera, by number from 0 or name")
+            "Filters of depth: off, paper, default, stereo (for cameras that have few distinct "
+            "depths), a line of filters or a JSON file, which may change meanwhile; CAMERA=... for "
+            "one camera, by number from 0 or name")
         ->allow_extra_args(false);
     command
         .add_option(

@@ -401,7 +401,9 @@ void add_view(CLI::App& bench) {
                      "How far the cameras' exposures differ, in stops")
         ->capture_default_str()
         ->check(CLI::Range(0.0, 1.0));
-    command->add_option("--filter", flags->filter, "Of all cameras: off, paper, default or a line")
+    command
+        ->add_option("--filter", flags->filter,
+                     "Of all cameras: off, paper, default, stereo or a line")
         ->capture_default_str();
     command->add_option("--detail", flags->scene.detail, "Of the generated room, 0.3 to 1")
         ->capture_default_str()

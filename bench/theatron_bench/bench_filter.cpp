@@ -89,6 +89,19 @@ StageBench bench_of(const filter::KalmanParams& params, const filter::ChainCamer
         &reference_state->depth};
 }
 
+StageBench bench_of(const filter::SteadyParams& params, const filter::ChainCamera& camera) {
+    const auto rule = filter::rule_of(params, camera);
+    const auto state = std::make_shared<filter::SteadyState>(camera.size);
+    const auto reference_state = std::make_shared<filter::SteadyState>(camera.size);
+    return {
+        "steady",
+        false,
+        [=](DepthPlane& in, DepthPlane&) { apply_steady(in, rule, 0, *state); },
+        [=](DepthPlane& in, DepthPlane&) { apply_steady_reference(in, rule, 0, *reference_state); },
+        &state->depth,
+        &reference_state->depth};
+}
+
 template <class Params>
 StageBench limits_bench(const char* name, const Params& params, const filter::ChainCamera& camera) {
     const auto limits = std::make_shared<filter::Limits>(camera.size);
@@ -185,7 +198,7 @@ nlohmann::json bench_filter(const std::vector<DepthImage>& frames) {
         stages.push_back({{"name", name}, {"variant", variant}, {"ms", ms}});
     };
 
-    for (const std::string preset : {"paper", "default", "default+speckles"}) {
+    for (const std::string preset : {"paper", "default", "default+speckles", "stereo"}) {
         const filter::ChainSettings settings = filter::parse_chain(preset).settings;
         std::vector<DepthPlane> planes;
         for (const DepthImage& frame : frames) {

@@ -23,12 +23,22 @@ void add_filter_bench(CLI::App& bench);
 // its stages' references.
 nlohmann::json bench_filter(const std::vector<DepthImage>& frames);
 
-// The accuracy of a chain on scenes with known depth. Keys: docs/filters.md.
-nlohmann::json filter_quality(const filter::ChainSettings& settings);
+// The accuracy of a chain on scenes with known depth. Keys: docs/filters.md. `stereo`: the scenes
+// are seen by a stereo camera instead of a time-of-flight camera.
+nlohmann::json filter_quality(const filter::ChainSettings& settings, bool stereo = false);
 
 // The accuracy on one clip without annotations: errors, stability, ghosts. `background` is the
 // clip's recorded empty scene, or null.
 nlohmann::json filter_quality_of_clip(const filter::ChainSettings& settings, const FilterClip& clip,
                                       const filter::Background* background = nullptr);
+
+// The size and the flicker of a recorded sequence behind a chain: {filters, scenes: [{scene,
+// kb_per_frame, still, still_sigma_mm, still_changes, changes, flips, valid}]}. `kb_per_frame` is
+// that of lossless Strata behind the first frame. Pixels that are measured in nine of ten frames
+// and stay near the median of these are still; the selection does not depend on the chain. Shares
+// are of these pixels or of all, per frame.
+nlohmann::json filter_quality_of_recording(const filter::ChainSettings& settings,
+                                           const std::string& scene,
+                                           const std::vector<DepthImage>& measured);
 
 }  // namespace theatron::bench

@@ -20,6 +20,7 @@ struct Flags {
     int frames = 30;
     bool quality = false;
     bool room = false;
+    bool stereo = false;
     std::vector<std::string> filters;
 };
 
@@ -70,6 +71,8 @@ void print_quality(const nlohmann::json& chains) {
 nlohmann::json quality_of(const Flags& flags) {
     nlohmann::json chains = nlohmann::json::array();
     std::optional<FilterClip> room;
+    if (flags.room && flags.stereo)
+        throw Error("The operating room is seen by a time-of-flight camera: leave out --stereo.");
     if (flags.room)
         room = operating_room_clip(60, cli::show_progress());
     for (const std::string& name : flags.filters) {
@@ -80,7 +83,7 @@ nlohmann::json quality_of(const Flags& flags) {
         // A recorded background belongs to the operating room, so other scenes are left out.
         nlohmann::json chain = recorded ? nlohmann::json{{"filters", loaded.settings.spelling()},
                                                          {"scenes", nlohmann::json::array()}}
-                                        : filter_quality(loaded.settings);
+                                        : filter_quality(loaded.settings, flags.stereo);
         chain["name"] = name;
         if (room)
             chain["scenes"].push_back(
@@ -90,7 +93,39 @@ nlohmann::json quality_of(const Flags& flags) {
     return chains;
 }
 
+void print_recorded(const nlohmann::json& chains) {
+    for (const auto& chain : chains)
+        for (const auto& s : chain["scenes"])
+            std::printf(
+                "%-24s %7.1f kB a frame  still pixels (%4.1f %%): sigma %5.2f mm, change %5.1f %%  "
+                "all pixels: change %5.1f %%, flip %5.2f %%, valid %5.1f %%\n",
+                chain["name"].get<std::string>().c_str(), s["kb_per_frame"].get<double>(),
+                100 * s["still"].get<double>(), s["still_sigma_mm"].get<double>(),
+                100 * s["still_changes"].get<double>(), 100 * s["changes"].get<double>(),
+                100 * s["flips"].get<double>(), 100 * s["valid"].get<double>());
+}
+
+nlohmann::json recorded_quality_of(const Flags& flags) {
+    const BenchSequence sequence = load_sequence(flags.folder, false, flags.frames);
+    nlohmann::json chains = nlohmann::json::array();
+    for (const std::string& name : flags.filters) {
+        const host::LoadedFilter loaded = host::FilterSource(name).load();
+        if (loaded.background != nullptr)
+            throw Error("A recorded background is of one scene: it goes with --room.");
+        nlohmann::json chain =
+            filter_quality_of_recording(loaded.settings, sequence.name, sequence.depth);
+        chain["name"] = name;
+        chains.push_back(std::move(chain));
+    }
+    return chains;
+}
+
 void run(const Flags& flags) {
+    if (flags.quality && !flags.folder.empty()) {
+        const nlohmann::json chains = recorded_quality_of(flags);
+        report(chains, flags.json, [&] { print_recorded(chains); });
+        return;
+    }
     if (flags.quality) {
         const nlohmann::json chains = quality_of(flags);
         report(chains, flags.json, [&] { print_quality(chains); });
@@ -119,13 +154,16 @@ void add_filter_bench(CLI::App& bench) {
         ->capture_default_str()
         ->check(CLI::Range(1, 1000));
     command->add_flag("--quality", flags->quality,
-                      "Not the speed but what filters do to the truth of generated scenes");
+                      "Not the speed but what filters do to the truth of generated scenes, or to "
+                      "the size and the flicker of the recorded frames in the folder");
     command->add_option("--filters", flags->filters, "With --quality: these chains")
         ->default_val(std::vector<std::string>{"off", "paper", "default"});
     command->add_flag(
         "--room", flags->room,
         "The operating room: with --quality, too; else instead of the generated person. It is "
         "rendered once, which takes minutes");
+    command->add_flag("--stereo", flags->stereo,
+                      "With --quality: the generated scenes as a stereo camera sees them");
     command->add_option("--json", flags->json,
                         "Write the result to this file; - prints it instead of the table");
     command->callback([flags] { run(*flags); });

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "bench_filter.h"
 #include "codec/depth_stream.h"
@@ -219,8 +220,12 @@ Holes holes_of(const FilterClip& clip, const std::vector<DepthImage>& images) {
     return {filled.value(), error.value()};
 }
 
-nlohmann::json board_biases(const filter::ChainSettings& settings) {
-    const FilterClip clip = boards_moving(60);
+FilterClip seen(FilterClip clip, bool stereo) {
+    return stereo ? seen_in_stereo(std::move(clip)) : clip;
+}
+
+nlohmann::json board_biases(const filter::ChainSettings& settings, bool stereo) {
+    const FilterClip clip = seen(boards_moving(60), stereo);
     const std::vector<DepthImage> images = filtered(clip, settings);
     const filter::ChainSettings off;
     nlohmann::json rows = nlohmann::json::array();
@@ -264,13 +269,13 @@ double edge_at(const std::uint16_t* row, double guess, double middle_mm, bool bo
     return best;
 }
 
-nlohmann::json crossing(const filter::ChainSettings& settings) {
+nlohmann::json crossing(const filter::ChainSettings& settings, bool stereo) {
     nlohmann::json rows = nlohmann::json::array();
     double worst_lag = 0;
     Mean ghost;
     for (const double speed : {1.0, 3.0, 8.0}) {
         const CrossingBoard board = crossing_board(speed);
-        const FilterClip clip = board_crossing(board, 36);
+        const FilterClip clip = seen(board_crossing(board, 36), stereo);
         const std::vector<DepthImage> images = filtered(clip, settings);
         const double middle = (board.board_mm + board.wall_mm) / 2;
         Mean leading, trailing, width;
@@ -320,13 +325,15 @@ nlohmann::json filter_quality_of_clip(const filter::ChainSettings& settings, con
     return result;
 }
 
-nlohmann::json filter_quality(const filter::ChainSettings& settings) {
+nlohmann::json filter_quality(const filter::ChainSettings& settings, bool stereo) {
+    const auto quality = [&](FilterClip clip) {
+        return filter_quality_of_clip(settings, seen(std::move(clip), stereo));
+    };
     return {
         {"filters", settings.spelling()},
-        {"scenes", nlohmann::json::array({filter_quality_of_clip(settings, still_room(50)),
-                                          filter_quality_of_clip(settings, rocking_person(50))})},
-        {"moving_boards", board_biases(settings)},
-        {"crossing_board", crossing(settings)}};
+        {"scenes", nlohmann::json::array({quality(still_room(50)), quality(rocking_person(50))})},
+        {"moving_boards", board_biases(settings, stereo)},
+        {"crossing_board", crossing(settings, stereo)}};
 }
 
 }  // namespace theatron::bench

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "synthetic/frame_cache.h"
 #include "synthetic/sensor_model.h"
@@ -90,6 +91,23 @@ FilterClip rocking_person(int frames) {
 
 FilterClip still_room(int frames) {
     return draw("still_room", frames, [](int x, int y, int) { return room(x, y, 300); });
+}
+
+FilterClip seen_in_stereo(FilterClip clip, double noise_steps) {
+    // Focal length 580 pixels, 75 mm between camera and projector, eighths of a pixel.
+    constexpr double steps_times_mm = 580 * 75 * 8;
+    std::mt19937 random(5);
+    std::normal_distribution<double> noise(0, noise_steps);
+    for (std::size_t t = 0; t < clip.measured.size(); ++t)
+        for (std::size_t i = 0; i < clip.measured[t].pixels.size(); ++i) {
+            std::uint16_t& mm = clip.measured[t].pixels[i];
+            const double exact = clip.exact[t].pixels[i];
+            if (mm == 0 || exact == 0)
+                continue;
+            const double steps = std::max(1.0, std::round(steps_times_mm / exact + noise(random)));
+            mm = std::uint16_t(std::min(65535.0, std::round(steps_times_mm / steps)));
+        }
+    return clip;
 }
 
 std::vector<Board> moving_boards() {

@@ -45,6 +45,11 @@ struct CrossingBoard {
 CrossingBoard crossing_board(double pixels_per_frame);
 FilterClip board_crossing(const CrossingBoard& board, int frames);
 
+// The same scene as measured by a stereo or structured-light camera like the first Kinect:
+// distances of whole steps of an eighth of a pixel of disparity (2.9 mm at one metre, growing with
+// the square of the distance), with a noise of `noise_steps` from pixel to pixel. Holes stay.
+FilterClip seen_in_stereo(FilterClip clip, double noise_steps = 0.4);
+
 // The generated operating room as measured by its sensor. Rendered once, which takes minutes,
 // and cached.
 std::vector<DepthImage> operating_room_frames(int frames, const capture::Progress& progress);

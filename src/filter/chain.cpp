@@ -27,12 +27,21 @@ struct Kalman {
     KalmanRule rule;
     KalmanState state;
 };
+struct Steady {
+    SteadyRule rule;
+    SteadyState state;
+};
 // The input and output of one filter; swapped after each.
 struct Planes {
     explicit Planes(Size size) : current(size), next(size) {}
     DepthPlane current, next;
 };
-using Stage = std::variant<Limits, FlyingPixels, Speckles, Holes, Kalman>;
+using Stage = std::variant<Limits, FlyingPixels, Speckles, Holes, Kalman, Steady>;
+
+// True if the result of the stage is the depth in its state.
+bool stores_result(const Stage& stage) {
+    return std::holds_alternative<Kalman>(stage) || std::holds_alternative<Steady>(stage);
+}
 
 class StageMaker {
 public:
@@ -55,6 +64,9 @@ private:
     void add(const KalmanParams& params) {
         stages_.push_back(Kalman{rule_of(params, camera_), KalmanState(camera_.size)});
     }
+    void add(const SteadyParams& params) {
+        stages_.push_back(Steady{rule_of(params, camera_), SteadyState(camera_.size)});
+    }
 
     // Consecutive filters that only compare depths share one stage.
     Limits& limits() {
@@ -73,7 +85,7 @@ class Chain::State {
 public:
     State(const ChainSettings& settings, const ChainCamera& camera)
         : size(camera.size), stages(StageMaker(camera).make(settings)) {
-        if (!stages.empty() && !std::holds_alternative<Kalman>(stages.back()))
+        if (!stages.empty() && !stores_result(stages.back()))
             result.emplace(size);
     }
 
@@ -88,7 +100,7 @@ public:
         const FrameGap::Meaning now = gap.next(since_last_frame);
         Planes& planes = scratch_of_this_thread<Planes>(size);
 
-        // The first stage may read the frame itself; a final Kalman filter stores the result.
+        // The first stage may read the frame itself; a final stage with a state stores the result.
         std::size_t begin = 0;
         if (auto* limits = std::get_if<Limits>(&stages.front())) {
             apply_limits(in, *limits, planes.current);
@@ -96,22 +108,22 @@ public:
         } else {
             copy_pixels(in, planes.current.view());
         }
-        auto* const last = std::get_if<Kalman>(&stages.back());
-        const std::size_t end = stages.size() - (last != nullptr ? 1 : 0);
+        auto* const kalman = std::get_if<Kalman>(&stages.back());
+        const std::size_t end = stages.size() - (stores_result(stages.back()) ? 1 : 0);
         for (std::size_t i = begin; i < end; ++i) {
             // Two consecutive stages that run as one pass over the image.
             const auto* flying = std::get_if<FlyingPixels>(&stages[i]);
-            if (flying && last && i + 1 == end) {
-                apply_kalman_to_supported(planes.current, flying->rule, last->rule,
-                                          boost_of(*last, now), last->state);
-                return std::as_const(last->state.depth).view();
+            if (flying && kalman && i + 1 == end) {
+                apply_kalman_to_supported(planes.current, flying->rule, kalman->rule,
+                                          boost_of(*kalman, now), kalman->state);
+                return std::as_const(kalman->state.depth).view();
             }
             std::visit([&](auto& stage) { run(stage, planes, now); }, stages[i]);
         }
-        if (last) {
-            apply_kalman(planes.current, last->rule, boost_of(*last, now), last->state);
-            return std::as_const(last->state.depth).view();
-        }
+        if (kalman)
+            return advanced(*kalman, planes.current, now).view();
+        if (auto* const steady = std::get_if<Steady>(&stages.back()))
+            return advanced(*steady, planes.current, now).view();
         copy_pixels(planes.current.view(), result->view());
         return std::as_const(*result).view();
     }
@@ -133,8 +145,20 @@ private:
                    scratch_of_this_thread<HoleScratch>(planes.current.size()));
     }
     static void run(Kalman& stage, Planes& planes, FrameGap::Meaning now) {
-        apply_kalman(planes.current, stage.rule, boost_of(stage, now), stage.state);
-        copy_pixels(stage.state.depth.view(), planes.current.view());
+        copy_pixels(advanced(stage, planes.current, now).view(), planes.current.view());
+    }
+    static void run(Steady& stage, Planes& planes, FrameGap::Meaning now) {
+        copy_pixels(advanced(stage, planes.current, now).view(), planes.current.view());
+    }
+    static const DepthPlane& advanced(Kalman& stage, const DepthPlane& in, FrameGap::Meaning now) {
+        apply_kalman(in, stage.rule, boost_of(stage, now), stage.state);
+        return stage.state.depth;
+    }
+    static const DepthPlane& advanced(Steady& stage, const DepthPlane& in, FrameGap::Meaning now) {
+        if (now.forgets)
+            stage.state.clear();
+        apply_steady(in, stage.rule, now.missed, stage.state);
+        return stage.state.depth;
     }
     static int boost_of(Kalman& stage, FrameGap::Meaning now) {
         if (now.forgets)

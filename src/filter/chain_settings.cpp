@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-// The default chain follows from the measurements in docs/filters.md.
+// The chains `default` and `stereo` follow from the measurements in docs/filters.md.
 std::vector<Step> preset(std::string_view name) {
     if (name == "paper")
         return {RangeParams{}, HoleParams{}, KalmanParams{}};
@@ -20,16 +20,19 @@ std::vector<Step> preset(std::string_view name) {
         // Holes before flying pixels: a removed flying pixel is at an edge and must stay empty.
         return {HoleParams{}, FlyingPixelParams{}, KalmanParams{}};
     }
+    if (name == "stereo")
+        return {HoleParams{}, FlyingPixelParams{}, SteadyParams{}};
     return {};
 }
 
 bool is_preset(std::string_view name) {
-    return name == "off" || name == "paper" || name == "default";
+    return name == "off" || name == "paper" || name == "default" || name == "stereo";
 }
 
 constexpr const char* known =
-    "there are range, background, flying_pixels, speckles, holes and kalman, and the presets off, "
-    "paper and default";
+    "there are range, background, flying_pixels, speckles, holes, kalman and steady, and the "
+    "presets "
+    "off, paper, default and stereo";
 
 // Calls `use` with the default parameters of the filter of this name.
 template <std::size_t index = 0, class Use>
@@ -226,7 +229,7 @@ ParsedChain parse_chain_json(std::string_view text) {
         if (key == "preset" && value.is_string() && is_preset(value.get_ref<const std::string&>()))
             reader.take_preset(value.get_ref<const std::string&>());
         else if (key == "preset")
-            reader.note("The preset is one of off, paper and default.");
+            reader.note("The preset is one of off, paper, default and stereo.");
         else if (key != "filters")
             reader.note("The file has no use for '" + shown(key) +
                         "'; there are preset and filters.");

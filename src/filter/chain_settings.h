@@ -65,8 +65,18 @@ struct KalmanParams {
     bool operator==(const KalmanParams&) const = default;
 };
 
+// Keeps a measured depth where nothing moves: for sensors that have few distinct depths.
+struct SteadyParams {
+    int step_mm = 1;        // a change up to this is noise
+    int squared_mm = 8;     // plus this times (distance in metres)^2
+    int frames = 8;         // a change that lasts is motion after this time
+    int together_100 = 80;  // a change of this share of a block's pixels is motion at once
+    int hold_frames = 1;    // time for which a pixel without measurement keeps its depth
+    bool operator==(const SteadyParams&) const = default;
+};
+
 using Step = std::variant<RangeParams, BackgroundParams, FlyingPixelParams, SpeckleParams,
-                          HoleParams, KalmanParams>;
+                          HoleParams, KalmanParams, SteadyParams>;
 
 inline constexpr std::size_t max_steps = 16;
 
@@ -90,8 +100,8 @@ struct ParsedChain {
     std::string problem;  // empty: none
 };
 
-// Parses a preset's name (`off`, `paper`, `default`) or a line like spelling()'s. Filters may
-// follow a preset: `default+background:file=room.background` is the preset with background
+// Parses a preset's name (`off`, `paper`, `default`, `stereo`) or a line like spelling()'s. Filters
+// may follow a preset: `default+background:file=room.background` is the preset with background
 // subtraction, which runs first wherever it is written.
 ParsedChain parse_chain(std::string_view text);
 

@@ -25,9 +25,20 @@ TEST(ChainSettings, TheSpellingSaysWhatDiffersFromTheUsual) {
               "range:max_mm=3000+holes+kalman");
 }
 
+TEST(ChainSettings, PresetsAreChainsOfTheirOwn) {
+    EXPECT_EQ(good(parse_chain("default")).spelling(), "holes+flying_pixels+kalman");
+    EXPECT_EQ(good(parse_chain("stereo")).spelling(), "holes+flying_pixels+steady");
+    EXPECT_EQ(good(parse_chain_json(R"({"preset": "stereo",
+                                        "filters": [{"filter": "steady", "frames": 5}]})"))
+                  .spelling(),
+              "holes+flying_pixels+steady:frames=5");
+}
+
 TEST(ChainSettings, ASpellingReadsBackAsItself) {
-    for (const char* text : {"paper", "default", "speckles:max_pixels=9+range:min_mm=200",
-                             "holes+holes:max_size=3+background:margin_sigmas=0"}) {
+    for (const char* text :
+         {"paper", "default", "stereo+kalman:gain_1000=90", "steady:frames=3,squared_mm=15",
+          "speckles:max_pixels=9+range:min_mm=200",
+          "holes+holes:max_size=3+background:margin_sigmas=0"}) {
         const ChainSettings settings = good(parse_chain(text));
         EXPECT_EQ(good(parse_chain(settings.spelling())).steps, settings.steps) << text;
     }
@@ -74,7 +85,7 @@ TEST(ChainSettings, WhatIsWrongInAFileIsSaidInOneSentence) {
     const auto problem = [](const char* text) { return parse_chain_json(text).problem; };
     EXPECT_THAT(problem("{"), HasSubstr("not a JSON object"));
     EXPECT_THAT(problem("[]"), HasSubstr("not a JSON object"));
-    EXPECT_THAT(problem(R"({"preset": 3})"), HasSubstr("one of off, paper and default"));
+    EXPECT_THAT(problem(R"({"preset": 3})"), HasSubstr("one of off, paper, default and stereo"));
     EXPECT_THAT(problem(R"({"filter": "holes"})"), HasSubstr("no use for 'filter'"));
     EXPECT_THAT(problem(R"({"filters": {}})"), HasSubstr("list"));
     EXPECT_THAT(problem(R"({"filters": [3]})"), HasSubstr("object that names it"));

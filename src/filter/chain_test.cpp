@@ -39,7 +39,7 @@ TEST(Chain, OffReturnsItsInput) {
 TEST(Chain, TakesViewsWithAnyStride) {
     const DepthImage large = two_walls({50, 20}, 1);
     const DepthView part{large.view().row(3) + 5, {33, 11}, 50};
-    for (const char* filters : {"off", "holes", "range:max_mm=2000", "default"}) {
+    for (const char* filters : {"off", "holes", "range:max_mm=2000", "default", "stereo"}) {
         Chain first = make_chain(filters, part.size), second = make_chain(filters, part.size);
         EXPECT_EQ(applied(first, copy_of(part)), copy_of(second.apply(part, frame_time)));
     }
@@ -48,7 +48,8 @@ TEST(Chain, TakesViewsWithAnyStride) {
 // An encoder reads the result in the chain's memory.
 TEST(Chain, TheResultStaysUntilTheNextFrameWhateverTheThreadDoesMeanwhile) {
     const Size size{40, 30};
-    for (const char* filters : {"holes", "range:max_mm=2000", "kalman+holes", "default"}) {
+    for (const char* filters :
+         {"holes", "range:max_mm=2000", "kalman+holes", "default", "steady+holes", "stereo"}) {
         Chain chain = make_chain(filters, size), other = make_chain(filters, size);
         const DepthImage image = two_walls(size, 1);
         const DepthView result = chain.apply(image.view(), frame_time);
@@ -113,7 +114,7 @@ TEST(Chain, ASecondChainWithTheSameFramesGivesTheSame) {
 
 // Scratch memory belongs to the thread; contents left by one chain must not affect another.
 TEST(Chain, ChainsThatTakeTurnsOnAThreadGiveWhatEachGivesAlone) {
-    constexpr const char* steps = "holes+flying_pixels+speckles+kalman";
+    constexpr const char* steps = "holes+flying_pixels+steady+speckles+kalman";
     std::vector<Size> sizes;
     // More cameras than a thread keeps scratch memory for.
     for (int i = 0; i < 11; ++i)

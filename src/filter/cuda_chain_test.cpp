@@ -20,6 +20,8 @@ constexpr Duration frame_time = std::chrono::microseconds(33'333);
 constexpr const char* chains[] = {
     "paper",
     "default",
+    "stereo",
+    "steady:frames=3,together_100=30,hold_frames=2+holes",
     "speckles:max_pixels=12+holes:iterations=2,max_size=5,min_neighbours=2",
     "background+flying_pixels+holes:max_size=31,iterations=9+speckles+kalman:hold_frames=3",
 };

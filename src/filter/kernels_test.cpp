@@ -7,6 +7,7 @@
 #include "filter/kalman.h"
 #include "filter/limits.h"
 #include "filter/speckles.h"
+#include "filter/steady.h"
 #include "filter/test_depth.h"
 
 namespace theatron::filter {
@@ -169,6 +170,34 @@ TEST(FilterKernels, KalmanAtRestEqualsItsDefinition) {
                     return image;
                 },
                 70, 61);
+    });
+}
+
+// Walls that drift by steps, flicker, jump and lose pixels, and values around all thresholds.
+TEST(FilterKernels, SteadyEqualsItsDefinition) {
+    on_every_target([] {
+        for (const Size size : awkward_sizes()) {
+            SCOPED_TRACE(size.width);
+            const SteadyRule usual, extreme{0xffff, 0xffff, most_steady_frames, 100, 15},
+                nervous{0, 0, 1, 1, 0}, patient{3, 200, 4, 51, 3};
+            for (const SteadyRule& rule : {usual, extreme, nervous, patient}) {
+                SteadyState state(size), expected(size);
+                for (int i = 0; i < 40; ++i) {
+                    DepthImage image = two_walls(size, unsigned(i / 13), 2, i % 4 * 10);
+                    for (auto& pixel : image.pixels)
+                        if (pixel != 0)
+                            pixel = std::uint16_t(pixel + (i / 5 % 2 == 0 ? i : 0));
+                    if (i % 9 > 6)
+                        image = extremes(size, unsigned(i));
+                    const DepthPlane in = plane_of(image);
+                    const int missed = i % 6 == 5 ? i * i : 0;
+                    apply_steady(in, rule, missed, state);
+                    apply_steady_reference(in, rule, missed, expected);
+                    ASSERT_EQ(image_of(state.depth), image_of(expected.depth)) << "frame " << i;
+                    ASSERT_EQ(image_of(state.run), image_of(expected.run)) << "frame " << i;
+                }
+            }
+        }
     });
 }
 

@@ -69,6 +69,31 @@ struct KalmanPixelStep {
     }
 };
 
+// One pixel of `moves` for each block.
+struct SteadyBlock {
+    ParallelImage in, depth, moves;
+    SteadyRule rule;
+    THEATRON_HD void operator()(int x, int y) const {
+        const int left = x * steady_block, top = y * steady_block;
+        *moves.at(x, y) = steady_block_moves(depth.at(left, top), depth.pitch, in.at(left, top),
+                                             in.pitch, smaller(steady_block, in.width - left),
+                                             smaller(steady_block, in.height - top), rule);
+    }
+};
+
+struct SteadyPixelStep {
+    ParallelImage in, depth, run, moves;
+    SteadyRule rule;
+    int missed;
+    THEATRON_HD void operator()(int x, int y) const {
+        const SteadyPixel before{*depth.at(x, y), *run.at(x, y)};
+        const bool block_moves = *moves.at(x / steady_block, y / steady_block) != 0;
+        const SteadyPixel after = steady_step(before, *in.at(x, y), rule, missed, block_moves);
+        *depth.at(x, y) = after.depth;
+        *run.at(x, y) = after.run;
+    }
+};
+
 struct Copy {
     ParallelImage from, to;
     THEATRON_HD void operator()(int x, int y) const { *to.at(x, y) = *from.at(x, y); }
@@ -245,7 +270,8 @@ public:
                 memory.nearest = limits.nearest;
                 memory.images[0] = make_image();
                 launcher_.upload(limits.furthest.view(), memory.images[0]);
-            } else if (std::holds_alternative<KalmanParams>(step)) {
+            } else if (std::holds_alternative<KalmanParams>(step) ||
+                       std::holds_alternative<SteadyParams>(step)) {
                 for (ParallelImage& image : memory.images)
                     image = make_image();
             } else if (std::holds_alternative<HoleParams>(step)) {
@@ -312,12 +338,26 @@ private:
     void run(const KalmanParams& params, Memory& memory, bool forgets, int missed) {
         const KalmanRule rule = rule_of(params, camera_);
         if (forgets)
-            for (const ParallelImage& image : memory.images)
-                launcher_.clear(image.pixels - image.pitch - 1,
-                                std::size_t(image.pitch) * std::size_t(image.height + 2));
+            clear(memory);
         launch(parallel::KalmanPixelStep{current_, memory.images[0], memory.images[1],
                                          memory.images[2], rule, missed * rule.least_gain});
         launch(parallel::Copy{memory.images[0], current_});
+    }
+    void run(const SteadyParams& params, Memory& memory, bool forgets, int missed) {
+        const SteadyRule rule = rule_of(params, camera_);
+        const auto& [depth, state, moves] = memory.images;
+        if (forgets)
+            clear(memory);
+        const auto blocks = [](int side) { return (side + steady_block - 1) / steady_block; };
+        launcher_.launch(0, 0, blocks(camera_.size.width), blocks(camera_.size.height),
+                         parallel::SteadyBlock{current_, depth, moves, rule});
+        launch(parallel::SteadyPixelStep{current_, depth, state, moves, rule, missed});
+        launch(parallel::Copy{depth, current_});
+    }
+    void clear(const Memory& memory) {
+        for (const ParallelImage& image : memory.images)
+            launcher_.clear(image.pixels - image.pitch - 1,
+                            std::size_t(image.pitch) * std::size_t(image.height + 2));
     }
     void run(const HoleParams& params, Memory& memory, bool, int) {
         const HoleRule rule = rule_of(params, camera_);

@@ -117,6 +117,125 @@ TEST(Kalman, ThePastCountsLessAfterAPauseAndNothingAfterASecond) {
     EXPECT_EQ(after(-frame_time), 2004) << "time that runs backwards";
 }
 
+// Frames of a sensor with few distinct depths, 12 mm apart at two metres, filtered by `steady`.
+class Steps {
+public:
+    static constexpr int step = 12;
+    // A wall whose pixels are `level(x, y)` steps behind two metres.
+    template <class Level>
+    const DepthImage& next(Level level, Duration since = frame_time) {
+        for (int y = 0; y < size.height; ++y)
+            for (int x = 0; x < size.width; ++x)
+                in.view().row(y)[x] = std::uint16_t(2000 + step * level(x, y));
+        out = copy_of(chain_.apply(in.view(), since));
+        return out;
+    }
+    std::uint16_t first() const { return out.pixels[0]; }
+    DepthImage in{size}, out{size};
+
+private:
+    Chain chain_{parse_chain("steady").settings, {.size = size}};
+};
+constexpr auto level_0 = [](int, int) { return 0; };
+// A single pixel that is not like the others.
+constexpr auto first_is(int level) {
+    return [level](int x, int y) { return x == 0 && y == 0 ? level : 0; };
+}
+
+TEST(Steady, FlickerBetweenStepsStandsStillAtAMeasuredDepth) {
+    Steps wall;
+    std::mt19937 random(4);
+    const auto flicker = [&](int, int) { return int(random() % 3) - 1; };
+    double changed = 0;
+    DepthImage before(size);
+    for (int i = 0; i < 60; ++i) {
+        wall.next(flicker);
+        for (std::size_t p = 0; p < size.area(); ++p) {
+            ASSERT_EQ((wall.out.pixels[p] - 2000) % Steps::step, 0) << "a depth of no measurement";
+            changed += i > 20 && wall.out.pixels[p] != before.pixels[p];
+        }
+        before = wall.out;
+    }
+    EXPECT_LT(changed / (39.0 * double(size.area())), 0.03) << "share of pixels that change";
+}
+
+TEST(Steady, AChangeThatLastsIsTakenAndOneThatDoesNotIsNot) {
+    Steps wall;
+    wall.next(level_0);
+    for (int i = 0; i < 24; ++i) {
+        wall.next(first_is(i % 8 == 7 ? -1 : 1));
+        ASSERT_EQ(wall.first(), 2000) << "frame " << i;
+    }
+    for (int i = 0; i < 7; ++i) {
+        wall.next(first_is(1));
+        ASSERT_EQ(wall.first(), 2000);
+    }
+    wall.next(first_is(1));
+    EXPECT_EQ(wall.first(), 2012) << "eight frames on one side";
+}
+
+TEST(Steady, ARealStepIsThereAtOnce) {
+    Steps wall;
+    wall.next(level_0);
+    EXPECT_EQ(wall.next(first_is(3)).pixels[0], 2036);
+    EXPECT_EQ(wall.next(first_is(0)).pixels[0], 2000);
+}
+
+TEST(Steady, ASurfaceThatMovesSlowlyIsFollowedAtOnceAndUntorn) {
+    Steps wall;
+    for (int i = 0; i < 20; ++i) {
+        wall.next([i](int, int) { return i; });
+        EXPECT_EQ(wall.out, wall.in) << "frame " << i;
+    }
+    // Its block alone: the others have not moved.
+    const auto in_one_block = [](int x, int y) { return x < 16 && y < 16 ? 20 : 19; };
+    EXPECT_EQ(wall.next(in_one_block), wall.in);
+    const auto in_half_a_block = [](int x, int y) { return x < 8 && y < 16 ? 21 : 19; };
+    wall.next(in_half_a_block);
+    EXPECT_EQ(wall.first(), 2000 + 20 * Steps::step) << "half of a block is flicker";
+}
+
+TEST(Steady, APixelThatMissesAFrameKeepsItsDepthAndNoLonger) {
+    Wall wall("steady");
+    wall.next(2000, 0);
+    EXPECT_EQ(wall.next(0, 0).pixels[0], 2000);
+    EXPECT_EQ(wall.next(0, 0).pixels[0], 0) << "gone for two frames is gone";
+}
+
+TEST(Steady, MissedFramesCountAndAfterASecondNothingIsKept) {
+    const auto after = [](Duration pause) {
+        Steps wall;
+        wall.next(level_0);
+        return wall.next(first_is(1), pause).pixels[0];
+    };
+    EXPECT_EQ(after(frame_time), 2000);
+    EXPECT_EQ(after(7 * frame_time), 2000);
+    EXPECT_EQ(after(8 * frame_time), 2012);
+    EXPECT_EQ(after(std::chrono::seconds(2)), 2012);
+}
+
+TEST(Steady, TheToleranceGrowsWithTheSquareOfTheDistanceInAnyUnit) {
+    // The depth of a pixel at `first_mm` after a wall at `mm`.
+    const auto shown = [](double unit_mm, int mm, int first_mm) {
+        Chain chain(parse_chain("steady").settings, {.size = size, .depth_unit_mm = unit_mm});
+        DepthImage image(size);
+        for (auto& pixel : image.pixels)
+            pixel = std::uint16_t(mm / unit_mm);
+        chain.apply(image.view(), frame_time);
+        image.pixels[0] = std::uint16_t(first_mm / unit_mm);
+        return chain.apply(image.view(), frame_time).row(0)[0] * unit_mm;
+    };
+    struct Place {
+        int mm, tolerance;
+    };
+    for (const double unit_mm : {1.0, 0.25})
+        for (const Place& at : {Place{1000, 8}, Place{2000, 32}, Place{4000, 128}}) {
+            EXPECT_EQ(shown(unit_mm, at.mm, at.mm + at.tolerance - 2), at.mm);
+            const int beyond = at.mm + at.tolerance + 3;
+            EXPECT_EQ(shown(unit_mm, at.mm, beyond), beyond);
+        }
+}
+
 TEST(Holes, NothingIsInventedAcrossAnEdge) {
     // A gap of two to eight pixels between two surfaces belongs to neither.
     for (int gap = 2; gap <= 8; ++gap) {

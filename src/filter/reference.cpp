@@ -8,6 +8,7 @@
 #include "filter/kalman.h"
 #include "filter/limits.h"
 #include "filter/speckles.h"
+#include "filter/steady.h"
 
 namespace theatron::filter {
 namespace {
@@ -162,6 +163,27 @@ void apply_kalman_reference(const DepthPlane& in, const KalmanRule& rule, int bo
         state.estimate.row(y)[x] = after.estimate;
         state.gain.row(y)[x] = after.gain;
     });
+}
+
+void apply_steady_reference(const DepthPlane& in, const SteadyRule& rule, int missed,
+                            SteadyState& state) {
+    const Size size = in.size();
+    for (int top = 0; top < size.height; top += steady_block)
+        for (int left = 0; left < size.width; left += steady_block) {
+            const int columns = smaller(steady_block, size.width - left);
+            const int rows = smaller(steady_block, size.height - top);
+            const bool moves =
+                steady_block_moves(state.depth.row(top) + left, state.depth.pitch(),
+                                   in.row(top) + left, in.pitch(), columns, rows, rule);
+            for (int y = top; y < top + rows; ++y)
+                for (int x = left; x < left + columns; ++x) {
+                    const SteadyPixel before{state.depth.row(y)[x], state.run.row(y)[x]};
+                    const SteadyPixel after =
+                        steady_step(before, in.row(y)[x], rule, missed, moves);
+                    state.depth.row(y)[x] = after.depth;
+                    state.run.row(y)[x] = after.run;
+                }
+        }
 }
 
 }  // namespace theatron::filter

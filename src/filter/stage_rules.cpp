@@ -45,6 +45,18 @@ KalmanRule rule_of(const KalmanParams& params, const ChainCamera& camera) {
     return rule;
 }
 
+SteadyRule rule_of(const SteadyParams& params, const ChainCamera& camera) {
+    SteadyRule rule;
+    rule.tolerance_constant = to_u16(params.step_mm / camera.depth_unit_mm);
+    // The parameter counts in millimetres at one metre, the rule in depth units.
+    rule.tolerance_squared =
+        to_u16(params.squared_mm * camera.depth_unit_mm / 1e6 * 65536.0 * 65536.0);
+    rule.frames = params.frames;
+    rule.together = params.together_100;
+    rule.most_hold = params.hold_frames;
+    return rule;
+}
+
 void narrow(Limits& limits, const RangeParams& params, const ChainCamera& camera) {
     limits.keep_range(to_u16(params.min_mm / camera.depth_unit_mm),
                       to_u16(params.max_mm / camera.depth_unit_mm));

@@ -9,6 +9,7 @@
 #include "filter/kalman.h"
 #include "filter/limits.h"
 #include "filter/speckles.h"
+#include "filter/steady.h"
 
 namespace theatron::filter {
 
@@ -16,6 +17,7 @@ FlyingPixelRule rule_of(const FlyingPixelParams& params, const ChainCamera& came
 SpeckleRule rule_of(const SpeckleParams& params, const ChainCamera& camera);
 HoleRule rule_of(const HoleParams& params, const ChainCamera& camera);
 KalmanRule rule_of(const KalmanParams& params, const ChainCamera& camera);
+SteadyRule rule_of(const SteadyParams& params, const ChainCamera& camera);
 
 // Narrow the limits.
 void narrow(Limits& limits, const RangeParams& params, const ChainCamera& camera);

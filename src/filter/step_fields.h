@@ -79,4 +79,16 @@ struct StepFields<KalmanParams> {
     };
 };
 
+template <>
+struct StepFields<SteadyParams> {
+    static constexpr const char* name = "steady";
+    static constexpr Field<SteadyParams> fields[] = {
+        {"step_mm", &SteadyParams::step_mm, 0, 1000},
+        {"squared_mm", &SteadyParams::squared_mm, 0, 15},
+        {"frames", &SteadyParams::frames, 1, 100},
+        {"together_100", &SteadyParams::together_100, 1, 100},
+        {"hold_frames", &SteadyParams::hold_frames, 0, 15},
+    };
+};
+
 }  // namespace theatron::filter

@@ -36,7 +36,7 @@ bool is_number(const std::string& text) {
 std::string shown_filter(const std::string& spelling) {
     if (spelling.empty())
         return "unfiltered";
-    for (const char* preset : {"default", "paper"})
+    for (const char* preset : {"default", "paper", "stereo"})
         if (filter::parse_chain(preset).settings.spelling() == spelling)
             return preset;
     return spelling;
