@@ -167,6 +167,8 @@ json state_of(const viewer::Facts& facts, const client::Participant& participant
     const bool asks_consent = participant.asks_voice_consent();
     return {{"phase", client::text_of(status.phase)},
             {"problem", status.problem},
+            // True: the page is of no use until it is loaded again.
+            {"is_outdated", status.is_outdated},
             {"face_problem", status.face_problem},
             {"host", status.host_name},
             {"joins", status.joins},

@@ -115,6 +115,7 @@ client::Participant::Options join_options(const net::Link& link, const char* nam
     client::Participant::Options options;
     options.link = link;
     options.name = name;
+    options.is_page = true;
     options.color_codec = color.codec();
     options.keeps_room = options.keeps_cases = options.shows_patient = true;
     // The page made the digits itself.

@@ -12,6 +12,10 @@ namespace theatron::client {
 
 class Attempts {
 public:
+    // `is_page`: the program came from the host with its page, and is made new by loading that
+    // again, not by an update.
+    explicit Attempts(bool is_page = false) : is_page_(is_page) {}
+
     // Waiting before another attempt: soon at first, then patiently. After a refusal, patiently.
     static constexpr Duration first_wait = std::chrono::milliseconds(200);
     static constexpr Duration longest_wait = std::chrono::seconds(2);
@@ -33,12 +37,15 @@ public:
         Next next{};
         std::string why;
         Duration wait{};  // until another attempt
+        // A page that is of no use until it is loaded again; `why` says so.
+        bool is_outdated = false;
     };
     // A refusal that is not for good (wire::is_for_good()) is final only for somebody who was never
     // in.
     Judged after(const End& end);
 
 private:
+    const bool is_page_;
     bool was_in_ = false;
     Duration wait_ = first_wait;
 };

@@ -66,5 +66,35 @@ TEST(Attempts, AnotherCertificateAndTheEndOfTheSessionAreFinal) {
               Next::refused);
 }
 
+// The host's protocol is newer and then older; the numbers of the refusal change their places.
+TEST(Attempts, APageOfAnotherVersionThanItsHostSaysThatItIsToBeLoadedAgain) {
+    for (const bool was_in : {false, true}) {
+        Attempts page(true), program(false);
+        if (was_in) {
+            page.came_in();
+            program.came_in();
+        }
+        for (const auto& [code, host] :
+             {std::pair(TextCode::program_too_old, "4"), std::pair(TextCode::host_too_old, "2")}) {
+            const wire::Text refusal = code == TextCode::program_too_old
+                                           ? wire::Text{code, {"3", host}}
+                                           : wire::Text{code, {host, "3"}};
+            const auto judged = page.after({refusal, {}, "", false});
+            EXPECT_EQ(judged.next, Next::refused);
+            EXPECT_TRUE(judged.is_outdated);
+            EXPECT_EQ(judged.why,
+                      "This page is from before its host was changed (it speaks protocol 3, the "
+                      "host " +
+                          std::string(host) + "); reload the page.");
+            const auto updated = program.after({refusal, {}, "", false});
+            EXPECT_FALSE(updated.is_outdated);
+            EXPECT_NE(updated.why.find("update"), std::string::npos);
+        }
+        EXPECT_FALSE(page.after({{TextCode::link_revoked}, {}, "", false}).is_outdated);
+        EXPECT_FALSE(page.after({{TextCode::program_too_old}, {}, "", false}).is_outdated)
+            << "a refusal without the numbers says what it can";
+    }
+}
+
 }  // namespace
 }  // namespace theatron::client

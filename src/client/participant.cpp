@@ -58,7 +58,8 @@ Participant::Participant(Options options)
       shared_(std::make_unique<Shared>()),
       direct_reception_(options_.direct ? std::make_unique<DirectReception>(direct_events())
                                         : nullptr),
-      decoders_(std::make_unique<Decoders>(decoded_events())) {
+      decoders_(std::make_unique<Decoders>(decoded_events())),
+      attempts_(options_.is_page) {
     shared_->status.goal = options_.delivery;
     shared_->voice_may_record = options_.voice_may_record;
     if (options_.keeps_cases)
@@ -178,6 +179,7 @@ std::optional<Duration> Participant::end_connection(const net::Client::End& end)
         shared_->status.problem != judged.why || shared_->status.phase == Phase::joined;
     shared_->status.phase = again ? Phase::lost : ended ? Phase::ended : Phase::refused;
     shared_->status.problem = judged.why;
+    shared_->status.is_outdated = judged.is_outdated;
     lock.unlock();
     end_direct();
     for (const Offer offer : {Offer::cameras, Offer::face})
@@ -372,6 +374,9 @@ void Participant::on_control(ByteView message) {
                 cases_->on_content(session_.content(), steady_now());
             break;
         case Change::refused:
+            // A host closes the connection, too. The sentence is made of the refusal.
+            shared_->client->end("");
+            break;
         case Change::goodbye:
         case Change::nothing:
             break;

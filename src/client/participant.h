@@ -55,6 +55,7 @@ public:
         std::string depth_codec = "strata";
         std::string color_codec = "jpeg:quality=85";
         wire::ChooseDelivery delivery{150, 0};
+        bool is_page = false;     // as in Attempts
         bool records = false;     // as in wire::Join
         bool sends_only = false;  // as in wire::Join: gets no cameras of others
         Bytes person;             // the secret of client/person_id.h
@@ -113,7 +114,8 @@ public:
     };
     struct Status {
         Phase phase = Phase::connecting;
-        std::string problem;  // why lost, refused or ended
+        std::string problem;       // why lost, refused or ended
+        bool is_outdated = false;  // as in Attempts::Judged
         std::string host_name;
         Duration round_trip{};         // the shortest of the last exchanges
         Duration newest_round_trip{};  // of the last one

@@ -156,6 +156,10 @@ void Client::post(std::function<void()> work) {
     asio::post(impl_->io, std::move(work));
 }
 
+void Client::end(const std::string& why) {
+    impl_->finish(why);
+}
+
 void Client::send_states(std::span<const wire::State> states) {
     if (impl_->connection)
         impl_->connection->send_states(states);

@@ -55,6 +55,7 @@ public:
     void post(std::function<void()> work);  // runs `work` on the client's thread
 
     // On the client's thread only.
+    void end(const std::string& why);  // ends the connection; `why` as in End
     void send_control(ByteView control);
     void send_states(std::span<const wire::State> states);
     void send_voice(const wire::Voice& voice);

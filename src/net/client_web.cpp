@@ -257,6 +257,10 @@ void Client::post(std::function<void()> work) {
     impl_->later();
 }
 
+void Client::end(const std::string& why) {
+    impl_->finish(why);
+}
+
 void Client::send_control(ByteView control) {
     if (!impl_->outbox.push_control(wire::wrap_control(control)))
         impl_->end(Phrase::other_side_reads_not);

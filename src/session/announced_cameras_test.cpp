@@ -106,7 +106,7 @@ TEST(AnnouncedCameras, ShapesMayDifferAsTheyLike) {
 
 TEST(ViewerSession, KnowsOnlyTheCamerasThatItAccepted) {
     ViewerSession viewer({});
-    wire::Welcome welcome{1, {}, "host", {camera(0), camera(0), camera(4)}};
+    wire::Welcome welcome{wire::protocol_max, {}, "host", {camera(0), camera(0), camera(4)}};
     ASSERT_EQ(viewer.on_control(wire::encode(welcome)), ViewerSession::Change::welcomed);
     EXPECT_EQ(viewer.cameras().size(), 2u);
     EXPECT_EQ(viewer.left_out().size(), 1u);
@@ -122,7 +122,8 @@ TEST(ViewerSession, CamerasThatComeAndLeaveChangeNoOther) {
     ViewerSession viewer({});
     (void)viewer.on_control(wire::encode(wire::CamerasAdded{{camera(7)}}));
     EXPECT_TRUE(viewer.cameras().empty()) << "it has not joined";
-    (void)viewer.on_control(wire::encode(wire::Welcome{2, {}, "host", {camera(0), camera(1)}}));
+    (void)viewer.on_control(
+        wire::encode(wire::Welcome{wire::protocol_max, {}, "host", {camera(0), camera(1)}}));
     (void)viewer.on_control(wire::encode(wire::Settings{
         {{StreamId{0}, SettingId{1}, "raw"}, {StreamId{2}, SettingId{2}, "rvl"}}, {}}));
     EXPECT_EQ(viewer.on_control(wire::encode(wire::CamerasAdded{{camera(900), camera(1)}})),

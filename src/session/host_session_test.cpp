@@ -33,17 +33,52 @@ TEST_F(Host, RefusesAWrongTokenWithASentence) {
     EXPECT_TRUE(sent<wire::Pong>(alice, session.take_actions()).empty());
 }
 
-TEST_F(Host, RefusesAnUnknownCodecAndANewerProtocol) {
+TEST_F(Host, RefusesAnUnknownCodec) {
     join(alice, "bad");
     EXPECT_EQ(sent<wire::Refused>(alice, session.take_actions())[0].reason,
               wire::as_written("There is no codec bad."));
-    session.on_connected(bob, now);
-    wire::Join newer;
-    newer.protocol_min = newer.protocol_max = wire::protocol_max + 1;
-    newer.token = "secret";
-    say(bob, newer);
-    EXPECT_NE(sent<wire::Refused>(bob, session.take_actions())[0].in_english.find("older"),
-              std::string::npos);
+}
+
+// Publishers, recorders, viewers and pages say the same Join; the kind makes no difference.
+TEST_F(Host, RefusesOtherProtocolsWithBothNumbersAndWhatToUpdate) {
+    std::uint32_t next = 40;
+    const auto answer = [&](int lowest, int highest, bool records, wire::Feature feature) {
+        const ParticipantId id{next++};
+        session.on_connected(id, now);
+        wire::Join join;
+        join.protocol_min = std::uint16_t(lowest);
+        join.protocol_max = std::uint16_t(highest);
+        join.token = "secret";
+        join.depth_codec = "trvl";
+        join.color_codec = "jpeg";
+        join.records = records;
+        join.features = {feature};
+        say(id, join);
+        return session.take_actions();
+    };
+    const auto refusal = [&](const auto& actions) {
+        for (const auto& a : all<action::Send>(actions))
+            if (const auto* refused = std::get_if<wire::Refused>(&a.message))
+                return refused->in_english;
+        return std::string();
+    };
+    const int oldest = wire::protocol_min, newest = wire::protocol_max;
+    const auto text = [](int number) { return std::to_string(number); };
+    for (const bool records : {false, true})
+        for (const auto feature : {wire::Feature::room, wire::Feature::sends_only}) {
+            EXPECT_EQ(refusal(answer(newest + 1, newest + 2, records, feature)),
+                      "This host is older than your Theatron (protocol " + text(newest) +
+                          ", you need " + text(newest + 1) + "); update the host.");
+            EXPECT_EQ(refusal(answer(oldest - 2, oldest - 1, records, feature)),
+                      "Your Theatron is too old for this host (protocol " + text(oldest - 1) +
+                          ", it needs " + text(oldest) + "); update it.");
+            // A newer program that still speaks this protocol, and an older one that knew more.
+            const ParticipantId id{next};
+            const auto welcomes =
+                sent<wire::Welcome>(id, answer(oldest - 1, newest + 1, records, feature));
+            ASSERT_EQ(welcomes.size(), 1u);
+            EXPECT_EQ(welcomes[0].protocol, newest);
+        }
 }
 
 TEST_F(Host, NothingIsDoneForWhoHasNotJoined) {

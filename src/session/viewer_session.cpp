@@ -21,6 +21,18 @@ wire::Text refusal_text(wire::Refused& refused) {
     return {wire::TextCode::no_reason};
 }
 
+// A host answers with a protocol that both know, or refuses; this one did neither. Empty if all is
+// well.
+wire::Text protocol_problem(std::uint16_t of_host) {
+    if (of_host < wire::protocol_min)
+        return {wire::TextCode::host_too_old,
+                {std::to_string(of_host), std::to_string(wire::protocol_min)}};
+    if (of_host > wire::protocol_max)
+        return {wire::TextCode::program_too_old,
+                {std::to_string(wire::protocol_max), std::to_string(of_host)}};
+    return {};
+}
+
 }  // namespace
 
 Bytes ViewerSession::begin() {
@@ -57,6 +69,10 @@ ViewerSession::Change ViewerSession::on_control(ByteView bytes) {
     if (!message)
         return Change::nothing;
     if (auto* welcome = std::get_if<wire::Welcome>(&*message)) {
+        if (wire::Text problem = protocol_problem(welcome->protocol); !problem.empty()) {
+            refusal_ = std::move(problem);
+            return Change::refused;
+        }
         std::vector<wire::Camera> cameras = std::exchange(welcome->cameras, {});
         welcome_ = std::move(*welcome);
         camera_states_.clear();

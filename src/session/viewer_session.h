@@ -38,7 +38,7 @@ public:
         nothing,
         welcomed,    // cameras() are known; they may be others than those of the connection before
         cameras,     // some of cameras() came, left or are described anew
-        refused,     // refusal() says why; the connection will end
+        refused,     // refusal() says why; the connection is to be ended
         settings,    // settings(), and note(): the host's comment on them
         camera,      // camera_states()
         pong,        // pong() answers a ping

@@ -67,6 +67,33 @@ TEST(ViewerSession, IgnoresWhatItDoesNotUnderstand) {
     EXPECT_EQ(viewer.refusal().code, wire::TextCode::no_reason);
 }
 
+// A host that speaks a protocol which this program does not know should have refused it.
+TEST(ViewerSession, AWelcomeInAnotherProtocolIsNotEnteredAndSaysWhatToUpdate) {
+    const auto of_protocol = [](int protocol) {
+        return wire::encode(wire::Welcome{std::uint16_t(protocol), ParticipantId{7}, "OR 3"});
+    };
+    const std::string newest = std::to_string(wire::protocol_max);
+    const std::string next = std::to_string(wire::protocol_max + 1);
+    const std::string oldest = std::to_string(wire::protocol_min);
+    const std::string before = std::to_string(wire::protocol_min - 1);
+    ViewerSession viewer({});
+    EXPECT_EQ(viewer.on_control(of_protocol(wire::protocol_max + 1)),
+              ViewerSession::Change::refused);
+    EXPECT_FALSE(viewer.joined());
+    EXPECT_EQ(wire::english(viewer.refusal()), "Your Theatron is too old for this host (protocol " +
+                                                   newest + ", it needs " + next + "); update it.");
+    (void)viewer.begin();
+    EXPECT_TRUE(viewer.refusal().empty()) << "the host may be another one now";
+    EXPECT_EQ(viewer.on_control(of_protocol(wire::protocol_min - 1)),
+              ViewerSession::Change::refused);
+    EXPECT_EQ(wire::english(viewer.refusal()), "This host is older than your Theatron (protocol " +
+                                                   before + ", you need " + oldest +
+                                                   "); update the host.");
+    (void)viewer.begin();
+    for (int known = wire::protocol_min; known <= wire::protocol_max; ++known)
+        EXPECT_EQ(viewer.on_control(of_protocol(known)), ViewerSession::Change::welcomed);
+}
+
 TEST(ViewerSession, ANewerHostRefusesInAnUnderstandableSentence) {
     ViewerSession viewer({});
     (void)viewer.on_control(

@@ -292,6 +292,14 @@ def _read_head(stream):
     return head.decode("latin-1").split("\r\n"), rest
 
 
+def join_message(link, **fields):
+    """The envelope of a Join, for those who make it before they connect: a host waits two seconds for it."""
+    link = Link.parse(link) if isinstance(link, str) else link
+    usual = {"protocol_min": PROTOCOL, "protocol_max": PROTOCOL, "token": link.token, "name": "raw peer",
+             "depth_codec": "strata", "color_codec": "jpeg:quality=85"}
+    return bytes([CONTROL]) + control_message("ToHost", "Join", **(usual | fields))
+
+
 class RawPeer(WebSocket):
     """A participant after its handshakes. `headers` are further lines of its request, `name` what its header Host says."""
 
@@ -313,9 +321,7 @@ class RawPeer(WebSocket):
 
     def join(self, **fields):
         """Says Join, by default with the link's token and the usual codecs."""
-        usual = {"protocol_min": PROTOCOL, "protocol_max": PROTOCOL, "token": self.link.token, "name": "raw peer",
-                 "depth_codec": "strata", "color_codec": "jpeg:quality=85"}
-        self.send_control("Join", **(usual | fields))
+        self.send(join_message(self.link, **fields))
 
     def acknowledge(self, taken):
         self.send(bytes([ACKNOWLEDGEMENT]) + struct.pack("<QI", taken, 0))

@@ -113,6 +113,27 @@ class HostileHost(unittest.TestCase):
                 self.assertLess(self.page.evaluate("theatron.memory()") - before, 64 << 20)
                 self.assertEqual(self.page.problems, [])
 
+    def test_a_page_of_another_version_than_its_host_says_that_it_is_to_be_reloaded(self):
+        newer, older = ({"in_english": "English", "reason": {"code": code, "arguments": numbers}}
+                        for code, numbers in ((101, ["3", "4"]), (100, ["2", "3"])))
+
+        def refuse(fields):
+            return lambda guest: (guest.send_control("Refused", **fields), guest.wait_for_end())
+
+        def welcome_then_refuse(guest):
+            """As where the host is updated while somebody is in."""
+            guest.welcome()
+            self.scripts.append(refuse(newer))
+            raise EOFError("the host is updated")
+
+        for script, protocol in ((refuse(newer), 4), (refuse(older), 2), (lambda guest: guest.welcome(protocol=4), 4),
+                                 (welcome_then_refuse, 4)):
+            with self.subTest(protocol=protocol):
+                self.page.evaluate("document.getElementById('problem').textContent = ''")
+                self.enter(script)
+                self.page.wait_for(f"theatron.state.phase === 'left' && document.getElementById('problem').textContent === 'This page is "
+                                   f"from before its host was changed (it speaks protocol 3, the host {protocol}); reload the page.'")
+
     def test_entering_again_while_a_picture_is_drawn_shows_the_next_visits_pictures(self):
         for _ in range(12):
             self.enter(lambda guest: None)

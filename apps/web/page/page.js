@@ -218,7 +218,9 @@ function run({ client, voice, face, module, flat }) {
         page.state = JSON.parse(client.state());
         // Nothing of a session stays once it is over for this person.
         if (page.state.phase === "ended" || (page.state.phase === "refused" && page.state.joins > 0)) {
-            const problem = text("session_over", { why: page.state.problem });
+            // A page that must be loaded again says so itself.
+            const { is_outdated, problem: why } = page.state;
+            const problem = is_outdated ? why : text("session_over", { why });
             client.leave();
             page.state = { phase: "left", problem };
         }
