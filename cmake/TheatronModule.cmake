@@ -85,7 +85,7 @@ function(theatron_module name)
   list(TRANSFORM M_DEPENDS PREPEND theatron_ OUTPUT_VARIABLE modules)
   target_link_libraries(${library} ${kind} ${modules} ${M_LINK})
 
-  if(EMSCRIPTEN)
+  if(EMSCRIPTEN OR NOT THEATRON_TESTS)
     return()
   endif()
   if(tests)

@@ -8,6 +8,7 @@ set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 
 set(THEATRON_SANITIZE "" CACHE STRING "Sanitizers for -fsanitize=, for example address,undefined")
 set(THEATRON_MODULES "" CACHE STRING "Only these modules of src, in the order of their dependencies, and no programs")
+option(THEATRON_TESTS "Build tests, benchmarks and examples, too; OFF: the program alone" ON)
 option(THEATRON_FUZZ "Build the libFuzzer targets (needs clang)" OFF)
 option(THEATRON_CUDA "Build the CUDA kernels (needs nvcc)" OFF)
 
@@ -74,7 +75,9 @@ endif()
 
 if(NOT EMSCRIPTEN)
   find_package(Threads REQUIRED)
-  find_package(GTest REQUIRED)
+  if(THEATRON_TESTS)
+    find_package(GTest REQUIRED)
+  endif()
   find_package(PkgConfig REQUIRED)
 endif()
 

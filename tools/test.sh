@@ -31,6 +31,13 @@ build() {
     cmake --preset "$1" > /dev/null && cmake --build --preset "$@"
 }
 
+# Where no root can be made, it says so.
+packages_root() {
+    local code=0
+    tools/packages_root.sh || code=$?
+    [ "$code" -eq 77 ] || return "$code"
+}
+
 step "Format and licence lines" tools/check_sources.py
 step "Directions of dependencies" tools/check_includes.py
 step "Build: release" build release
@@ -54,6 +61,8 @@ if [ "$all" = --all ]; then
     step "An hour before fixed cameras without an alarm" env MINUTES=60 \
         build/release/src/registration/registration_test --gtest_filter='Watching.NoAlarm*'
     step "Rates, ages and shaped links" ctest --preset timing
+    step "Debian packages" tools/package.sh
+    step "Packages in a Debian that has nothing else" packages_root
     step "Frame rate beside strangers and expensive guests" env PYTHONPATH=tests/end_to_end \
         python3 tests/end_to_end/guests_run.py
     step "Recorders over a link that breaks for 20 minutes" env PYTHONPATH=tests/end_to_end \

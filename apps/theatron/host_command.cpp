@@ -17,7 +17,8 @@
 #include "base/steady_clock.h"
 #include "camera_lines.h"
 #include "capture/camera.h"
-#include "cli/seconds_option.h"
+#include "cli/reload_signal.h"
+#include "cli/service_notice.h"
 #include "cli/stop_signal.h"
 #include "commands.h"
 #include "files/file_bytes.h"
@@ -25,6 +26,8 @@
 #include "host/host.h"
 #include "host/host_identity.h"
 #include "host/page.h"
+#include "host_config.h"
+#include "host_flags.h"
 #include "host_sessions.h"
 #include "input_lines.h"
 #include "people_lines.h"
@@ -45,22 +48,6 @@ constexpr std::pair<wire::Role, const char*> others[] = {
     {wire::Role::operator_, "operators admit, mute and remove others, and change their roles"},
     {wire::Role::observer, "observers only see"},
     {wire::Role::publisher, "participants can send cameras, too"}};
-
-struct Flags {
-    SessionFlags first;
-    host::PortOptions port;
-    std::string listen = "0.0.0.0:4400";
-    std::string state;
-    std::string token_file;
-    std::string summary;
-    std::string audit;
-    std::string certificate, key, proxy_certificate;
-    double seconds = 0;
-    bool json = false;
-    bool prints_links = false;
-    // The words of each further session.
-    std::vector<std::vector<std::string>> further;
-};
 
 // "CAMERA PART...", "CAMERA none". Throws Error if it cannot be done.
 void change_region(host::Host& host, std::istringstream words) {
@@ -135,20 +122,32 @@ void obey(HostSessions& sessions, InputLines& input) {
 
 // A link lets its bearer in, so it goes only to a terminal or where it was asked for: a service's
 // output is kept in a journal that others read.
-std::string links_text(const host::Host& host) {
-    std::string text = "Join with this link:\n\n  " + host.link() +
-                       "\n\nin a browser, or with: theatron join '" + host.link() +
-                       "'\n\nWith these\n";
+std::string links_text(const host::Host& host, bool has_page) {
+    std::string text = "Join with this link:\n\n  " + host.link() + "\n\n" +
+                       (has_page ? "in a browser, or with" : "with") + ": theatron join '" +
+                       host.link() + "'\n\nWith these\n";
     for (const auto& [role, may] : others)
         text += std::string("  ") + may + ":\n\n  " + host.link(role) + "\n\n";
     return text;
 }
 
-std::string all_links_text(const HostSessions& sessions) {
+// A guest meets a warning before this page, whose certificate no browser knows.
+std::string browser_text(const HostFlags& flags, bool has_page) {
+    if (!has_page)
+        return "This host has no page for browsers, because none lies beside the program.\n\n";
+    if (!flags.certificate.empty() || !flags.proxy_certificate.empty())
+        return "";
+    return "The certificate is this host's own, so a guest's browser says first that the "
+           "connection is not private: 'Advanced' and then 'Proceed' (Firefox: 'Accept the Risk "
+           "and Continue') leads in. With a certificate of your organisation no browser asks: "
+           "docs/hospital_it.md\n\n";
+}
+
+std::string all_links_text(const HostSessions& sessions, bool has_page) {
     const auto open = sessions.open();
     std::string text;
     for (const auto& [name, host] : open)
-        text += (open.size() > 1 ? "Session '" + name + "'\n\n" : "") + links_text(*host);
+        text += (open.size() > 1 ? "Session '" + name + "'\n\n" : "") + links_text(*host, has_page);
     return text;
 }
 
@@ -170,22 +169,6 @@ void say_unregistered(const std::vector<std::string>& unregistered, std::size_t 
     log::say("Nobody knows where these cameras are in the room: " + names +
              ". They are shown 12 m apart. 'theatron register' finds their places for --places; "
              "place=X:Y:Z gives one by hand.");
-}
-
-host::HostOptions options_of(const Flags& flags) {
-    host::HostOptions options{session_options(flags.first), flags.port};
-    options.listen = net::parse_endpoint(flags.listen);
-    options.state = flags.state;
-    options.certificate = flags.certificate;
-    options.key = flags.key;
-    options.proxy_certificate = flags.proxy_certificate;
-    options.page = host::usual_page_folder();
-    options.is_audited = flags.audit != "none";
-    if (options.is_audited)
-        options.audit = flags.audit;
-    if (!flags.token_file.empty())
-        options.token = host::read_token(flags.token_file);
-    return options;
 }
 
 nlohmann::json links_of(const host::Host& host) {
@@ -219,37 +202,60 @@ std::string status_line(const HostSessions& sessions) {
     return line;
 }
 
-void run(Flags& flags) {
-    const host::HostOptions options = options_of(flags);
+// The answer to SIGHUP: all files but the configuration are followed by themselves.
+void look_at_config(const std::string& file) {
+    try {
+        (void)with_config({"theatron", "host", "--config", file});
+        log::say("The configuration can be used; a change in it holds from the next start.");
+    } catch (const Error& error) {
+        log::say(std::string(error.what()) + " The host goes on as it was started.");
+    }
+}
+
+void run(HostFlags& flags) {
+    if (flags.only_checks && flags.config.empty())
+        throw Error("--check-config needs --config FILE, which it reads.");
+    const host::HostOptions options = host_options(flags);
     std::vector<SessionFlags> further;
     for (const auto& words : flags.further)
         further.push_back(parse_session(words));
+    if (flags.only_checks)
+        return output::print("The configuration '" + flags.config + "' can be used.\n");
     if (!flags.summary.empty()) {
         files::require_writable(flags.summary);
         files::require_own_kind(flags.summary, "{", "a summary");
     }
+    cli::ServiceNotice notice = cli::ServiceNotice::of_environment();
     cli::catch_stop_signals();
+    if (!flags.config.empty())
+        cli::catch_reload_signal();
     // The last changes of the room are written.
     const cli::Saving saving(room_patience);
     auto opening = std::make_optional<cli::Saving>(opening_patience);
     HostSessions sessions(options, flags.first, further);
     opening.reset();
 
+    const bool has_page = host::has_page(options.page);
     if (flags.json) {
         output::result(files::json_text(greeting(sessions)) + "\n");
     } else {
         const bool shows_links = flags.prints_links || isatty(STDOUT_FILENO);
-        output::print(
-            (shows_links ? all_links_text(sessions) : address_text(sessions.first(), flags.state)) +
-            "Links for one person, with an end, and as QR codes: theatron link --help\n" +
-            (options.cameras.empty() && further.empty()
-                 ? "No camera is streamed (--camera): people meet in an empty room.\n"
-                 : "") +
-            "Ctrl-C ends the session.\n");
+        output::print((shows_links
+                           ? all_links_text(sessions, has_page) + browser_text(flags, has_page)
+                           : address_text(sessions.first(), flags.state)) +
+                      "Links for one person, with an end, and as QR codes: theatron link --help\n" +
+                      (options.cameras.empty() && further.empty()
+                           ? "No camera is streamed (--camera): people meet in an empty room.\n"
+                           : "") +
+                      "Ctrl-C ends the session.\n");
     }
     for (const auto& [name, host] : sessions.open())
         say_unregistered(host->unregistered_cameras(), host->camera_names().size());
 
+    const std::string ready_text = std::to_string(sessions.open().size()) + " of " +
+                                   std::to_string(further.size() + 1) + " sessions open at port " +
+                                   std::to_string(sessions.first().port());
+    notice.ready(ready_text);
     InputLines input;
     const bool live_line = !flags.json && isatty(STDOUT_FILENO);
     const TimePoint begin = steady_now();
@@ -259,12 +265,19 @@ void run(Flags& flags) {
         std::this_thread::sleep_for(std::chrono::milliseconds(50));
         obey(sessions, input);
         sessions.follow();
+        if (cli::take_reload_signal()) {
+            notice.reloading(steady_now());
+            look_at_config(flags.config);
+            notice.ready(ready_text);
+        }
+        notice.alive(steady_now());
         if (live_line && steady_now() >= next_line) {
             output::status_line(status_line(sessions));
             next_line = steady_now() + 500ms;
         }
     }
     cli::begin_end();
+    notice.stopping();
     output::end_status_line();
     const std::string room_problem = sessions.room_problem();
     if (!flags.summary.empty()) {
@@ -280,7 +293,7 @@ void run(Flags& flags) {
 }  // namespace
 
 void add_host_command(CLI::App& app, std::vector<std::vector<std::string>> further) {
-    const auto flags = std::make_shared<Flags>();
+    const auto flags = std::make_shared<HostFlags>();
     flags->further = std::move(further);
     CLI::App* command = app.add_subcommand("host", "Stream cameras to those who join");
     std::string cameras = "The kinds of camera:\n";
@@ -313,67 +326,7 @@ void add_host_command(CLI::App& app, std::vector<std::vector<std::string>> furth
         "--listen 0.0.0.0:4400 --name 'OR 3'\n"
         "  theatron host --session 'OR 3' --camera k4a:0 --session 'OR 4' --camera k4a:1\n"
         "  theatron host --camera k4a:0 --region 0=200:150:240:180");
-    add_session_options(*command, flags->first);
-    command->add_option("--listen", flags->listen, "ADDRESS:PORT; port 0 lets the system choose")
-        ->capture_default_str();
-    auto* certificate = command->add_option(
-        "--certificate", flags->certificate,
-        "Your organisation's certificate as a PEM file, with those of its issuers, so that "
-        "browsers do not warn (docs/hospital_it.md); by default the host makes one itself. It is "
-        "read again when it changes");
-    auto* key =
-        command->add_option("--key", flags->key, "Its key, a PEM file that only you may read");
-    certificate->needs(key);
-    key->needs(certificate);
-    command->add_flag("--hsts", flags->port.insists_on_https,
-                      "With --certificate: browsers use only HTTPS for this name for a year "
-                      "(Strict-Transport-Security)");
-    command
-        ->add_option("--public-name", flags->port.public_name,
-                     "NAME or NAME:PORT under which participants reach this host: part of the "
-                     "links; requests for other names are refused")
-        ->check([](const std::string& text) -> std::string {
-            return text.empty() ? "it is empty; say NAME or NAME:PORT, or leave it out" : "";
-        });
-    command
-        ->add_option("--behind-proxy", flags->port.proxies,
-                     "ADDRESS or NETWORK/BITS of a proxy (nginx, Caddy) whose X-Forwarded-For is "
-                     "believed; repeat for more. Needs --public-name and --proxy-certificate")
-        ->allow_extra_args(false);
-    command->add_option("--proxy-certificate", flags->proxy_certificate,
-                        "The proxy's certificate as a PEM file, for the links; read again when it "
-                        "changes");
-    command
-        ->add_option(
-            "--session,--name", flags->first.options.name,
-            "The session's name, which participants see. A second --session begins "
-            "another session of this host, with the options of a session behind it: "
-            "--camera, --places, --region, --cases, --identifiers-for, --filter, --direct, "
-            "--link-hours, --admit and --look-back")
-        ->capture_default_str();
-    command->add_option(
-        "--link-host", flags->port.link_host,
-        "Name or address written into the link, if participants reach this host under another");
-    CLI::Option* token = command->add_option(
-        "--token", flags->first.options.token,
-        "The join token, at least 16 characters; by default one is made at first start and kept");
-    command
-        ->add_option("--token-file", flags->token_file,
-                     "The same from a file that only you may read, or /dev/stdin")
-        ->excludes(token);
-    command->add_option("--audit", flags->audit,
-                        "File for the log of people, JSON lines; none: no log (default: "
-                        "audit.jsonl in the state folder)");
-    command->add_option(
-        "--state", flags->state,
-        "Folder for the host's key, certificate and tokens (default: ~/.local/state/theatron)");
-    cli::add_seconds_option(*command, flags->seconds, "End by itself after this time");
-    command->add_option("--summary", flags->summary,
-                        "Write what went on as JSON to this file at the end");
-    command->add_flag("--print-links", flags->prints_links,
-                      "Print the links also where the output is no terminal, but a file or the "
-                      "journal of a service, where others may read them");
-    command->add_flag("--json", flags->json, "Print one JSON line with the link instead of text");
+    add_host_options(*command, *flags);
     command->callback([flags] { run(*flags); });
 }
 

@@ -58,7 +58,7 @@ void print(const host::KnownLink& link, const net::Link& address, const Flags& f
     if (flags.qr)
         std::cout << "\n" << qr_text(text, isatty(STDOUT_FILENO));
     // Not on standard output, which may be a file for 'theatron join @FILE'.
-    std::fprintf(stderr, "Link %s: %s%s%s. '%s' ends it at once.\n", link.name.c_str(),
+    std::fprintf(stderr, "Link %s: %s%s%s. This ends it at once:\n  %s\n", link.name.c_str(),
                  wire::text_of(link.role),
                  link.label.empty() ? "" : (", for " + link.label).c_str(),
                  link.expires ? (", until " + files::utc_text(*link.expires)).c_str() : "",
@@ -101,8 +101,8 @@ bool is_followed(const std::filesystem::path& state, const std::filesystem::path
 void revoke(const Flags& flags, const std::filesystem::path& state,
             const std::filesystem::path& folder) {
     if (!host::revoke_link(folder, flags.revoke))
-        throw Error("There is no link '" + flags.revoke + "'; '" + command_of(flags, "--list") +
-                    "' lists them.");
+        throw Error("There is no link '" + flags.revoke + "'. This lists them:\n  " +
+                    command_of(flags, "--list"));
     const TimePoint end = steady_now() + answer_patience;
     while (!is_followed(state, folder, flags.session)) {
         if (steady_now() > end)
@@ -115,11 +115,10 @@ void revoke(const Flags& flags, const std::filesystem::path& state,
         std::cout << files::json_text({{"revoked", flags.revoke}}) << "\n";
     else
         std::fprintf(stderr, "Link %s admits nobody any more.%s\n", flags.revoke.c_str(),
-                     wire::parse_role(flags.revoke)
-                         ? (" There is a new one: '" + command_of(flags, "--show " + flags.revoke) +
-                            "' prints it.")
-                               .c_str()
-                         : "");
+                     wire::parse_role(flags.revoke) ? (" There is a new one; this prints it:\n  " +
+                                                       command_of(flags, "--show " + flags.revoke))
+                                                          .c_str()
+                                                    : "");
 }
 
 void run(const Flags& flags) {
@@ -139,8 +138,8 @@ void run(const Flags& flags) {
         for (const host::KnownLink& link : book.links)
             if (link.name == flags.show)
                 return print(link, address, flags);
-        throw Error("There is no link '" + flags.show + "'; '" + command_of(flags, "--list") +
-                    "' lists them.");
+        throw Error("There is no link '" + flags.show + "'. This lists them:\n  " +
+                    command_of(flags, "--list"));
     }
     std::optional<files::UtcSeconds> expires;
     if (flags.hours > 0)

@@ -15,8 +15,10 @@
 #include "cases/foreign_files.h"
 #include "cli/output_end.h"
 #include "commands.h"
+#include "host_config.h"
 #include "licences.h"
 #include "link_argument.h"
+#include "manual.h"
 #include "session_flags.h"
 #include "unknown_command.h"
 
@@ -49,10 +51,20 @@ int run(int argc, char** argv) {
     app.add_flag_callback(
         "--licences", [] { throw CLI::CallForVersion(std::string(theatron::app::licences()), 0); },
         "Print the licence of Theatron, and the notices of the works that it contains");
-    const std::vector<std::string> arguments = theatron::app::take_arguments(argc, argv);
+    // For the build, which installs what it writes (cmake/TheatronInstall.cmake).
+    app.add_option_function<std::string>("--write-manual",
+                                         [&app](const std::string& folder) {
+                                             theatron::app::write_manual(app, THEATRON_VERSION,
+                                                                         folder);
+                                             throw CLI::Success();
+                                         })
+        ->group("");
+    std::vector<std::string> arguments = theatron::app::take_arguments(argc, argv);
     theatron::app::PartedWords words{arguments, {}};
-    if (argc > 1 && arguments[1] == "host")
+    if (argc > 1 && arguments[1] == "host") {
+        arguments = theatron::app::with_config(arguments);
         words = theatron::app::part_sessions(arguments);
+    }
     theatron::app::add_host_command(app, words.further);
     theatron::app::add_session_command(app);
     theatron::app::add_link_command(app);

@@ -92,10 +92,20 @@ std::optional<net::HttpAnswer> Page::answer(const net::HttpRequest& request) con
     return answer;
 }
 
+bool has_page(const std::filesystem::path& folder) {
+    std::error_code none;
+    return !folder.empty() && std::filesystem::exists(folder / "files.txt", none);
+}
+
+std::filesystem::path page_folder_of(const std::filesystem::path& program_folder) {
+    const std::filesystem::path built = program_folder / "web";
+    return has_page(built) ? built : program_folder.parent_path() / "share/theatron/page";
+}
+
 std::filesystem::path usual_page_folder() {
     std::error_code error;
     const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
-    return error ? std::filesystem::path() : program.parent_path() / "web";
+    return error ? std::filesystem::path() : page_folder_of(program.parent_path());
 }
 
 }  // namespace theatron::host

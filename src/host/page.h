@@ -40,7 +40,14 @@ private:
     std::string problem_;
 };
 
-// The folder of the page of this program: `web` beside it. Empty if that cannot be found out.
+// True if Page(folder) would have files.
+bool has_page(const std::filesystem::path& folder);
+
+// The folder of the page of a program: `web` beside it where it was built, else share/theatron/page
+// where it was installed (PREFIX/bin/theatron). There need not be anything.
+std::filesystem::path page_folder_of(const std::filesystem::path& program_folder);
+
+// That of this program. Empty if its place cannot be found out.
 std::filesystem::path usual_page_folder();
 
 }  // namespace theatron::host

@@ -104,6 +104,24 @@ TEST_F(PageTest, KnowsWhatItWasBuiltFrom) {
     EXPECT_NE(problem().find("opus, lz4"), std::string::npos);
 }
 
+TEST_F(PageTest, LiesBesideABuiltProgramOrWhereItIsInstalled) {
+    const std::filesystem::path prefix = folder.path() / "usr", program = prefix / "bin",
+                                installed = prefix / "share/theatron/page";
+    std::filesystem::create_directories(program);
+    std::filesystem::create_directories(installed);
+    EXPECT_EQ(page_folder_of(program), installed);
+    EXPECT_FALSE(has_page(installed));
+    write("usr/share/theatron/page/files.txt", "");
+    EXPECT_TRUE(has_page(installed));
+    // A link of a build whose page was never built.
+    std::filesystem::create_symlink(folder.path() / "nowhere", program / "web");
+    EXPECT_EQ(page_folder_of(program), installed);
+    std::filesystem::remove(program / "web");
+    std::filesystem::create_directories(program / "web");
+    write("usr/bin/web/files.txt", "");
+    EXPECT_EQ(page_folder_of(program), program / "web");
+}
+
 TEST_F(PageTest, WithoutAFolderThereIsNoPage) {
     EXPECT_TRUE(Page(folder.path()).empty());
     EXPECT_TRUE(Page(std::filesystem::path()).empty());

@@ -77,6 +77,10 @@ Opened opened_by(const std::string& secret, const SessionSwitch::Sessions& sessi
 net::HttpAnswer answer_page(const net::HttpRequest& request, const Page& page,
                             const SessionSwitch::Sessions& sessions,
                             const std::vector<ClosedSession>& closed) {
+    // For load balancers and monitoring, without a token: it tells strangers nothing but that.
+    if (net::path_of(request.target) == "/health")
+        return sessions.empty() ? net::HttpAnswer{.status = 503, .body = "No session is open.\n"}
+                                : net::HttpAnswer{.status = 200, .body = "A session is open.\n"};
     const std::string secret = net::shown_token(request);
     if (has_expired(secret, sessions))
         return {.status = 410, .body = "This link has expired; ask for a new one.\n"};

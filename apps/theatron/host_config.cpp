@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host_config.h"
+
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+
+#include "base/error.h"
+#include "base/outside_text.h"
+#include "host/filter_choice.h"
+#include "host/host_identity.h"
+#include "host/session_folder.h"
+#include "host_flags.h"
+#include "net/certificate.h"
+#include "net/http.h"
+#include "net/proxies.h"
+
+namespace theatron::app {
+namespace {
+
+using host::ConfigLine;
+
+constexpr std::size_t shown_of_config = 80;
+constexpr std::uint16_t https_port = 443;
+
+// Options of the command line alone.
+const std::set<std::string> no_keys = {"help", "config", "check-config"};
+// A service runs in another folder than the person who writes the file.
+const std::set<std::string> paths = {
+    "places", "cases",      "certificate", "key",    "proxy-certificate",
+    "audit",  "token-file", "state",       "summary"};
+const std::set<std::string> read_paths = {
+    "places", "cases", "certificate", "key", "proxy-certificate", "token-file"};
+
+bool names_session(const std::string& key) {
+    return key == "session" || key == "name";
+}
+
+// The options of one session, which may stand again behind another `session`.
+bool is_of_session(const std::string& key) {
+    SessionFlags flags;
+    CLI::App session;
+    add_session_options(session, flags);
+    return key != "help" && session.get_option_no_throw("--" + key);
+}
+
+std::string without_name(std::string sentence, const std::string& key) {
+    const std::string name = "--" + key + ": ";
+    return sentence.starts_with(name) ? sentence.substr(name.size()) : sentence;
+}
+
+void check_path(const ConfigLine& line) {
+    namespace fs = std::filesystem;
+    if (!paths.contains(line.key) || (line.key == "audit" && line.value == "none"))
+        return;
+    const std::string shown = "'" + clean_text(line.value, shown_of_config) + "'";
+    if (!fs::path(line.value).is_absolute())
+        throw Error(shown + " is no absolute path, which begins with /");
+    std::error_code error;
+    if (read_paths.contains(line.key) &&
+        fs::status(line.value, error).type() == fs::file_type::not_found)
+        throw Error("there is no " + shown);
+}
+
+// Throws Error if the values of one line cannot be used.
+void check_values(const ConfigLine& line, const HostFlags& flags) {
+    check_path(line);
+    if (line.key == "listen")
+        (void)net::parse_endpoint(flags.listen);
+    if (line.key == "public-name")
+        (void)net::parse_public_name(flags.port.public_name, https_port);
+    if (line.key == "behind-proxy")
+        (void)net::Proxies(flags.port.proxies);
+    if (line.key == "token")
+        host::check_token(flags.first.options.token);
+    if (names_session(line.key))
+        host::check_session_name(flags.first.options.name);
+    (void)session_options(flags.first);
+}
+
+// Empty: the line means something by itself. `words` are those that it stands for.
+std::string mistake_of(const ConfigLine& line, std::vector<std::string>& words) {
+    HostFlags flags;
+    CLI::App app;
+    add_host_options(app, flags);
+    const std::string name = "--" + line.key;
+    const CLI::Option* option = app.get_option_no_throw(name);
+    if (!option || no_keys.contains(line.key))
+        return "there is no such option; 'theatron host --help' lists them";
+    if (option->get_items_expected_max() == 0) {
+        if (line.value != "yes" && line.value != "no")
+            return "'" + clean_text(line.value, shown_of_config) + "' is neither yes nor no";
+        if (line.value == "yes")
+            words = {name};
+    } else {
+        words = {name + "=" + line.value};
+    }
+    try {
+        app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
+    } catch (const CLI::RequiresError&) {
+        // The file as a whole is asked for the other option.
+    } catch (const CLI::ParseError& error) {
+        return without_name(error.what(), line.key);
+    }
+    try {
+        check_values(line, flags);
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+bool is_given(const std::string& key, const std::vector<std::string>& given) {
+    const std::string name = "--" + key;
+    return std::ranges::any_of(given, [&](const std::string& word) {
+        return word == name || word.starts_with(name + "=");
+    });
+}
+
+// Finds lines that are right by themselves and stand twice, or in the wrong place.
+class Order {
+public:
+    explicit Order(const std::vector<ConfigLine>& lines) {
+        for (const ConfigLine& line : lines)
+            sessions_ += names_session(line.key);
+        add_host_options(app_, flags_);
+    }
+
+    // Lines one after the other. Empty: it may stand here.
+    std::string mistake_of(const ConfigLine& line) {
+        if (names_session(line.key)) {
+            ++session_;
+            seen_in_session_.clear();
+            return "";
+        }
+        const bool of_session = is_of_session(line.key);
+        if (of_session && sessions_ > 1 && session_ == 0)
+            return "with several sessions it stands behind the 'session' that it is for";
+        if (!of_session && session_ > 1)
+            return "it is for all sessions, so it stands before the second 'session'";
+        const bool repeats = app_.get_option("--" + line.key)->get_items_expected_max() > 1;
+        auto& seen = of_session ? seen_in_session_ : seen_;
+        const auto [first, is_new] = seen.emplace(line.key, line.line);
+        return is_new || repeats ? ""
+                                 : "it stands already in line " + std::to_string(first->second);
+    }
+
+private:
+    CLI::App app_;
+    HostFlags flags_;
+    int sessions_ = 0, session_ = 0;
+    std::map<std::string, int> seen_, seen_in_session_;  // lines by key
+};
+
+// Adds mistakes of the file as a whole.
+void check_together(const std::vector<ConfigLine>& lines, HostConfig& config,
+                    const std::vector<std::string>& given) {
+    const auto value_of = [&](const char* key) -> const ConfigLine* {
+        const auto found = std::ranges::find(lines, key, &ConfigLine::key);
+        return found == lines.end() ? nullptr : &*found;
+    };
+    const auto need = [&](const char* key, const char* other) {
+        const ConfigLine* line = value_of(key);
+        if (line && line->value != "no" && !value_of(other) && !is_given(other, given))
+            config.mistakes.push_back(
+                {line->line, key, "it needs '" + std::string(other) + "', too"});
+    };
+    need("certificate", "key");
+    need("key", "certificate");
+    need("hsts", "certificate");
+    need("behind-proxy", "public-name");
+    need("behind-proxy", "proxy-certificate");
+    need("proxy-certificate", "behind-proxy");
+    const ConfigLine *token = value_of("token"), *token_file = value_of("token-file");
+    if (token && token_file)
+        config.mistakes.push_back({token_file->line, "token-file", "'token' stands there, too"});
+    const ConfigLine *certificate = value_of("certificate"), *key = value_of("key");
+    if (certificate && key) {
+        try {
+            (void)net::read_certificate(certificate->value, key->value);
+        } catch (const Error& error) {
+            config.mistakes.push_back({certificate->line, "certificate", error.what()});
+        }
+    }
+}
+
+}  // namespace
+
+HostConfig host_config(std::string_view text, const std::vector<std::string>& given,
+                       bool is_public) {
+    host::ConfigText parsed = host::parse_config(text);
+    HostConfig config{{}, std::move(parsed.mistakes)};
+    Order order(parsed.lines);
+    std::vector<ConfigLine> good;
+    for (const ConfigLine& line : parsed.lines) {
+        std::vector<std::string> words;
+        std::string mistake = mistake_of(line, words);
+        if (mistake.empty())
+            mistake = order.mistake_of(line);
+        if (mistake.empty() && line.key == "token" && is_public)
+            mistake = "others may read this file; 'chmod o-r' it, or use 'token-file'";
+        if (!mistake.empty()) {
+            config.mistakes.push_back({line.line, line.key, mistake});
+            continue;
+        }
+        good.push_back(line);
+        if (!is_given(line.key, given))
+            config.words.insert(config.words.end(), words.begin(), words.end());
+    }
+    // A line that is wrong may be the one that another one needs.
+    if (config.mistakes.empty())
+        check_together(good, config, given);
+    std::ranges::stable_sort(config.mistakes, {}, &host::ConfigMistake::line);
+    return config;
+}
+
+std::vector<std::string> with_config(const std::vector<std::string>& arguments) {
+    std::string file;
+    bool names_file = false;
+    for (std::size_t i = 0; i < arguments.size(); ++i) {
+        constexpr std::string_view name = "--config", joined = "--config=";
+        if (arguments[i] == name && i + 1 < arguments.size())
+            file = arguments[i + 1];
+        else if (arguments[i].starts_with(joined))
+            file = arguments[i].substr(joined.size());
+        else
+            continue;
+        names_file = true;
+    }
+    if (!names_file)
+        return arguments;
+    const std::string shown = clean_text(file, shown_of_config);
+    struct stat facts {};
+    std::ifstream in(file, std::ios::binary);
+    if (stat(file.c_str(), &facts) != 0 || !S_ISREG(facts.st_mode) || !in)
+        throw Error("The configuration '" + shown + "' is no file that can be read.");
+    std::string text(host::max_config_bytes + 1, '\0');
+    in.read(text.data(), std::streamsize(text.size()));
+    text.resize(std::size_t(in.gcount()));
+    const HostConfig config = host_config(text, arguments, (facts.st_mode & S_IROTH) != 0);
+    if (!config.mistakes.empty())
+        throw Error("The configuration cannot be used:\n" +
+                    host::mistakes_text(shown, config.mistakes));
+    std::vector<std::string> words = arguments;
+    words.insert(words.end(), config.words.begin(), config.words.end());
+    return words;
+}
+
+}  // namespace theatron::app

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/config_text.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace theatron::host {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+TEST(ConfigText, LinesAreKeysAndValuesInTheirOrder) {
+    const ConfigText config = parse_config(
+        "# the room\n"
+        "session = OR 3\n"
+        "\n"
+        "  camera=folder:/srv/a,loop=1\r\n"
+        "\tcamera =  k4a:0  \n"
+        "   # spaces before\n"
+        "token-file = /etc/theatron/#1\n"
+        "link-host = \" a \"");
+    EXPECT_THAT(config.mistakes, IsEmpty());
+    EXPECT_THAT(config.lines, ElementsAre(ConfigLine{2, "session", "OR 3"},
+                                          ConfigLine{4, "camera", "folder:/srv/a,loop=1"},
+                                          ConfigLine{5, "camera", "k4a:0"},
+                                          ConfigLine{7, "token-file", "/etc/theatron/#1"},
+                                          ConfigLine{8, "link-host", " a "}));
+}
+
+TEST(ConfigText, EachMistakeIsToldWithLineAndKey) {
+    const ConfigText config = parse_config(
+        "session\n"
+        "camera =\n"
+        "--hsts = yes\n"
+        "[host]\n"
+        "What is this\n"
+        "session = \"OR 3\n"
+        "session = OR 3\"\n"
+        "listen = 0.0.0.0:\x01"
+        "1\n"
+        "admit = ask\n");
+    EXPECT_THAT(config.lines, ElementsAre(ConfigLine{9, "admit", "ask"}));
+    EXPECT_EQ(mistakes_text("or.conf", config.mistakes),
+              "or.conf:1: session: there is no '='; lines are KEY = VALUE.\n"
+              "or.conf:2: camera: there is no value; leave the line out for the usual one.\n"
+              "or.conf:3: write 'hsts' without the hyphens before it.\n"
+              "or.conf:4: there are no sections; another 'session = NAME' begins one.\n"
+              "or.conf:5: 'What is this' is no key; lines are KEY = VALUE.\n"
+              "or.conf:6: session: the value begins with \" and does not end with it.\n"
+              "or.conf:7: session: the value ends with \" and does not begin with it.\n"
+              "or.conf:8: listen: the value has control characters.");
+}
+
+TEST(ConfigText, ALoneQuotationMarkIsNoValue) {
+    EXPECT_THAT(parse_config("session = \"").lines, IsEmpty());
+    EXPECT_THAT(parse_config("session = \"\"").lines, IsEmpty());
+}
+
+TEST(ConfigText, AMarkOfTheByteOrderIsNoKey) {
+    EXPECT_THAT(parse_config("\xef\xbb\xbf"
+                             "admit = ask")
+                    .lines,
+                ElementsAre(ConfigLine{1, "admit", "ask"}));
+}
+
+TEST(ConfigText, ALargeFileIsRefused) {
+    const std::string line = "admit = ask\n";
+    std::string text;
+    while (text.size() <= max_config_bytes)
+        text += line;
+    EXPECT_THAT(parse_config(text).lines, IsEmpty());
+    EXPECT_THAT(mistakes_text("or.conf", parse_config(text).mistakes),
+                HasSubstr("or.conf: it is larger"));
+    text.resize(text.size() - line.size());
+    EXPECT_THAT(parse_config(text).mistakes, IsEmpty());
+}
+
+TEST(ConfigText, WrittenByAnotherProgramItIsShownWithoutItsControlCharacters) {
+    const ConfigText config = parse_config("\x1b[31m\xff = 1");
+    ASSERT_EQ(config.mistakes.size(), 1u);
+    EXPECT_EQ(config.mistakes[0].text.find('\x1b'), std::string::npos);
+}
+
+}  // namespace
+}  // namespace theatron::host

@@ -1,0 +1,26 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Builds the Debian packages into build/packages, and lets lintian and the validators of their parts look at them.
+# Usage: package.sh
+set -euo pipefail
+cd "$(dirname "$0")/.."
+tools/setup.sh packages_package.txt
+folder=$PWD/build/packages
+rm -rf "$folder"
+mkdir -p "$folder"
+
+systemd-analyze verify --man=no packaging/theatron-host@.service 2>&1 | grep -v 'is not executable: No such file' || true
+systemd-analyze security --offline=true --threshold=15 packaging/theatron-host@.service > /dev/null ||
+    { echo "package: the unit is more exposed than 1.5: systemd-analyze security --offline=true packaging/theatron-host@.service" >&2; exit 1; }
+apparmor_parser -Q packaging/theatron-host.apparmor 2> /dev/null
+desktop-file-validate packaging/*.desktop
+# The project has no domain of which its name could be a part.
+appstreamcli validate --no-net --override=cid-desktopapp-is-not-rdns=info packaging/theatron.metainfo.xml > /dev/null
+
+# Objects of a build before are used again; all files of the packages are made anew.
+dh_clean
+THEATRON_DEB_FOLDER=$folder dpkg-buildpackage --build=binary --unsigned-changes --unsigned-buildinfo --no-pre-clean \
+    --buildinfo-option="-u$folder" --changes-option="-u$folder" \
+    --buildinfo-file="$folder/theatron.buildinfo" --changes-file="$folder/theatron.changes"
+lintian --fail-on error "$folder"/*.deb
+ls -l "$folder"/*.deb
