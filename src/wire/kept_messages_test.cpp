@@ -137,7 +137,7 @@ void write_messages(std::ostream& out, const char* direction) {
 template <class Union>
 std::string read_again(const Result<Union>& message, std::size_t kind) {
     if (!message)
-        return to_text(message.error());
+        return std::string(to_text(message.error()));
     return message->index() + 1 == kind ? text_of_message(*message) : "of another kind";
 }
 
