@@ -70,23 +70,23 @@ class Publishing(unittest.TestCase):
                 self.assertNotEqual(camera(both, 1)["filter"], "", "filtered as the host's own are")
                 sent = cart.wait_for(lambda f: f["cameras"][0]["encoders"] > 0)
                 self.assertEqual(sent["cameras"][0]["id"], 1)
-                code, out, errors = run("status", h.greeting["link"], "--json")
-                self.assertEqual(code, 0, errors)
-                listed, = json.loads(out)["published"]
-                self.assertEqual((listed["name"], listed["id"], listed["state"]), ("face", 1, "live"))
+
+                def listed():
+                    code, out, errors = run("status", h.greeting["link"], "--json")
+                    self.assertEqual(code, 0, errors)
+                    one, = json.loads(out)["published"]
+                    return one["name"], one["id"], one["state"]
+
+                wait_until(lambda: listed() == ("face", 1, "live"))
                 # It stands still with its connection open: nobody may take its last picture for the present.
                 cart.send(signal.SIGSTOP)
                 stale = seen.wait_for(lambda f: camera(f, 1)["state"] == "stale")
                 self.assertEqual(camera(stale, 1)["problem"], "Its pictures do not arrive any more.")
-                self.assertEqual(camera(stale, 0)["state"], "live")
-
-                def told():
-                    return json.loads(run("status", h.greeting["link"], "--json")[1])["published"][0]["state"]
-
-                wait_until(lambda: told() == "stale")
+                seen.wait_for(lambda f: camera(f, 0)["state"] == "live" and camera(f, 1)["state"] == "stale")
+                wait_until(lambda: listed() == ("face", 1, "stale"))
                 cart.send(signal.SIGCONT)
                 seen.wait_for(lambda f: camera(f, 1)["state"] == "live")
-                wait_until(lambda: told() == "live")
+                wait_until(lambda: listed() == ("face", 1, "live"))
                 cart.send(signal.SIGTERM)
                 self.assertEqual(cart.end(), 0)
             seen.wait_for(lambda f: len(f["cameras"]) == 1)

@@ -62,7 +62,7 @@ class Screens(unittest.TestCase):
                 both = seen.wait_for(lambda f: camera(f, "scope") and camera(f, "scope")["frames"] > 20)
                 self.assertEqual(camera(both, "scope")["filter"], "")
                 self.assertEqual(camera(both, "lamp")["dropped"], 0)
-                self.assertEqual(cart.newest_json()["cameras"][0]["state"], "live")
+                cart.wait_for(lambda f: f["cameras"][0]["state"] == "live")
                 picture = self.folder / "seen.png"
                 code, _, errors = run("join", h.greeting["link"], "--offscreen", picture, "--size",
                                       "320x240", "--seconds", "1", "--color-codec", "raw")
@@ -72,9 +72,8 @@ class Screens(unittest.TestCase):
                 self.assertTrue(is_green(middle), tuple(middle))
             with Process("publish", h.greeting["publish_link"], "--share", shared, "--every", "0.2"), \
                     Process("join", h.greeting["link"], "--every", "0.2") as seen:
-                ended = seen.wait_for(
-                    lambda f: camera(f, "scope") and camera(f, "scope")["state"] == "ended")
-                self.assertEqual(camera(ended, "lamp")["state"], "live")
+                seen.wait_for(lambda f: camera(f, "scope") and camera(f, "scope")["state"] == "ended" and
+                              camera(f, "lamp")["state"] == "live")
 
     def person(self, link, name):
         """Somebody with a program of their own."""

@@ -308,7 +308,7 @@ class Windows(unittest.TestCase):
                         env=screen.environment) as cart, \
                 Process("join", h.greeting["link"], "--every", "0.2") as seen:
             seen.wait_for(shown("display"))
-            self.assertEqual(cart.newest_json()["cameras"][0]["state"], "live")
+            cart.wait_for(lambda f: f["cameras"][0]["state"] == "live")
             done = subprocess.run([PROGRAM, "publish", h.greeting["publish_link"], "--share", "x11:nobody"],
                                   env=screen.environment, capture_output=True, text=True, stdin=subprocess.DEVNULL)
             self.assertIn("There is no visible window 'nobody'", done.stderr)

@@ -95,7 +95,7 @@ class WebPanels(PageCase):
                                                   : fetched(path, ...rest))(fetch)""")
         page.call("Page.navigate", url=self.links["operator"])
         page.wait_for("globalThis.refused > 1")
-        self.assertIn("live", page.evaluate("document.getElementById('session_lines').innerText"))
+        page.wait_for("document.getElementById('session_lines').innerText.includes('live')")
 
     def test_in_the_2d_view_an_operator_decides_on_people(self):
         with Process("join", self.links["operator"], "--no-window", "--name", "Ben", "--every", "0.5", "--json") as ben:

@@ -32,22 +32,48 @@ function level_of(samples) {
     return Math.round(Math.min(0, Math.max(-127, 10 * Math.log10(Math.max(sum / samples.length, 1e-13)))));
 }
 
-// One of the others: decoder, jitter buffer on the audio thread, and a place in the room.
+// Jitter buffers on the audio thread. The browser gives the memory of one back late, so each serves one speaker after the other.
+class Playouts {
+    resting = [];
+    made = 0;
+
+    // Nothing while all are in use.
+    take(context, program) {
+        if (this.resting.length > 0)
+            return this.resting.pop();
+        if (this.made === most_speakers)
+            return null;
+        const node = new AudioWorkletNode(context, "speaker", {
+            numberOfInputs: 0, outputChannelCount: [1], processorOptions: { program } });
+        ++this.made;
+        return node;
+    }
+
+    // What is still on its way tells of the speaker before.
+    give_back(node) {
+        node.port.onmessage = ({ data }) => data === "rests" && this.resting.push(node);
+        node.port.postMessage("rest");
+        node.disconnect();
+    }
+}
+
+// One of the others: decoder, jitter buffer, and a place in the room.
 class Speaker {
+    has_ended = false;
     figures = { level_db: -127, delay_ms: 0, seconds: 0, concealed_ms: 0 };
     newest_ms = 0;
 
     // `make_decoder` as find_decoders() has found it; `refused()` follows a damaged packet.
-    constructor(context, program, make_decoder, refused) {
-        this.node = new AudioWorkletNode(context, "speaker", {
-            numberOfInputs: 0, outputChannelCount: [1], processorOptions: { program } });
+    constructor(context, node, make_decoder, refused) {
+        this.node = node;
         this.node.port.onmessage = ({ data }) => this.figures = data;
         // Voices stay understandable across the room.
         this.panner = new PannerNode(context, {
             panningModel: "HRTF", distanceModel: "inverse", refDistance: 1.5, rolloffFactor: 0.5 });
         this.node.connect(this.panner).connect(context.destination);
         this.decoder = make_decoder({
-            taken: (header, samples) => this.node.port.postMessage({ ...header, samples }, [samples.buffer]),
+            taken: (header, samples) =>
+                this.has_ended || this.node.port.postMessage({ ...header, samples }, [samples.buffer]),
             refused });
     }
 
@@ -62,9 +88,9 @@ class Speaker {
             this.panner[axis].linearRampToValueAtTime(value, soon);
     }
 
-    end() {
-        this.node.port.postMessage("end");
-        this.node.disconnect();
+    end(playouts) {
+        this.has_ended = true;
+        playouts.give_back(this.node);
         this.panner.disconnect();
         this.decoder.close();
     }
@@ -80,6 +106,7 @@ export class Voice {
     is_held = false;
     released_ms = -Infinity;
     speakers = new Map();  // participant -> Speaker
+    playouts = new Playouts();
     resume = () => this.context.resume();  // one function: visits without an act add no further listener
 
     // `send(number, age_us, pauses, level_db, opus)` sends a frame whose first sample is so old; `changed()` follows a
@@ -148,9 +175,14 @@ export class Voice {
 
     // Nothing if there is no room for another.
     speaker(id) {
-        let speaker = this.speakers.get(id);
-        if (!speaker && this.make_room())
-            this.speakers.set(id, speaker = new Speaker(this.context, this.program, this.make_decoder, () => ++this.unreadable));
+        const known = this.speakers.get(id);
+        if (known)
+            return known;
+        const node = this.make_room() ? this.playouts.take(this.context, this.program) : null;
+        if (!node)
+            return undefined;
+        const speaker = new Speaker(this.context, node, this.make_decoder, () => ++this.unreadable);
+        this.speakers.set(id, speaker);
         return speaker;
     }
 
@@ -165,7 +197,7 @@ export class Voice {
         return true;
     }
     forget(id, speaker) {
-        speaker.end();
+        speaker.end(this.playouts);
         this.speakers.delete(id);
     }
 

@@ -25,9 +25,10 @@ class Microphone extends AudioWorkletProcessor {
     }
 }
 
-// Plays the frames of one speaker: {number, frame_ms, pauses, level_db, samples} each, until "end".
+// Plays the frames of one speaker: {number, frame_ms, pauses, level_db, samples} each, until "rest". It answers "rests", says
+// nothing of that speaker any more, and plays another one from the next frame on.
 class Speaker extends AudioWorkletProcessor {
-    ended = false;
+    rests = true;
     next_figures = 0;
 
     constructor({ processorOptions: { program } }) {
@@ -46,16 +47,21 @@ class Speaker extends AudioWorkletProcessor {
     }
 
     take(frame) {
-        if (frame === "end") {
-            this.ended = true;
+        if (frame === "rest") {
+            this.rests = true;
+            this.playout.voice_begin();
+            this.port.postMessage("rests");
             return;
         }
+        this.rests = false;
         const { number, frame_ms, pauses, level_db, samples } = frame;
         new Float32Array(this.playout.memory.buffer, this.playout.voice_frame(), frame_samples).set(samples);
         this.playout.voice_put(number, frame_ms, pauses, level_db, this.now_us());
     }
 
     process(_, [output]) {
+        if (this.rests)
+            return true;
         const samples = output[0];
         const place = this.playout.voice_pull(samples.length, this.now_us());
         samples.set(new Float32Array(this.playout.memory.buffer, place, samples.length));
@@ -68,7 +74,7 @@ class Speaker extends AudioWorkletProcessor {
                 concealed_ms: this.playout.voice_concealed() / 48,
             });
         }
-        return !this.ended;
+        return true;
     }
 }
 

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <optional>
+#include <utility>
 
 #include "voice/playout.h"
 
@@ -46,8 +48,13 @@ private:
     std::size_t size_ = 0;
 };
 
-DecodedFrames decoder;
-voice::Playout playout(decoder);
+// One speaker after the other.
+struct Speaker {
+    DecodedFrames decoder;
+    voice::Playout playout{decoder};
+};
+
+std::optional<Speaker> speaker{std::in_place};
 std::array<float, most_samples> frame, samples;
 
 }  // namespace
@@ -57,6 +64,10 @@ using namespace theatron;
 
 extern "C" {
 
+// Forgets the speaker before; the next frame is of another one.
+EMSCRIPTEN_KEEPALIVE void voice_begin() {
+    web::speaker.emplace();
+}
 // Where the samples of the next frame belong, most_samples of them at most.
 EMSCRIPTEN_KEEPALIVE float* voice_frame() {
     return web::frame.data();
@@ -72,25 +83,25 @@ EMSCRIPTEN_KEEPALIVE void voice_put(std::uint32_t number, int frame_ms, int paus
     packet.pauses = pauses != 0;
     packet.level_db = level_db;
     packet.opus = std::as_bytes(std::span(web::frame).first(packet.samples()));
-    web::playout.put(packet, from_us(std::int64_t(now_us)));
+    web::speaker->playout.put(packet, from_us(std::int64_t(now_us)));
 }
 // The next `count` samples, most_samples at most, to be heard from `now_us` on.
 EMSCRIPTEN_KEEPALIVE float* voice_pull(int count, double now_us) {
     const auto size = std::size_t(std::clamp(count, 0, int(web::most_samples)));
-    web::playout.pull(std::span(web::samples).first(size), from_us(std::int64_t(now_us)));
+    web::speaker->playout.pull(std::span(web::samples).first(size), from_us(std::int64_t(now_us)));
     return web::samples.data();
 }
 EMSCRIPTEN_KEEPALIVE int voice_level_db() {
-    return web::playout.level_db();
+    return web::speaker->playout.level_db();
 }
 EMSCRIPTEN_KEEPALIVE double voice_delay_ms() {
-    return double(web::playout.delay().count()) / 1000;
+    return double(web::speaker->playout.delay().count()) / 1000;
 }
 EMSCRIPTEN_KEEPALIVE double voice_samples() {
-    return double(web::playout.figures().samples);
+    return double(web::speaker->playout.figures().samples);
 }
 EMSCRIPTEN_KEEPALIVE double voice_concealed() {
-    return double(web::playout.figures().concealed);
+    return double(web::speaker->playout.figures().concealed);
 }
 
 }  // extern "C"
