@@ -164,6 +164,14 @@ def lattice(bar=6, cell=12):
     return bytes(251 if x % (bar + cell) < bar or y % (bar + cell) < bar else 252 for y in range(48) for x in range(64))
 
 
+def received_h264():
+    """A first byte that chooses settings with colour as h264, and a key frame of the colour stream behind its length."""
+    payload = (ROOT / "tests/corpus/color_h264_fuzz/key").read_bytes()
+    header = struct.pack("<4B2H2I2HI2q4IQ", 1, 67, 1, 0, 1, 2, 0, 0, 0, 1, len(payload), 33_333, 33_000, 100, 200, 2000, 2500, 0)
+    length = len(header) + len(payload)
+    return struct.pack("<BBH", 65, length & 0xff, length >> 8) + header + payload
+
+
 # ---- cases
 
 def shared_case():
@@ -229,6 +237,7 @@ def seeds():
         "calibration_bytes_fuzz": calibration_bytes(),
         "places_fuzz": [("file", (VECTORS / "places.json").read_bytes()), ("place", b"0.4:1.6:2:-30:15:0")],
         "video_answer_fuzz": [("opened", answer), ("picture", b"\2" + answer[1:])],
+        "receiver_fuzz": [("h264", received_h264())],
         "background_fuzz": [("empty", background), ("small", background[:8] + struct.pack("<2H", 1, 2) + background[12:28])],
         "lattice_fuzz": [("bars", lattice()), ("slope", b"\xfb\xf8\0\1\0\1"), ("flat", b"\xfb\0")],
         "png_fuzz": [("grey", case_seeds.png(0, 16, 1)), ("rgb", case_seeds.png()), ("rgba", case_seeds.png(6, 8, 4)),
