@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# make demo: install, build, and see it work.   make test: everything that must hold.
+# make demo: install, build, and see it work.   make test: what each change must pass.
 SHELL := /bin/bash
 SECONDS_OF_DEMO := $(if $(filter environment command line,$(origin SECONDS)),--seconds $(SECONDS),)
 
@@ -8,7 +8,7 @@ SECONDS_OF_DEMO := $(if $(filter environment command line,$(origin SECONDS)),--s
 help:
 	@echo "make demo               install what is needed, build, and meet two people in a streamed room"
 	@echo "make demo SECONDS=20    the same, ending by itself"
-	@echo "make test               build and run every check"
+	@echo "make test               build everything and run the checks that each change must pass (make test-all: all)"
 	@echo "make test-all           the same with what takes long: fuzzing, TSan everywhere, clang-tidy"
 	@echo "make test-timing        rates, ages and shaped links; needs a machine that does nothing else"
 	@echo "make test-tsan          the modules that have threads under the thread sanitizer"

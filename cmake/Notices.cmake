@@ -3,7 +3,8 @@
 #
 # Writes FILE: the licence of Theatron, TEXT, and the notices of Debian packages whose code becomes part of a
 # program (headers, static libraries, fonts), from the copyright files that the packages install. A shared
-# library comes with its own package and is not named here.
+# library comes with its own package and is not named here. A missing file is remarked on, and ends the configuration
+# of a build for packages (THEATRON_TESTS is off).
 function(theatron_notices file)
   # TEXT has semicolons, at which ${ARGN} would cut it.
   cmake_parse_arguments(PARSE_ARGV 1 N "" "TEXT" "PACKAGES")
@@ -15,6 +16,11 @@ function(theatron_notices file)
       file(READ ${copyright} text)
     else()
       set(text "The package ${package} installed no ${copyright} where this program was built.\n")
+      if(THEATRON_TESTS)
+        message(WARNING "${copyright} is missing: a binary without it may not be shipped")
+      else()
+        message(SEND_ERROR "${copyright} is missing: a binary without it may not be shipped")
+      endif()
     endif()
     string(APPEND notices "\n== ${package}\n\n${text}")
   endforeach()

@@ -25,7 +25,8 @@ MAY_WRITE_DIRECTLY = re.compile(
 # A sentence that begins so does not name its subject.
 UNNAMED_SUBJECT = re.compile(r"(?:^|[.:;!?] )(What|Whatever|Who|Whoever|Whose|Of|Which|Whether) [^?]*$")
 # Words that stand for a count or a noun which the reader would have to look for; also across a line's end.
-UNCLEAR_WORDS = re.compile(r"\b(likewise|so[\s/#*]+many|of[\s/#*]+before)\b", re.IGNORECASE)
+# "So much that ..." has its measure in the sentence.
+UNCLEAR_WORDS = re.compile(r"\b(likewise|so[\s/#*]+many|so[\s/#*]+much(?![^.;:]*\bthat\b)|of[\s/#*]+before)\b", re.IGNORECASE)
 WRITTEN = LICENSED | {".md", ".inc", ".html"}
 NAMES_THE_WORDS = {"tools/check_sources.py", "tools/check_sources_test.py"}
 

@@ -11,6 +11,7 @@ class Words(unittest.TestCase):
     def test_words_that_stand_for_others_with_their_line(self):
         self.assertEqual(unclear_words("int a;\nint b;  // Likewise\n"), [(2, "Likewise")])
         self.assertEqual(unclear_words("// every so many frames"), [(1, "so many")])
+        self.assertEqual(unclear_words("// panels take at most so much\n// of the width. All that is left"), [(1, "so much")])
         self.assertEqual(unclear_words("the values of before."), [(1, "of before")])
 
     def test_words_that_a_line_divides(self):
@@ -18,7 +19,7 @@ class Words(unittest.TestCase):
         self.assertEqual(unclear_words("the pictures of\nbefore"), [(1, "of before")])
 
     def test_others_are_none(self):
-        for text in ("so few", "many frames", "before it", "of beforehand", "also manyfold", "of it. Before"):
+        for text in ("so few", "depth changes so much between frames\n// that keys are smaller", "also much", "many frames", "before it", "of beforehand", "also manyfold", "of it. Before"):
             self.assertEqual(unclear_words(text), [], text)
 
 

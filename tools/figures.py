@@ -177,7 +177,8 @@ def rate_factors(program, table, row):
 
 @Figure("docs/decisions/optional-h264.md", "presets",
         "theatron bench color FOLDER --frames 60 "
-        "--codecs jpeg:quality=85 h264:crf=20,encoder=x264 h264:crf=20,preset=superfast h264:crf=20,preset=veryfast")
+        "--codecs jpeg:quality=85 h264:crf=20,encoder=x264 h264:crf=20,preset=superfast h264:crf=20,preset=veryfast",
+        quick=lambda row: True)
 def presets(program, table, row):
     codecs = presets.command.partition("--codecs ")[2].split()
     codec = program.codecs("color", program.sequence("table-person"), codecs, "--frames", 60)[row[0]]
@@ -222,7 +223,8 @@ def full_resolution(program, table, row):
     return {"kB": [kilobytes(codec)], "PSNR dB": [codec["psnr_db"]]}
 
 
-@Figure("docs/recording.md", "key frames", "theatron bench depth FOLDER --frames 60 --codecs strata trvl zstd:delta=1")
+@Figure("docs/recording.md", "key frames", "theatron bench depth FOLDER --frames 60 --codecs strata trvl zstd:delta=1",
+        quick=lambda row: row[1].startswith("h264"))
 def key_frames(program, table, row):
     kind = "color" if row[1].startswith("h264") else "depth"
     codecs = [row[1]] if kind == "color" else key_frames.command.partition("--codecs ")[2].split()

@@ -13,7 +13,7 @@ finish() {
     awk -F'\t' '{ printf "%-46s %8.0f %8.0f\n", $1, $2, $3 + $4; wall += $2; cpu += $3 + $4 }
         END { printf "%-46s %8.0f %8.0f\n", "together", wall, cpu }' "$table"
     rm -f "$table" "$table.step"
-    [ "$code" -eq 0 ] && echo "Every check holds." || echo "Failed in the last step above."
+    [ "$code" -eq 0 ] && echo "Every check of this run holds." || echo "Failed in the last step above."
 }
 trap finish EXIT
 
@@ -43,8 +43,9 @@ step "Directions of dependencies" tools/check_includes.py
 step "Build: release" build release
 step "Build: assertions, ASan, UBSan, fuzz targets" build dev --target unit_tests fuzzers
 step "Build: web modules with em++" build web
-# Long scenarios of images and geometry: the release build runs them, and here their parts are in other tests.
-long='CamerasOnOneArm.*:BlockRoom.AFarMotion*:BlockRoom.ACovered*:Watching.*:RaisedTable.*:LatticeDetectorOnRealData.*:RecordedBackground.*:Synth.TheCase*:BlockRoom.APersonBefore*:Synth.ALiverHas*:WatchedCamera.AnHour*'
+# Long scenarios: the release build runs them, and here their parts are in other tests. The modules registration, cases
+# and voice leave out others, by a filter in their CMakeLists.txt, which this one does not replace.
+long='RecordedBackground.*:WatchedCamera.AnHour*'
 [ "$all" = --all ] && long=
 step "Unit tests with assertions, ASan and UBSan" env GTEST_FILTER="-$long" ctest --preset dev
 if [ "$all" = --all ]; then

@@ -179,6 +179,7 @@ void OrScreenPicture::add_to(nlohmann::json& json) const {
                                               letters.bottom};
         json["or_screen"]["case"] = content.slice->case_name;
         json["or_screen"]["window"] = content.slice->window;
+        json["or_screen"]["notice"] = content.slice->notice;
     }
 }
 

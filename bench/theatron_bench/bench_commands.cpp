@@ -174,7 +174,7 @@ void add_color(CLI::App& bench) {
         bench, "color", "Colour codecs: size, speed and likeness, one thread", *flags);
     command->add_option("--tile", flags->tile, "Pictures repeated in space to this WIDTHxHEIGHT");
     command->add_option("--camera-noise", flags->camera_noise,
-                        "Codecs get what a camera with so much noise makes of the pictures, as "
+                        "Codecs get what a camera with this noise makes of the pictures, as "
                         "JPEG; 1.6 is usual");
     command->footer("Example: theatron bench color recordings/table --codecs jpeg:quality=85");
     command->callback([flags] {

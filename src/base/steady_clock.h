@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// This process's steady clock, in the type of the session clock. On the host
-// the two are the same clock; a participant adds the offset it estimated.
-// Read only by apps, benchmarks and threads of capture, send and record.
+// This process's steady clock, in the type of the session clock; on the host the two are the same,
+// and a participant adds the offset it estimated. Read by programs and by modules that own threads,
+// devices, sockets or windows; all others take the time as an argument.
 #pragma once
 
 #include "base/time.h"

@@ -16,7 +16,7 @@ namespace theatron::capture {
 namespace {
 
 constexpr double face_width_m = 0.28;
-// A picture may come so much before it is due, since cameras are uneven.
+// Share of the period by which a picture may come early, since cameras are uneven.
 constexpr double early_share = 0.2;
 constexpr const char* test_device = "test";
 

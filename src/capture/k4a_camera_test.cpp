@@ -65,7 +65,7 @@ protected:
         return k4a::start_camera(k4a::load_library(), k4a::take_settings(options), patience,
                                  std::move(clock));
     }
-    // When the camera has waited in vain, so much time passes, and none otherwise.
+    // When the camera has waited in vain, `time` passes, and none otherwise.
     Clock idle_takes(Duration time) {
         return {[this] { return clock_.now(); }, [this, time](Duration) { clock_.pass(time); }};
     }

@@ -32,7 +32,7 @@ using Kind = VideoAnswer::Kind;
 constexpr unsigned buffers_wanted = 4;
 // The largest that is asked for without a wish; a driver answers with what is nearest.
 constexpr Size usual_size{1920, 1080};
-// A rate of so much of the wanted one is enough.
+// Share of the wanted rate that is enough.
 constexpr double enough_rate = 0.9;
 constexpr std::size_t largest_buffer = std::size_t(64) << 20;
 

@@ -24,11 +24,11 @@ public:
 
     // For one address, until the publisher's certificate is checked.
     static constexpr Duration connect_patience = std::chrono::seconds(2);
-    // A connection without a frame for so long is made anew.
+    // A connection that gives no frame for this time is made anew.
     static constexpr Duration silence = std::chrono::seconds(2);
     static constexpr Duration first_pause = std::chrono::seconds(1);
     static constexpr Duration longest_pause = std::chrono::seconds(30);
-    // A connection that has lasted so long begins again with the first pause.
+    // A connection that has lasted for this time begins again with the first pause.
     static constexpr Duration proven = std::chrono::seconds(10);
     // Frames of one publisher that are not yet taken; one more is dropped.
     static constexpr std::size_t max_frames_waiting = 64;

@@ -39,7 +39,7 @@ const Receivers::value_type* find(const Receivers& receivers, ByteView greeting)
     return found;
 }
 
-// A frame that takes so much longer than the way itself.
+// A frame is late if it takes this much longer than the link's delay.
 constexpr Duration late = std::chrono::milliseconds(100);
 
 net::HttpAnswer nothing_here() {

@@ -251,7 +251,7 @@ public:
     // Adjusts a camera for all; kept within its limits. The answer is a Managed, too. Returns its
     // number; 0 while not joined, or where the host cannot do this.
     std::uint32_t adjust(CameraId camera, const session::CameraAdjustment& adjustment);
-    // Plays the recording that the host shows, for all. The answer is a Managed, too. Returns its
+    // Asks the host to play its recording, for all. The answer is a Managed, too. Returns its
     // number; 0 while not joined, or where the host cannot do this.
     std::uint32_t play(wire::PlayAction action, Duration position = {});
     // Where that recording is; empty: the host plays none.

@@ -16,7 +16,7 @@ namespace theatron::client {
 
 class SettledPlaces {
 public:
-    // A nudged calibration is recorded once it has stayed so long, or is nudged for so long.
+    // A nudged calibration is recorded once it `stays`, or is nudged for `longest_nudging`.
     static constexpr Duration stays = std::chrono::seconds(1);
     static constexpr Duration longest_nudging = std::chrono::seconds(10);
 

@@ -21,7 +21,7 @@ namespace {
 constexpr std::int64_t opus_delay = 312;
 // The head of a WAV file has sizes of 32 bits.
 constexpr Duration longest_wav = std::chrono::hours(12);
-// Packets of all tracks are taken for so long at once, which keeps those of a person in order.
+// Length of all tracks whose packets are taken at once, which keeps a person's in order.
 constexpr Duration at_once = std::chrono::milliseconds(500);
 
 std::map<ParticipantId, std::string> names_in(const record::RecordingFile& recording) {

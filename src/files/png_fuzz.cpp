@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes give a sentence or an image; re-encoding and decoding an image preserves it.
+// Any bytes give a sentence or an image within the limits of sizes; re-encoding and decoding an
+// image preserves it.
 #include <cstdlib>
 
 #include "files/png_file.h"
@@ -12,7 +13,8 @@ void check(theatron::ByteView input) {
     Image image, again;
     if (!files::decode_png(input, image).empty())
         return;
-    if (!files::decode_png(files::encode_png(image.view()), again).empty() || again != image)
+    if (!is_valid(image.size) ||
+        !files::decode_png(files::encode_png(image.view()), again).empty() || again != image)
         std::abort();
 }
 
@@ -21,8 +23,15 @@ void check(theatron::ByteView input) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace theatron;
     const auto input = std::as_bytes(std::span(data, size));
-    // Limits width and height, at fixed offsets, to 255: large pictures slow the search.
-    if (size >= 24 && (data[16] | data[17] | data[18] | data[20] | data[21] | data[22]) != 0)
+    // Width and height, at fixed offsets, beyond 255 slow the search and are left out, unless they
+    // are so large that they must be refused.
+    const auto side = [&](std::size_t at) {
+        return std::size_t(data[at]) << 24 | std::size_t(data[at + 1]) << 16 |
+               std::size_t(data[at + 2]) << 8 | data[at + 3];
+    };
+    const auto is_taken = [](std::size_t length) { return length <= std::size_t(max_side); };
+    if (size >= 24 && (side(16) > 255 || side(20) > 255) && is_taken(side(16)) &&
+        is_taken(side(20)))
         return 0;
     check<DepthImage>(input);
     check<ColorImage>(input);

@@ -23,7 +23,7 @@ struct Model {
     render::MeshData& of(Material material);
 
     // A box whose edges are rounded off by `bevel`, if that is more than 6 mm; large sides are
-    // divided, so that light at corners of triangles (bake.h) has somewhere to be.
+    // divided, so that light at corners of triangles (baked_light.h) has somewhere to be.
     void box(Material material, Vec3 low, Vec3 high, double bevel = 0.004);
     // The same by its middle, which is turned by `pose`.
     void turned_box(Material material, const Pose& pose, Vec3 size, double bevel = 0.004);

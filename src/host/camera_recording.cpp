@@ -11,7 +11,7 @@
 namespace theatron::host {
 namespace {
 
-// A camera that gives no picture for so long keeps the others waiting no more.
+// A camera that gives no picture for this time keeps the others waiting no more.
 constexpr Duration first_frame_patience = std::chrono::seconds(5);
 // At the end: for the last pictures of the cameras, which are still being encoded.
 constexpr Duration encoding_patience = std::chrono::milliseconds(1500);

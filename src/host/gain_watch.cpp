@@ -17,7 +17,7 @@ namespace theatron::host {
 namespace {
 
 constexpr int niceness_of_watch = 15;  // niceness
-// A camera that gives no picture for so long is not in this round.
+// A camera that gives no picture for this time is not in this round.
 constexpr Duration round_length = std::chrono::seconds(1);
 // Soon at first, so that viewers get gains before they have settled on their own.
 constexpr Duration first_pause = std::chrono::seconds(1), later_pause = std::chrono::seconds(10);

@@ -236,7 +236,7 @@ void Host::Impl::keep_for_next_time() {
 void Host::Impl::say_goodbye() {
     server->post([this] {
         has_ended = session->has_ended();
-        // Nobody at all counts as one who has left; closing may tell of others at once.
+        // A placeholder, so that `leaving` is not empty until all goodbyes are queued.
         constexpr net::PeerId nobody{};
         leaving.insert(nobody);
         session->end();

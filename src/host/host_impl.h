@@ -81,7 +81,7 @@ struct Host::Impl {
     std::map<CameraId, wire::CameraState> new_states;   // the same way; the newest of each
     std::map<CameraId, wire::CameraState> lane_states;  // as the lanes report them
     std::map<CameraId, wire::Text> misplaced;           // what place_watch says; by states_mutex
-    // As the log tells them: the problem is that of the time when the camera was last live.
+    // Last logged state of each camera; `problem` is kept from the time when it was last live.
     // Server's thread.
     std::map<CameraId, wire::CameraState> told_states;
     // Addresses of peers; server's thread.
@@ -128,7 +128,7 @@ struct Host::Impl {
         const Bytes* calibration = nullptr;  // of the recording, as it is shown
     };
     std::map<CameraId, PlayedCamera> played_cameras;  // server's thread
-    // That was told, with the transport's changes and rounds; server's thread.
+    // Last playback state that was sent to participants; server's thread.
     std::optional<capture::Transport::State> told_playback;
     std::unique_ptr<RoomReplay> replay;             // uses the lanes and the server
     std::unique_ptr<CaseShelf> cases;               // its thread posts to the server; may be null

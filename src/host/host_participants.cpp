@@ -10,8 +10,8 @@
 namespace theatron::host {
 namespace {
 
-// A participant reports ten times a second. One that was not heard for so long has stopped, or its
-// link is cut, although its connection is open.
+// A participant reports ten times a second. One that was not heard for this time has stopped, or
+// its link is cut, although its connection is open.
 constexpr Duration silent_publisher = std::chrono::seconds(2);
 
 wire::CameraCondition condition_here(const std::optional<wire::CameraState>& said, bool is_silent) {

@@ -45,7 +45,7 @@ net::HttpAnswer answer_lobby(const net::HttpRequest& request,
                              const std::vector<ClosedSession>& closed);
 
 // The same from a host, perhaps on another machine; its texts are clean. Throws Error, also if the
-// host does not answer for so long.
+// host does not answer within `patience`.
 nlohmann::json lobby_of_host(const net::Link& link, Duration patience = net::https_patience);
 // The picture of the link's session as PNG, or of another one in whose lobby it has this
 // `address`; nullopt if the host gives none. Throws Error.

@@ -24,7 +24,7 @@ public:
     // A change by this share is 5 of 255 steps on a grey wall; blended into each other, two cameras
     // whose colours differ by less show no border.
     static constexpr double visible = 0.04;
-    // A change that is published has stayed so long: a person who works beside a camera, or a lamp
+    // A change that lasts for this time is published: a person who works beside a camera, or a lamp
     // that is turned to it, is gone before. It also limits how often recordings begin segments.
     static constexpr Duration lasting = std::chrono::seconds(60);
 

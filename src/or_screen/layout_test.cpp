@@ -96,7 +96,7 @@ TEST(OrScreenLayout, ASliceHasItsLettersInsideAndItsTextsBelow) {
     for (const Size screen : {Size{1920, 1080}, Size{1280, 1024}, Size{1080, 1920}})
         for (const Size slice : {Size{512, 512}, Size{512, 200}, Size{200, 512}}) {
             const Layout one = layout({screen, {1280, 720}, 3, true});
-            const MonitorPlaces places = monitor_places(one.monitor, slice, 4, one.letter);
+            const MonitorPlaces places = monitor_places(one.monitor, slice, 6, one.letter);
             EXPECT_NEAR(places.picture.width / places.picture.height,
                         double(slice.width) / slice.height, 1e-9);
             std::vector<Rect> below(places.lines.begin(), places.lines.end());

@@ -286,6 +286,9 @@ void Painter::monitor(const Content& content, const Rect& rect,
         in_lines(fonts_.small, texts.case_name, float(rect.width) - letter_);
     const std::size_t of_name = lines.size();
     lines.insert(lines.end(), {texts.plane, texts.window});
+    for (const std::string& line :
+         in_lines(fonts_.small, texts.notice, float(rect.width) - letter_))
+        lines.push_back(line);
     const MonitorPlaces places = monitor_places(rect, slice->size(), lines.size(), letter_);
     list_.AddImage(xr::texture_of(slice->texture()), from(places.picture), to(places.picture));
     there_.clear();

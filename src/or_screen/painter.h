@@ -43,7 +43,7 @@ private:
               float wrap = 0);
     void centred(const ImFont* font, const Rect& rect, ImU32 color, const std::string& words);
     void badge(ImVec2 middle, Rgb color, const std::string& initials);
-    // Initials on their person's colour, if there are any, and words on a dark ground, beside `at`.
+    // `initials` (may be empty) on `color` and `words` on a dark ground, next to `at`, in `area`.
     void label(ImVec2 at, Rgb color, const std::string& initials, ImU32 words_color,
                const std::string& words, const Rect& area);
     void ring(ImVec2 at, ImU32 color, Sight sight);

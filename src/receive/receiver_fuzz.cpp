@@ -31,12 +31,12 @@ wire::Camera camera() {
 void set_settings(receive::Receiver& receiver, std::uint8_t choice) {
     static const char* const depth[] = {"strata", "trvl:layers=3",   "zstd:delta=1", "ans:delta=1",
                                         "lz4",    "strata:layers=3", "raw",          "nonsense"};
-    static const char* const color[] = {"jpeg", "raw"};
+    static const char* const color[] = {"jpeg", "raw", "h264", "jpeg"};
     const auto number = [](int n) { return SettingId(n); };
     try {
         receiver.set_settings(
             {{depth_stream(CameraId{0}), number(choice / 64), depth[choice % 8]},
-             {color_stream(CameraId{0}), number(choice / 64 + 1), color[choice / 8 % 2]}});
+             {color_stream(CameraId{0}), number(choice / 64 + 1), color[choice / 8 % 4]}});
     } catch (const Error&) {
         // A codec that there is not.
     }

@@ -3,7 +3,7 @@
 // gives those that can be decoded to the recorder, begins its segments, and counts
 // missing pictures.
 //
-// Pure except for the recorder: times are arguments. `now` is always the recording
+// Thread-safe; times are arguments. The recorder has a thread. `now` is always the recording
 // machine's own steady clock; the session's clock is only written into the file.
 #pragma once
 
@@ -31,9 +31,9 @@ public:
     // Time between two reports of a stream while more of it gets lost.
     static constexpr Duration news_interval = std::chrono::seconds(1);
 
-    // So long after a description without cameras the room begins a segment: people speak and point
-    // also then, and what comes meanwhile is kept for that segment. With cameras, if none has sent
-    // a picture so long after it.
+    // `camera_patience` after a description without cameras the room begins a segment: people speak
+    // and point also then, and what comes meanwhile is kept for that segment. With cameras, if none
+    // has sent a picture `picture_patience` after it.
     static constexpr Duration camera_patience = std::chrono::seconds(2),
                               picture_patience = std::chrono::seconds(5);
 

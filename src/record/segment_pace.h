@@ -15,7 +15,7 @@ public:
     static constexpr int at_once = 12;
     static constexpr Duration first_wait = std::chrono::seconds(10),
                               longest_wait = std::chrono::seconds(160);
-    // Without a segment for so long, all is as at first.
+    // After this time without a segment, all is as at first.
     static constexpr Duration calm = std::chrono::minutes(10);
 
     bool may_begin(TimePoint now) const { return left_ > 0 || now - newest_ >= wait_; }

@@ -232,7 +232,7 @@ std::string to_html(const RegistrationReport& report) {
     html += "<h2>Cameras</h2>" + camera_table(report);
 
     html +=
-        "<h2>Fixed errors of depth</h2><p class=note>A camera measures too far by so much. Bold: "
+        "<h2>Fixed errors of depth</h2><p class=note>A camera measures too far by this. Bold: "
         "larger than twice its uncertainty, so it was found; the others cannot be told from "
         "none.</p>" +
         error_table(report);

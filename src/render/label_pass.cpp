@@ -15,7 +15,7 @@ namespace {
 constexpr double padding = 0.55, plate_height = 2.0, apart = 0.9, rounding = 0.45;
 constexpr Rgb letters{240, 244, 244}, ground{16, 19, 22};
 constexpr double ground_opacity = 0.88;
-// Surfaces hide names where they are so much nearer to the eye.
+// Surfaces hide names only where they are nearer to the eye by this distance.
 constexpr double nearer_m = 0.1;
 
 struct Projected {

@@ -131,8 +131,8 @@ struct SceneLine {
     const SceneLineMesh* mesh = nullptr;
     Pose room_from_line;
     Rgb color;
-    // Surfaces hide it only where they are so much nearer to the eye, plus these metres a metre
-    // of distance: a measured surface's noise does not cut it.
+    // Surfaces hide it only where they are nearer to the eye by `nearer_m` and these metres a
+    // metre of distance: a measured surface's noise does not cut it.
     double nearer_m = 0, nearer_per_distance = 0;
     double hidden_opacity = 0;  // behind surfaces
     std::optional<Cut> cut = std::nullopt;

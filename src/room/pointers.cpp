@@ -11,7 +11,7 @@ constexpr double ball_m = 0.01;  // of the mesh, scaled below
 constexpr double dots_apart_m = 0.04, dot_m = 0.004;
 // The dot at the end.
 constexpr double end_m = 0.006, end_half_widths = 3;
-// Tested so much nearer than it is, as marks are: the surface's noise does not cover it.
+// It is tested nearer than it is, as marks are: the surface's noise does not cover it.
 constexpr double before_m = 0.02, before_per_distance = 0.01;
 
 }  // namespace

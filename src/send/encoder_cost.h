@@ -39,8 +39,8 @@ private:
 Duration expected_cost(std::string_view codec);
 
 // CPU time that a setting may take for a picture in addition to the cheapest setting, so that
-// `max_settings` more of depth and of colour together take at most three eighths of `threads`
-// threads, which `cameras` share.
+// SettingTable::max_active more of depth and of colour together take at most three eighths of
+// `threads` threads, which `cameras` share.
 inline constexpr int share_divisor = 16;
 constexpr Duration encoder_share(double frames_per_second, int threads, std::size_t cameras) {
     const double interval_us = 1e6 / (frames_per_second > 1 ? frames_per_second : 1);

@@ -144,7 +144,7 @@ LaneEncoders::Turn LaneEncoders::begin(Encoder& encoder, bool key) {
     // A new one may have waited behind others until it was measured.
     const bool changed =
         encoder.cost.known() && encoder.keeping_up.on_picture(!encoder.busy || encoder.at_once);
-    // Too dear to catch up: the newest picture wins.
+    // The encoder cannot keep up: waiting pictures are dropped.
     std::deque<std::function<void()>> given_up;
     const bool may_wait = !encoder.cost.known() || encoder.at_once;
     if (!may_wait)

@@ -27,7 +27,7 @@ public:
     static constexpr Duration first_bar = std::chrono::seconds(2),
                               first_shared_bar = std::chrono::seconds(30),
                               longest_bar = std::chrono::minutes(10);
-    // One that has stayed so long begins again with the first.
+    // A receiver that has stayed for this time begins again with the first bar.
     static constexpr Duration proven = std::chrono::minutes(2);
 
     bool may_come(const Bytes& receiver, TimePoint now) const;

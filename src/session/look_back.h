@@ -22,7 +22,7 @@ namespace theatron::session {
 
 class LookBack {
 public:
-    // A shorter look is one at the present.
+    // Below this the receiver is shown the present.
     static constexpr Duration least = std::chrono::seconds(1);
 
     // `streams` and `actions` must outlive it.

@@ -17,7 +17,7 @@ class PoseTrack {
 public:
     // A pose moves on past the newest one that arrived for this long at most, then it stops.
     static constexpr Duration extrapolation_time = std::chrono::milliseconds(100);
-    // The displayed moment is at most so much older than now, however late poses arrive.
+    // Upper bound of the playout delay, however late poses arrive.
     static constexpr Duration largest_delay = std::chrono::milliseconds(150);
     // Two poses that follow each other at a higher speed of the head (metres a second) and over a
     // longer way (metres) than these belong to a teleport.

@@ -48,7 +48,7 @@ public:
         unshared,    // share_ended(): others have ended screens of this participant
         encode,      // encode(): how to encode the cameras that this participant publishes
         encode_key,  // encode_key(): the host requests a key frame of one of them
-        room,        // room(): a message for a SharedRoom
+        room,        // room(): a message for MemberRoom
         waiting,     // an operator decides first; welcomed or refused follows
         standing,    // standing(): this participant's role
         visitors,    // visitors(): the people who wait for this operator

@@ -12,7 +12,7 @@ namespace {
 
 // The surface in front is found in cells of the rectangle, larger than the gaps between points.
 constexpr int cells = 48;
-// Points that lie so much behind the nearest one of their cell are another surface.
+// Points this far behind the nearest one of their cell are another surface.
 constexpr double behind_m = 0.1, behind_share = 0.05;
 
 struct RegionSight {

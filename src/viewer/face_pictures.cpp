@@ -38,7 +38,7 @@ void FacePictures::take(const receive::CameraFrame& frame, TimePoint now) {
     face.is_new = true;
 }
 
-// Its publisher tells when a picture was captured: one of the future is as old as its arrival.
+// Age counts from capture or arrival, whichever is earlier: a publisher's clock may be ahead.
 bool FacePictures::note(TimePoint now) {
     bool changed = false;
     for (auto& [camera, face] : faces_) {

@@ -34,7 +34,7 @@ struct RoomChoice {
 // Use from one thread, with the same GL context current.
 class LiveScene {
 public:
-    // With its number, which camera it is.
+    // Session and name; with the camera's number it identifies a camera.
     using Origin = std::pair<wire::SessionId, std::string>;
 
     explicit LiveScene(RoomChoice choice, std::vector<SeenPerson> people = {})

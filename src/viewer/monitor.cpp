@@ -233,9 +233,10 @@ void Monitor::add_slice_facts(render::SceneFrame& frame, const session::RoomObje
     char text[120];
     std::snprintf(text, sizeof(text), "%g mm", ruler.length_mm);
     facts.write(text, -half.x + 0.02, half.y - 0.026, fact_m);
-    facts.write(texts.case_name + "  " + texts.series, -half.x + 0.01, half.y + 0.42 * bar_m,
+    facts.write(texts.case_name + "  " + texts.series, -half.x + 0.01, half.y + 0.3 * bar_m,
                 fact_m);
-    facts.write(texts.plane + "  " + texts.window, -half.x + 0.01, half.y + 0.86 * bar_m, fact_m);
+    facts.write(texts.plane + "  " + texts.window, -half.x + 0.01, half.y + 0.61 * bar_m, fact_m);
+    facts.write(texts.notice, -half.x + 0.01, half.y + 0.92 * bar_m, fact_m);
 }
 
 void Monitor::add_picture_facts(render::SceneFrame& frame,

@@ -28,7 +28,7 @@ SlicePicture slice_picture(const medical::Volume& volume, const session::CaseScr
 class Monitor {
 public:
     // The picture's larger side, and the bar at its lower edge by which it is held.
-    static constexpr double side_m = 0.5, bar_m = 0.04;
+    static constexpr double side_m = 0.5, bar_m = 0.058;
 
     void take(const std::optional<session::CaseInRoom>& room, const client::OpenCase* content);
     void add_to(render::SceneFrame& frame, const session::CaseInRoom& room, Vec3 middle_mm,

@@ -19,8 +19,8 @@ public:
     // The poses of a moving object that are kept lie so far apart.
     static constexpr Duration step = std::chrono::milliseconds(100);
 
-    // The objects at `now`, in session time. A time before that of the last call begins anew, since
-    // it is of another session.
+    // The objects at `now`, in session time. If `now` goes backwards (another session), the past is
+    // cleared.
     void note(const session::RoomObjects& objects, TimePoint now);
 
     // The objects of this moment, without people. Empty for a moment before the first call.

@@ -22,10 +22,13 @@ std::string number(const char* format, double value) {
 
 SliceTexts slice_texts(const medical::SlicePlane& plane, const session::CaseScreen& shown,
                        std::string case_name, std::string series) {
-    return {medical::edge_letters(plane), std::move(case_name), std::move(series),
+    return {medical::edge_letters(plane),
+            std::move(case_name),
+            std::move(series),
             say(Phrase::slice_place, say(orientation_names[shown.orientation]),
                 number("%.1f", shown.position_mm)),
-            say(Phrase::slice_window, number("%.0f", shown.center), number("%.0f", shown.width))};
+            say(Phrase::slice_window, number("%.0f", shown.center), number("%.0f", shown.width)),
+            say(Phrase::slice_notice)};
 }
 
 }  // namespace theatron::viewer

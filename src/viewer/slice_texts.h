@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The texts around a slice of a case's images, which tell sides, case, place and greys. Pure.
+// The texts around a slice of a case's images: sides, case, place, greys and their purpose. Pure.
 #pragma once
 
 #include <string>
@@ -14,6 +14,7 @@ struct SliceTexts {
     std::string case_name, series;
     std::string plane;   // "axial 110.0 mm"
     std::string window;  // "L 40  W 400"
+    std::string notice;  // "Not for diagnosis"
 };
 
 // `plane` is that of the picture which is shown: the letters are of its own directions.

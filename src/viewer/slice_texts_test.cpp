@@ -121,5 +121,9 @@ TEST(SliceTexts, CasePlaceAndWindowAreTold) {
     EXPECT_EQ(texts.window, "L 60  W 400");
 }
 
+TEST(SliceTexts, EachSaysThatItIsNotForDiagnosis) {
+    EXPECT_EQ(slice_texts({}, {}, "", "").notice, "Not for diagnosis");
+}
+
 }  // namespace
 }  // namespace theatron::viewer

@@ -9,7 +9,7 @@ namespace theatron::viewer {
 namespace {
 
 constexpr int meter_marks = 5;
-// The first mark is at a level that counts as speech, and each further one so much above it.
+// The first mark is at a level that counts as speech, and each further one a step above it.
 constexpr int first_mark_db = -50, mark_step_db = 10;
 
 }  // namespace

@@ -43,7 +43,7 @@ struct MenuFacts {
     std::string past = {};                 // as in Facts
 };
 
-// At most `most_people` of them; the text of the last row says how many more there are.
+// At most `most_menu_people` rows name people; the last one's text says how many more there are.
 inline constexpr std::size_t most_menu_people = 6;
 std::vector<MenuRow> menu_rows(const MenuFacts& facts);
 

@@ -66,7 +66,7 @@ Packet tone_packet(std::uint32_t number, int frame_ms = 20) {
     return packet;
 }
 
-// Blocks of 10 ms are pulled until `end`; `ppm`: the listener's sound card is so much faster.
+// Blocks of 10 ms are pulled until `end`; `ppm`: how much faster the listener's sound card is.
 struct SoundCard {
     double ppm = 0;
     double next_us = 0;

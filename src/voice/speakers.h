@@ -15,8 +15,8 @@ namespace theatron::voice {
 // Reads no clock; use from one thread at a time.
 class Speakers {
 public:
-    // A frame of this level counts as speech. A person speaks until there was none for so long, so
-    // that the display does not flicker between words.
+    // A frame of this level counts as speech. A person speaks until there was none for
+    // `pause`, so that the display does not flicker between words.
     static constexpr int speech_db = -50;
     static constexpr Duration pause = std::chrono::milliseconds(900);
     // The first frames alone may be a cough or a knock at the table.

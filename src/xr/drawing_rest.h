@@ -36,11 +36,11 @@ public:
     // Time without a lost frame before more is drawn: twice as long after each time that this was
     // too much, and the first again once it was not for `held`.
     static constexpr Duration first_patience = 4s, longest_patience = 256s, held = 60s;
-    // More was too much if frames become `times_as_old` as old and older by `more_ms`, which they
-    // do before any is lost.
+    // A step up is undone if the age of frames grows `times_as_old`-fold and by `more_ms`, which
+    // happens before any is lost.
     static constexpr double times_as_old = 2, more_ms = 20;
-    // Time of the last step after which there must be `gain` times the earlier frames; else each
-    // picture is drawn for `first_pause`, then for twice as long.
+    // Within `proof` after the last step the frame rate must reach `gain` times the earlier one;
+    // else each picture is drawn for `first_pause`, then for twice as long.
     static constexpr Duration proof = 8s, first_pause = 30s, longest_pause = 480s;
     static constexpr double gain = 1.1;
 

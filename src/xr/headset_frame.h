@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The state of a headset for one picture, in plain values, as its runtime (WebXR, OpenXR) tells it.
+// The state of a headset for one picture, in plain values, as WebXR tells it.
 //
 // All poses are in the tracking space: metres, y up, the floor at y = 0, parts look along -z.
 #pragma once

@@ -18,7 +18,7 @@ namespace {
 
 // Windows narrower than this, in half text heights, show one row of facts.
 constexpr float small_window_units = 80;
-// Beside pictures, panels take at most so much of the window's width.
+// Share of the window's width that panels take at most beside pictures.
 constexpr float panels_beside_pictures = 0.5f;
 // A text is not broken because its own width was rounded.
 constexpr float rounding = 1;
@@ -27,7 +27,7 @@ constexpr float panel_padding = 1.4f, slider_units = 22;
 // A panel has this width whatever its texts say, so that its buttons stay in their places; it is
 // wider only for its buttons. Longer texts have several lines.
 constexpr float panel_units = 33, least_text_units = 12, slider_text_units = 21;
-// Labels of the bar may be so much smaller than other small texts.
+// Least size of the bar's labels, as a factor of other small texts.
 constexpr float least_label_scale = 0.6f;
 
 }  // namespace
@@ -160,8 +160,8 @@ float Overlay::Parts::notice_end(const std::string& words, float top) const {
     return words.empty() ? top : top + measure(normal, words, window.x * 0.8f).y + 3 * unit;
 }
 
-// Where the middle of so wide a thing is so that it covers nothing beside these two; nullopt: it is
-// too wide.
+// Horizontal centre of a part of this width, kept between `from` and `to`; nullopt: it is too
+// wide.
 std::optional<float> Overlay::Parts::middle_of(float width, float from, float to) const {
     if (width > to - from)
         return std::nullopt;

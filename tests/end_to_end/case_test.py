@@ -289,6 +289,7 @@ class Case(unittest.TestCase):
                         and f["or_screen"]["window"] == "L 60  W 350")["or_screen"]
                     self.assertEqual("".join(shown["slice_letters"]), letters)
                     self.assertEqual(shown["case"], "Made liver")
+                    self.assertEqual(shown["notice"], "Not for diagnosis")
             screen.say("quit")
             self.assertEqual(screen.end(), 0, screen.errors)
         width, height, channels, rows = read_png(file)

@@ -33,12 +33,13 @@ def patient():
                                    "PatientBirthDate": "19610203", "PatientID": "AB-4711"}]}).encode()
 
 
-def png(color=2, depth=8, channels=3, interlaced=0, chunks=()):
+def png(color=2, depth=8, channels=3, interlaced=0, chunks=(), size=(4, 3)):
+    """`size` is what it announces; its pixels are those of 4 x 3."""
     def chunk(kind, body):
         return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
     width, height = 4, 3
     row = b"\0" + bytes(range(width * channels * depth // 8))
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">2I5B", width, height, depth, color, 0, 0, interlaced))
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">2I5B", *size, depth, color, 0, 0, interlaced))
             + b"".join(chunk(kind, body) for kind, body in chunks) + chunk(b"IDAT", zlib.compress(row * height))
             + chunk(b"IEND", b""))
 
@@ -52,5 +53,6 @@ def seeds():
         yield "manifest_fuzz", name, one
     yield "patient_texts_fuzz", "plain", patient()
     for name, one in (("rgb", png()), ("rgba", png(6, 8, 4)), ("grey", png(0, 8, 1)), ("deep", png(2, 16, 3)),
-                      ("table", png(3, 8, 1, chunks=[(b"PLTE", bytes(range(48)))]))):
+                      ("table", png(3, 8, 1, chunks=[(b"PLTE", bytes(range(48)))])),
+                      ("wide", png(size=(65_536, 4))), ("huge", png(size=(40_000, 40_000)))):
         yield "picture_reader_fuzz", name, one

@@ -20,6 +20,7 @@ import dicom_inputs  # noqa: E402
 import folder_inputs  # noqa: E402
 import label_inputs  # noqa: E402
 import mesh_inputs  # noqa: E402
+import own_seeds  # noqa: E402
 from expected import problem  # noqa: E402
 
 LEAST = 200
@@ -55,7 +56,7 @@ def write_seeds(folder):
             path = folder / target / plain_name(one.name)
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_bytes(data)
-    for target, name, data in case_seeds.seeds():
+    for target, name, data in (*case_seeds.seeds(), *own_seeds.seeds()):
         path = folder / target / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(data)
@@ -92,6 +93,14 @@ class ForeignFiles(unittest.TestCase):
         names = [one.name for one in inputs()]
         self.assertGreaterEqual(len(names), LEAST)
         self.assertEqual(len(set(names)), len(names))
+
+    def test_each_fuzz_target_begins_with_files(self):
+        root = pathlib.Path(__file__).resolve().parents[2]
+        with tempfile.TemporaryDirectory() as folder:
+            write_seeds(pathlib.Path(folder))
+            seeded = {path.name for path in pathlib.Path(folder).iterdir()}
+        seeded |= {path.name.removesuffix(".tar.gz") for path in (root / "tests/corpus").iterdir()}
+        self.assertEqual(seeded, {path.stem for folder in ("src", "apps", "tests") for path in root.glob(f"{folder}/*/*_fuzz.cpp")})
 
 
 def main():

@@ -8,7 +8,7 @@ uniform float pixels_per_slope;  // the width of a metre at a distance of one me
 uniform float least_radius;      // pixels
 uniform float outline;           // pixels around the piece
 uniform float near_m;
-uniform vec2 nearer;             // metres, and metres a metre of distance: it is tested so much nearer than it is
+uniform vec2 nearer;             // metres, and metres a metre of distance: it is tested as nearer by this distance
 uniform vec2 depth_from_w;       // window depth of distance w: x + y / w
 uniform vec4 cut;                // normal and distance of the plane behind which nothing is drawn
 
