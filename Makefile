@@ -27,7 +27,7 @@ setup:
 
 program: setup
 	@cmake --preset release > /dev/null
-	@cmake --build --preset release --target theatron
+	@cmake --build --preset release --target theatron manual
 	@if command -v em++ > /dev/null; then cmake --preset web > /dev/null && cmake --build --preset web --target page; \
 	else echo "build: em++ is missing, so the host has no browser client"; fi
 

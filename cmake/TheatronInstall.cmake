@@ -4,7 +4,8 @@
 #   program  bin/theatron, manual pages, completion of bash and zsh
 #   page     the browser client, share/theatron/page; the program finds it from its own place (src/host/page.h)
 #   desktop  menu entry, kinds of files, icon, MetaInfo
-#   server   unit, user, folders, devices of cameras, AppArmor profile, examples of configurations
+#   server   unit, user, folders, devices of cameras, AppArmor profile, examples of configurations; for the prefix /usr,
+#            where the unit has its program
 #   doc      docs/
 include(GNUInstallDirs)
 set(THEATRON_PAGE ${CMAKE_SOURCE_DIR}/build/web/apps/web/page CACHE PATH "The browser client that is installed: packed by the web preset")
@@ -39,7 +40,7 @@ install(FILES ${packaging}/theatron-host@.service DESTINATION lib/systemd/system
 install(FILES ${packaging}/theatron.sysusers DESTINATION lib/sysusers.d RENAME theatron.conf COMPONENT server)
 install(FILES ${packaging}/theatron.tmpfiles DESTINATION lib/tmpfiles.d RENAME theatron.conf COMPONENT server)
 install(FILES ${packaging}/theatron.rules DESTINATION lib/udev/rules.d RENAME 60-theatron.rules COMPONENT server)
-install(FILES ${packaging}/theatron-host.apparmor DESTINATION ${CMAKE_INSTALL_FULL_SYSCONFDIR}/apparmor.d RENAME theatron-host
+install(FILES ${packaging}/theatron-host.apparmor DESTINATION ${CMAKE_INSTALL_SYSCONFDIR}/apparmor.d RENAME theatron-host
   COMPONENT server)
 install(FILES ${packaging}/operating-room.conf ${packaging}/cameras.conf
   DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/theatron-server/examples COMPONENT server)

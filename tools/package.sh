@@ -9,10 +9,14 @@ folder=$PWD/build/packages
 rm -rf "$folder"
 mkdir -p "$folder"
 
-systemd-analyze verify --man=no packaging/theatron-host@.service 2>&1 | grep -v 'is not executable: No such file' || true
+fail() { echo "package: $1" >&2; exit 1; }
+
+# The program is not installed here; nothing else may be said of the unit.
+said=$(systemd-analyze verify --man=no packaging/theatron-host@.service 2>&1 | grep -v 'theatron is not executable: No such file' || true)
+[ -z "$said" ] || fail "the unit: $said"
 systemd-analyze security --offline=true --threshold=15 packaging/theatron-host@.service > /dev/null ||
-    { echo "package: the unit is more exposed than 1.5: systemd-analyze security --offline=true packaging/theatron-host@.service" >&2; exit 1; }
-apparmor_parser -Q packaging/theatron-host.apparmor 2> /dev/null
+    fail "the unit is more exposed than 1.5: systemd-analyze security --offline=true packaging/theatron-host@.service"
+apparmor_parser -Q packaging/theatron-host.apparmor
 desktop-file-validate packaging/*.desktop
 # The project has no domain of which its name could be a part.
 appstreamcli validate --no-net --override=cid-desktopapp-is-not-rdns=info packaging/theatron.metainfo.xml > /dev/null
@@ -22,5 +26,9 @@ dh_clean
 THEATRON_DEB_FOLDER=$folder dpkg-buildpackage --build=binary --unsigned-changes --unsigned-buildinfo --no-pre-clean \
     --buildinfo-option="-u$folder" --changes-option="-u$folder" \
     --buildinfo-file="$folder/theatron.buildinfo" --changes-file="$folder/theatron.changes"
+web=build/web/apps/web
+[ -s "$web/page/files.txt" ] || fail "the packages have no page: $web/page/files.txt is missing"
+[ -z "$(tr -d '[:space:]' < "$web/missing.txt")" ] ||
+    fail "the page lacks $(cat "$web/missing.txt"), which tools/library_sources.sh fetches"
 lintian --fail-on error "$folder"/*.deb
 ls -l "$folder"/*.deb

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Installs the packages of `make package` into a Debian 12 that has nothing else, hosts a session there without any
-# network but loopback, fetches its page, and purges them again. The root is made in FOLDER, in namespaces of its own,
+# network but loopback, fetches its page, joins, and purges them again. The root is made in FOLDER, in namespaces of its own,
 # and removed afterwards.
 # Usage, as root: packages_root.sh [FOLDER=/var/tmp/theatron_packages]     Exit code 77: no root can be made here
 set -euo pipefail
@@ -54,26 +54,44 @@ inside "apt-get update -q && apt-get install -y -q --no-install-recommends /pack
 inside "id theatron" > /dev/null || fail "the package made no user"
 [ "$(inside 'stat -c %a:%U:%G /etc/theatron')" = 750:root:theatron ] || fail "/etc/theatron has other rights"
 
-# In the room's order: the example is checked, a host runs with it as its own user, the page comes, another user is kept out.
+# In the order of docs/service.md: the example is checked as the host's user and with a mistake, a host runs with it as
+# that user, the page comes, somebody joins without FFmpeg, and another user is kept out.
 host() {
+    local pid page code=0
     ip link set lo up
-    inside "cp /usr/share/doc/theatron-server/examples/operating-room.conf /etc/theatron/or.conf
-        sed -i 's/^listen = .*/listen = 127.0.0.1:4400/; s/^#json = no/json = yes/' /etc/theatron/or.conf
-        chgrp theatron /etc/theatron/or.conf && theatron host --config /etc/theatron/or.conf --check-config
-        install -d -o theatron -g theatron -m 0700 /var/lib/theatron/or"
-    inside "exec setpriv --reuid theatron --regid theatron --init-groups \
-        theatron host --state /var/lib/theatron/or --config /etc/theatron/or.conf" > "$folder/greeting" &
-    for _ in $(seq 300); do
+    inside "set -e
+        install -m 0640 -g theatron /usr/share/doc/theatron-server/examples/operating-room.conf /etc/theatron/or.conf
+        sed -i 's/^listen = .*/listen = 127.0.0.1:4400/; s/^#json = no/json = yes/; s/^#camera = k4a:0/camera = synthetic/' \
+            /etc/theatron/or.conf
+        runuser -u theatron -- theatron host --config /etc/theatron/or.conf --check-config
+        install -d -o theatron -g theatron -m 0700 /var/lib/theatron/or" || fail "the example cannot be used"
+    inside "sed 's/^session = .*/sesion = OR 3/' /etc/theatron/or.conf > /tmp/wrong.conf
+        theatron host --config /tmp/wrong.conf --check-config 2> /tmp/mistakes" && fail "a mistake is not told"
+    grep -q ': sesion: there is no such option' "$folder/tmp/mistakes" || fail "a mistake is told otherwise"
+    # The process itself, which a signal reaches.
+    chroot "$folder" /usr/bin/env -i "${environment[@]}" HOME=/var/lib/theatron/or \
+        setpriv --reuid theatron --regid theatron --init-groups \
+        theatron host --state /var/lib/theatron/or --config /etc/theatron/or.conf > "$folder/greeting" &
+    pid=$!
+    for _ in $(seq 600); do
         [ ! -s "$folder/greeting" ] || break
         sleep 0.1
     done
     grep -q '"link"' "$folder/greeting" || fail "the host did not start"
     [ "$(curl -sk -o /dev/null -w '%{http_code}' https://127.0.0.1:4400/health)" = 200 ] || fail "/health is not 200"
-    curl -sk https://127.0.0.1:4400/ | grep -qi '<!doctype html' || fail "the page is not served"
+    page=$folder/tmp/page.html
+    curl -sk -o "$page" https://127.0.0.1:4400/ || fail "the page is not served"
+    grep -qi '<!doctype html' "$page" || fail "the page is no page"
+    ! ls "$folder"/usr/lib/*/libavcodec.so* > /dev/null 2>&1 || fail "FFmpeg is there, so nothing shows that it may be absent"
+    inside "set -e
+        runuser -u theatron -- theatron link --show expert --state /var/lib/theatron/or > /tmp/link
+        theatron join @/tmp/link --seconds 3 --json" > "$folder/joined" || fail "nobody can join"
+    grep -qE '"frames": ?[1-9]' "$folder/joined" || fail "a participant got no picture"
     inside "setpriv --reuid nobody --regid nogroup --clear-groups ls /var/lib/theatron" > /dev/null 2>&1 &&
         fail "another user can read the state"
-    kill %1
-    wait %1 || fail "the host did not end well"
+    kill "$pid"
+    wait "$pid" || code=$?
+    [ "$code" -eq 0 ] || fail "the host did not end well ($code)"
 }
 say "a host with its page, with loopback only"
 unshare --net bash -c "set -euo pipefail; $(declare -f inside host fail); $(declare -p environment folder); host"

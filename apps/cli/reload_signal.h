@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// SIGHUP to a service, which has no terminal that could be gone: it looks at its files again.
+// SIGHUP to a service, which has no terminal that could be gone: it looks at its files again. For a
+// program that a service manager has started (service_notice.h).
 #pragma once
 
 namespace theatron::cli {

@@ -2,6 +2,7 @@
 #include "cli/service_notice.h"
 
 #include <sys/socket.h>
+#include <sys/time.h>
 #include <sys/un.h>
 #include <unistd.h>
 
@@ -16,6 +17,9 @@
 
 namespace theatron::cli {
 namespace {
+
+// A manager that reads nothing for so long does without the message.
+constexpr timeval patience{.tv_sec = 1, .tv_usec = 0};
 
 std::optional<std::int64_t> number_of(const char* text) {
     if (!text)
@@ -45,7 +49,9 @@ ServiceNotice::ServiceNotice(const char* socket, std::optional<Duration> watchdo
     // The first byte of an abstract name is 0.
     if (address_.front() == '@')
         address_.front() = '\0';
-    socket_ = ::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+    socket_ = ::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+    if (socket_ >= 0)
+        setsockopt(socket_, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof(patience));
 }
 
 ServiceNotice ServiceNotice::of_environment() {
@@ -72,6 +78,10 @@ void ServiceNotice::ready(const std::string& status) {
     send("READY=1\nSTATUS=" + status);
 }
 
+void ServiceNotice::status(const std::string& status) {
+    send("STATUS=" + status);
+}
+
 void ServiceNotice::reloading(TimePoint now) {
     const auto time = std::chrono::duration_cast<std::chrono::microseconds>(now.time_since_epoch());
     send("RELOADING=1\nMONOTONIC_USEC=" + std::to_string(time.count()));
@@ -85,17 +95,18 @@ void ServiceNotice::alive(TimePoint now) {
     if (!watchdog_ || (told_alive_ && now - *told_alive_ < *watchdog_))
         return;
     told_alive_ = now;
-    send("WATCHDOG=1");
+    // The next one comes soon, and what the program does must not wait for it.
+    send("WATCHDOG=1", MSG_DONTWAIT);
 }
 
-void ServiceNotice::send(const std::string& message) const {
+void ServiceNotice::send(const std::string& message, int flags) const {
     if (socket_ < 0)
         return;
     sockaddr_un to{};
     to.sun_family = AF_UNIX;
     std::copy(address_.begin(), address_.end(), to.sun_path);
     const auto length = socklen_t(offsetof(sockaddr_un, sun_path) + address_.size());
-    (void)sendto(socket_, message.data(), message.size(), MSG_NOSIGNAL,
+    (void)sendto(socket_, message.data(), message.size(), MSG_NOSIGNAL | flags,
                  reinterpret_cast<const sockaddr*>(&to), length);
 }
 

@@ -17,7 +17,8 @@ namespace theatron::cli {
 // be null, as an environment's variables may.
 std::optional<Duration> watchdog_interval(const char* microseconds, const char* pid, pid_t own);
 
-// One thread. A manager that is gone or busy is not waited for, and its absence is no problem.
+// One thread. A manager that is busy is waited for a second at most, with alive() not at all, and
+// its absence is no problem.
 class ServiceNotice {
 public:
     // `socket`: a path, or @NAME of an abstract one; null or another text: nobody is told.
@@ -30,14 +31,17 @@ public:
     ServiceNotice(const ServiceNotice&) = delete;
     ServiceNotice& operator=(const ServiceNotice&) = delete;
 
+    // True if somebody is told.
+    bool has_manager() const { return socket_ >= 0; }
     void ready(const std::string& status);
+    void status(const std::string& status);  // what people are shown, once ready
     void reloading(TimePoint now);
     void stopping();
     // Call it often; it says that all is well when that is due.
     void alive(TimePoint now);
 
 private:
-    void send(const std::string& message) const;
+    void send(const std::string& message, int flags = 0) const;
 
     std::string address_;
     int socket_ = -1;

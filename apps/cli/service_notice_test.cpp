@@ -6,9 +6,11 @@
 #include <sys/un.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <cstring>
+#include <thread>
 
 #include "testing/temporary_folder.h"
 
@@ -49,6 +51,8 @@ TEST(ServiceNotice, TellsTheManagerOnceEach) {
     ServiceNotice notice(path.c_str(), std::nullopt);
     notice.ready("Two sessions");
     EXPECT_EQ(manager.take(), "READY=1\nSTATUS=Two sessions");
+    notice.status("Three sessions");
+    EXPECT_EQ(manager.take(), "STATUS=Three sessions");
     notice.reloading(begin);
     EXPECT_EQ(manager.take(), "RELOADING=1\nMONOTONIC_USEC=1000000000");
     notice.stopping();
@@ -78,7 +82,31 @@ TEST(ServiceNotice, SaysTwiceInTheWatchdogsTimeThatAllIsWell) {
     EXPECT_EQ(manager.take(), "WATCHDOG=1");
 }
 
+TEST(ServiceNotice, ABusyManagerStillHearsOfTheEnd) {
+    const testing::TemporaryFolder folder;
+    const std::string path = folder.path() / "notify";
+    const NoticeManager manager(path);
+    ServiceNotice notice(path.c_str(), watchdog_interval("2", nullptr, 1));
+    // More than any queue of datagrams holds, and none of them waits for room.
+    for (int i = 0; i < 2000; ++i)
+        notice.alive(begin + std::chrono::milliseconds(i));
+    std::string last;
+    std::atomic<bool> is_told{false};
+    std::thread reader([&] {
+        for (bool is_last = false; !is_last;) {
+            is_last = is_told;
+            for (std::string next = manager.take(); !next.empty(); next = manager.take())
+                last = next;
+        }
+    });
+    notice.stopping();
+    is_told = true;
+    reader.join();
+    EXPECT_EQ(last, "STOPPING=1");
+}
+
 TEST(ServiceNotice, WithoutAManagerNothingHappens) {
+    EXPECT_FALSE(ServiceNotice(nullptr, std::nullopt).has_manager());
     ServiceNotice(nullptr, std::nullopt).stopping();
     ServiceNotice("/nonexistent/notify", std::nullopt).ready("");
     ServiceNotice("relative", std::nullopt).ready("");

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/lasting_error.h"
 #include "base/options.h"
+#include "capture/camera_kind.h"
 #include "capture/cropped_camera.h"
 #include "capture/face_camera.h"
 #include "capture/faulty_camera.h"
@@ -79,19 +80,28 @@ std::string advice_on_path(const std::string& path) {
     return "";
 }
 
-}  // namespace
-
-std::unique_ptr<Camera> open_camera(std::string_view specification, const Progress& progress) {
-    Options options = Options::parse(specification);
+// Throws Error if there is none.
+const Kind& kind_of(const Options& options, std::string_view specification) {
     for (const Kind& kind : kinds)
         if (options.kind() == kind.name)
-            return open(kind, options, progress);
+            return kind;
     if (const std::string advice = advice_on_path(std::string(specification)); !advice.empty())
         throw LastingError(advice);
     std::string names;
     for (const Kind& kind : kinds)
         names += (names.empty() ? "" : ", ") + std::string(kind.name);
     throw LastingError("There is no camera '" + options.kind() + "'; there are " + names + ".");
+}
+
+}  // namespace
+
+void check_camera_kind(std::string_view specification) {
+    (void)kind_of(Options::parse(specification), specification);
+}
+
+std::unique_ptr<Camera> open_camera(std::string_view specification, const Progress& progress) {
+    Options options = Options::parse(specification);
+    return open(kind_of(options, specification), options, progress);
 }
 
 std::vector<std::string> camera_kinds() {

@@ -38,8 +38,10 @@ void parse_line(std::string_view text, int number, ConfigText& config) {
     const std::size_t equals = text.find('=');
     const std::string_view key = trimmed(text.substr(0, equals));
     if (!is_key(key)) {
-        const std::string shown = clean_text(key, shown_characters);
-        if (key.starts_with("--") && is_key(key.substr(2)))
+        // Behind the first word may stand a token.
+        const std::string shown =
+            clean_text(key.substr(0, key.find_first_of(" \t:")), shown_characters);
+        if (shown.starts_with("--") && is_key(shown.substr(2)))
             return refuse("", "write '" + shown.substr(2) + "' without the hyphens before it");
         if (key.starts_with("["))
             return refuse("", "there are no sections; another 'session = NAME' begins one");

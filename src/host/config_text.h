@@ -5,7 +5,7 @@
 //   # the operating room at the end of the corridor
 //   session = OR 3
 //   camera = k4a:0
-//   hsts = yes
+//   link-hours = 12
 //
 // A line that begins with # is a comment, also after spaces; elsewhere # is a part of the value.
 // Spaces around key and value do not count; a value in "..." keeps its own. Lines hold in their

@@ -47,10 +47,23 @@ TEST(ConfigText, EachMistakeIsToldWithLineAndKey) {
               "or.conf:2: camera: there is no value; leave the line out for the usual one.\n"
               "or.conf:3: write 'hsts' without the hyphens before it.\n"
               "or.conf:4: there are no sections; another 'session = NAME' begins one.\n"
-              "or.conf:5: 'What is this' is no key; lines are KEY = VALUE.\n"
+              "or.conf:5: 'What' is no key; lines are KEY = VALUE.\n"
               "or.conf:6: session: the value begins with \" and does not end with it.\n"
               "or.conf:7: session: the value ends with \" and does not begin with it.\n"
               "or.conf:8: listen: the value has control characters.");
+}
+
+// A host's log is read by others.
+TEST(ConfigText, ASecretInALineThatCannotBeReadIsNotShown) {
+    for (const char* line :
+         {"token: 0123456789abcdef", "token 0123456789abcdef", "token:0123456789abcdef",
+          "--token 0123456789abcdef", "token\t0123456789abcdef", "token: 0123456789abcdef = x",
+          "token = \"0123456789abcdef", "token = 0123456789abcdef\"", "Token = 0123456789abcdef",
+          "token = 0123456789abcdef\x01"}) {
+        const std::string text = mistakes_text("f", parse_config(line).mistakes);
+        EXPECT_THAT(text, HasSubstr("oken")) << line;
+        EXPECT_EQ(text.find("0123"), text.npos) << text;
+    }
 }
 
 TEST(ConfigText, ALoneQuotationMarkIsNoValue) {
