@@ -12,8 +12,10 @@ namespace theatron::app {
 // A command did what it could, but parts of the recording are damaged.
 inline constexpr int damaged_exit_code = 3;
 
-// `further`: the words of each session after the first (session_flags.h).
-void add_host_command(CLI::App& app, std::vector<std::vector<std::string>> further);
+// `further`: the words of each session after the first (session_flags.h). `given`: the words of the
+// command line, without those of a configuration (host_config.h).
+void add_host_command(CLI::App& app, std::vector<std::vector<std::string>> further,
+                      std::vector<std::string> given);
 void add_session_command(CLI::App& app);
 void add_link_command(CLI::App& app);
 void add_join_command(CLI::App& app);

@@ -134,7 +134,7 @@ std::string links_text(const host::Host& host, bool has_page) {
 // A guest meets a warning before this page, whose certificate no browser knows.
 std::string browser_text(const HostFlags& flags, bool has_page) {
     if (!has_page)
-        return "This host has no page for browsers, because none lies beside the program.\n\n";
+        return "This host has no page for browsers, because no page was found.\n\n";
     if (!flags.certificate.empty() || !flags.proxy_certificate.empty())
         return "";
     return "The certificate is this host's own, so a guest's browser says first that the "
@@ -202,14 +202,25 @@ std::string status_line(const HostSessions& sessions) {
     return line;
 }
 
-// The answer to SIGHUP: all files but the configuration are followed by themselves.
-void look_at_config(const std::string& file) {
+// The answer to SIGHUP: all files but the configuration are followed by themselves. `given`: the
+// words of the command line, which names it.
+void look_at_config(const std::vector<std::string>& given) {
     try {
-        (void)with_config({"theatron", "host", "--config", file});
+        (void)with_config(given);
         log::say("The configuration can be used; a change in it holds from the next start.");
     } catch (const Error& error) {
-        log::say(std::string(error.what()) + " The host goes on as it was started.");
+        // A mistake each, since a long sentence is cut.
+        std::istringstream lines(error.what());
+        for (std::string line; std::getline(lines, line);)
+            log::say(line);
+        log::say("The host goes on as it was started.");
     }
+}
+
+// For those who look at the service.
+std::string service_status(HostSessions& sessions, std::size_t open) {
+    return std::to_string(open) + (open == 1 ? " session" : " sessions") + " open at port " +
+           std::to_string(sessions.first().port());
 }
 
 void run(HostFlags& flags) {
@@ -227,7 +238,8 @@ void run(HostFlags& flags) {
     }
     cli::ServiceNotice notice = cli::ServiceNotice::of_environment();
     cli::catch_stop_signals();
-    if (!flags.config.empty())
+    // Elsewhere SIGHUP says that the terminal is gone.
+    if (!flags.config.empty() && notice.has_manager())
         cli::catch_reload_signal();
     // The last changes of the room are written.
     const cli::Saving saving(room_patience);
@@ -252,10 +264,8 @@ void run(HostFlags& flags) {
     for (const auto& [name, host] : sessions.open())
         say_unregistered(host->unregistered_cameras(), host->camera_names().size());
 
-    const std::string ready_text = std::to_string(sessions.open().size()) + " of " +
-                                   std::to_string(further.size() + 1) + " sessions open at port " +
-                                   std::to_string(sessions.first().port());
-    notice.ready(ready_text);
+    std::size_t open = sessions.open().size();
+    notice.ready(service_status(sessions, open));
     InputLines input;
     const bool live_line = !flags.json && isatty(STDOUT_FILENO);
     const TimePoint begin = steady_now();
@@ -265,10 +275,14 @@ void run(HostFlags& flags) {
         std::this_thread::sleep_for(std::chrono::milliseconds(50));
         obey(sessions, input);
         sessions.follow();
+        if (const std::size_t now_open = sessions.open().size(); now_open != open) {
+            open = now_open;
+            notice.status(service_status(sessions, open));
+        }
         if (cli::take_reload_signal()) {
             notice.reloading(steady_now());
-            look_at_config(flags.config);
-            notice.ready(ready_text);
+            look_at_config(flags.given);
+            notice.ready(service_status(sessions, open));
         }
         notice.alive(steady_now());
         if (live_line && steady_now() >= next_line) {
@@ -292,9 +306,11 @@ void run(HostFlags& flags) {
 
 }  // namespace
 
-void add_host_command(CLI::App& app, std::vector<std::vector<std::string>> further) {
+void add_host_command(CLI::App& app, std::vector<std::vector<std::string>> further,
+                      std::vector<std::string> given) {
     const auto flags = std::make_shared<HostFlags>();
     flags->further = std::move(further);
+    flags->given = std::move(given);
     CLI::App* command = app.add_subcommand("host", "Stream cameras to those who join");
     std::string cameras = "The kinds of camera:\n";
     for (const std::string& kind : capture::camera_kinds())

@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host_config.h"
 
+#include <fcntl.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <set>
 
 #include "base/error.h"
 #include "base/outside_text.h"
+#include "capture/camera_kind.h"
+#include "capture/camera_places.h"
 #include "host/filter_choice.h"
 #include "host/host_identity.h"
 #include "host/session_folder.h"
@@ -18,6 +22,7 @@
 #include "net/certificate.h"
 #include "net/http.h"
 #include "net/proxies.h"
+#include "region_text.h"
 
 namespace theatron::app {
 namespace {
@@ -66,6 +71,13 @@ void check_path(const ConfigLine& line) {
         throw Error("there is no " + shown);
 }
 
+// "FILTER" or "CAMERA=FILTER". A file and the parameters of a filter may have '=' in them, too.
+void check_filter(const std::string& text) {
+    const std::size_t equals = text.find('=');
+    const bool names_camera = equals < text.find(':') && !text.starts_with('/');
+    (void)host::FilterSource(names_camera ? text.substr(equals + 1) : text).load();
+}
+
 // Throws Error if the values of one line cannot be used.
 void check_values(const ConfigLine& line, const HostFlags& flags) {
     check_path(line);
@@ -75,8 +87,22 @@ void check_values(const ConfigLine& line, const HostFlags& flags) {
         (void)net::parse_public_name(flags.port.public_name, https_port);
     if (line.key == "behind-proxy")
         (void)net::Proxies(flags.port.proxies);
+    if (line.key == "proxy-certificate")
+        (void)net::read_certificate(flags.proxy_certificate, "");
     if (line.key == "token")
         host::check_token(flags.first.options.token);
+    // A pipe can be read only once.
+    std::error_code error;
+    if (line.key == "token-file" && std::filesystem::is_regular_file(line.value, error))
+        (void)host::read_token(flags.token_file);
+    if (line.key == "camera")
+        capture::check_camera_kind(line.value);
+    if (line.key == "places")
+        (void)capture::load_places(flags.first.places);
+    if (line.key == "region")
+        (void)parse_region(line.value);
+    if (line.key == "filter")
+        check_filter(line.value);
     if (names_session(line.key))
         host::check_session_name(flags.first.options.name);
     (void)session_options(flags.first);
@@ -115,10 +141,41 @@ std::string mistake_of(const ConfigLine& line, std::vector<std::string>& words) 
 }
 
 bool is_given(const std::string& key, const std::vector<std::string>& given) {
-    const std::string name = "--" + key;
-    return std::ranges::any_of(given, [&](const std::string& word) {
-        return word == name || word.starts_with(name + "=");
-    });
+    const auto is_word = [&](const std::string& name) {
+        return std::ranges::any_of(given, [&](const std::string& word) {
+            return word == name || word.starts_with(name + "=");
+        });
+    };
+    // Two names of one option.
+    return names_session(key) ? is_word("--session") || is_word("--name") : is_word("--" + key);
+}
+
+// The option of a session that is given; empty: none is.
+std::string given_of_session(const std::vector<std::string>& given) {
+    for (const std::string& word : given) {
+        const std::string option = word.substr(0, word.find('='));
+        if (option.starts_with("--") &&
+            (names_session(option.substr(2)) || is_of_session(option.substr(2))))
+            return option;
+    }
+    return "";
+}
+
+// Finds what would give a room the cameras of another one. Empty: nothing would.
+std::string mistake_of_sessions(const std::vector<ConfigLine>& lines,
+                                const std::vector<std::string>& given) {
+    const auto in_file = std::ranges::count_if(
+        lines, [](const ConfigLine& line) { return names_session(line.key); });
+    const std::string option = given_of_session(given);
+    if (in_file > 1 && !option.empty())
+        return "it has several sessions, so no option of a session may stand on the command "
+               "line, where '" +
+               option + "' does";
+    const auto on_command_line = std::ranges::count_if(
+        given, [](const std::string& word) { return is_given("session", {word}); });
+    if (on_command_line > 1)
+        return "several sessions stand in the file, and not on the command line";
+    return "";
 }
 
 // Finds lines that are right by themselves and stand twice, or in the wrong place.
@@ -132,11 +189,8 @@ public:
 
     // Lines one after the other. Empty: it may stand here.
     std::string mistake_of(const ConfigLine& line) {
-        if (names_session(line.key)) {
-            ++session_;
-            seen_in_session_.clear();
-            return "";
-        }
+        if (names_session(line.key))
+            return mistake_of_session(line);
         const bool of_session = is_of_session(line.key);
         if (of_session && sessions_ > 1 && session_ == 0)
             return "with several sessions it stands behind the 'session' that it is for";
@@ -150,10 +204,22 @@ public:
     }
 
 private:
+    std::string mistake_of_session(const ConfigLine& line) {
+        ++session_;
+        seen_in_session_.clear();
+        if (session_ > int(host::max_sessions))
+            return "a host has at most " + std::to_string(host::max_sessions) + " sessions";
+        const auto [first, is_new] = names_.emplace(line.value, line.line);
+        return is_new ? ""
+                      : "the session in line " + std::to_string(first->second) +
+                            " has the same name; each needs a name of its own";
+    }
+
     CLI::App app_;
     HostFlags flags_;
     int sessions_ = 0, session_ = 0;
     std::map<std::string, int> seen_, seen_in_session_;  // lines by key
+    std::map<std::string, int> names_;                   // lines by the name of a session
 };
 
 // Adds mistakes of the file as a whole.
@@ -175,6 +241,10 @@ void check_together(const std::vector<ConfigLine>& lines, HostConfig& config,
     need("behind-proxy", "public-name");
     need("behind-proxy", "proxy-certificate");
     need("proxy-certificate", "behind-proxy");
+    const ConfigLine* link_host = value_of("link-host");
+    if (link_host && (value_of("public-name") || is_given("public-name", given)))
+        config.mistakes.push_back({link_host->line, "link-host",
+                                   "'public-name' is also the name in the links; leave this out"});
     const ConfigLine *token = value_of("token"), *token_file = value_of("token-file");
     if (token && token_file)
         config.mistakes.push_back({token_file->line, "token-file", "'token' stands there, too"});
@@ -194,6 +264,8 @@ HostConfig host_config(std::string_view text, const std::vector<std::string>& gi
                        bool is_public) {
     host::ConfigText parsed = host::parse_config(text);
     HostConfig config{{}, std::move(parsed.mistakes)};
+    if (std::string mistake = mistake_of_sessions(parsed.lines, given); !mistake.empty())
+        config.mistakes.push_back({0, "", std::move(mistake)});
     Order order(parsed.lines);
     std::vector<ConfigLine> good;
     for (const ConfigLine& line : parsed.lines) {
@@ -202,7 +274,9 @@ HostConfig host_config(std::string_view text, const std::vector<std::string>& gi
         if (mistake.empty())
             mistake = order.mistake_of(line);
         if (mistake.empty() && line.key == "token" && is_public)
-            mistake = "others may read this file; 'chmod o-r' it, or use 'token-file'";
+            mistake =
+                "others may read this file; 'chgrp theatron' and 'chmod 640' it, or use "
+                "'token-file'";
         if (!mistake.empty()) {
             config.mistakes.push_back({line.line, line.key, mistake});
             continue;
@@ -217,6 +291,49 @@ HostConfig host_config(std::string_view text, const std::vector<std::string>& gi
     std::ranges::stable_sort(config.mistakes, {}, &host::ConfigMistake::line);
     return config;
 }
+
+namespace {
+
+struct ConfigFile {
+    std::string text;
+    bool is_public = false;
+};
+
+// Throws Error.
+ConfigFile read_config(const std::string& file, const std::string& shown) {
+    // A pipe is not waited for.
+    const int in = open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+    struct stat facts {};
+    const bool is_file = in >= 0 && fstat(in, &facts) == 0 && S_ISREG(facts.st_mode);
+    ConfigFile config{std::string(host::max_config_bytes + 1, '\0'),
+                      (facts.st_mode & S_IROTH) != 0};
+    std::size_t size = 0;
+    bool is_read = is_file;
+    while (is_read && size < config.text.size()) {
+        const ssize_t count = read(in, config.text.data() + size, config.text.size() - size);
+        if (count == 0)
+            break;
+        if (count > 0)
+            size += std::size_t(count);
+        else if (errno != EINTR)
+            is_read = false;
+    }
+    if (in >= 0)
+        close(in);
+    if (!is_read)
+        throw Error("The configuration '" + shown + "' is no file that can be read.");
+    if (facts.st_uid != geteuid() && facts.st_uid != 0)
+        throw Error("The configuration '" + shown + "' belongs to another user (number " +
+                    std::to_string(facts.st_uid) +
+                    "), who could change it; make it root's with chown.");
+    if (facts.st_mode & (S_IWGRP | S_IWOTH))
+        throw Error("Others may write to the configuration '" + shown +
+                    "'; take that away with: chmod go-w '" + shown + "'.");
+    config.text.resize(size);
+    return config;
+}
+
+}  // namespace
 
 std::vector<std::string> with_config(const std::vector<std::string>& arguments) {
     std::string file;
@@ -234,14 +351,8 @@ std::vector<std::string> with_config(const std::vector<std::string>& arguments) 
     if (!names_file)
         return arguments;
     const std::string shown = clean_text(file, shown_of_config);
-    struct stat facts {};
-    std::ifstream in(file, std::ios::binary);
-    if (stat(file.c_str(), &facts) != 0 || !S_ISREG(facts.st_mode) || !in)
-        throw Error("The configuration '" + shown + "' is no file that can be read.");
-    std::string text(host::max_config_bytes + 1, '\0');
-    in.read(text.data(), std::streamsize(text.size()));
-    text.resize(std::size_t(in.gcount()));
-    const HostConfig config = host_config(text, arguments, (facts.st_mode & S_IROTH) != 0);
+    const ConfigFile content = read_config(file, shown);
+    const HostConfig config = host_config(content.text, arguments, content.is_public);
     if (!config.mistakes.empty())
         throw Error("The configuration cannot be used:\n" +
                     host::mistakes_text(shown, config.mistakes));

@@ -20,7 +20,8 @@ struct HostFlags {
     std::string summary;
     std::string audit;
     std::string certificate, key, proxy_certificate;
-    std::string config;  // file
+    std::string config;              // file
+    std::vector<std::string> given;  // the command line, without the words of that file
     double seconds = 0;
     bool json = false;
     bool prints_links = false;

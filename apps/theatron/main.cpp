@@ -59,13 +59,14 @@ int run(int argc, char** argv) {
                                              throw CLI::Success();
                                          })
         ->group("");
-    std::vector<std::string> arguments = theatron::app::take_arguments(argc, argv);
+    const std::vector<std::string> given = theatron::app::take_arguments(argc, argv);
+    std::vector<std::string> arguments = given;
     theatron::app::PartedWords words{arguments, {}};
     if (argc > 1 && arguments[1] == "host") {
         arguments = theatron::app::with_config(arguments);
         words = theatron::app::part_sessions(arguments);
     }
-    theatron::app::add_host_command(app, words.further);
+    theatron::app::add_host_command(app, words.further, given);
     theatron::app::add_session_command(app);
     theatron::app::add_link_command(app);
     theatron::app::add_join_command(app);

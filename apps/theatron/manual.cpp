@@ -130,14 +130,25 @@ std::string synopsis(const std::string& name, const CLI::App& command) {
     return line + "\n";
 }
 
-// One sentence, without the signs that shells and their completion give a meaning.
-std::string short_help(const std::string& description) {
-    std::string line = description.substr(0, description.find_first_of(".;:\n"));
-    std::replace_if(
-        line.begin(), line.end(),
-        [](char c) { return std::string_view("'\"`$\\[]").find(c) != std::string_view::npos; },
-        ' ');
-    return line;
+// The first sentence, as a part of a text in '...' that zsh's completion takes apart at ':' and
+// ']'.
+std::string zsh_help(const std::string& description) {
+    std::string line = description.substr(0, description.find_first_of(";\n"));
+    line = line.substr(0, line.find(". "));
+    if (line.ends_with('.'))
+        line.pop_back();
+    std::string text;
+    for (const char c : line) {
+        if (c == ':')
+            text += "\\:";
+        else if (c == '\'')
+            text += "'\\''";
+        else if (c == '[' || c == ']')
+            text += c == '[' ? '(' : ')';
+        else if (c != '\\')
+            text += c;
+    }
+    return text;
 }
 
 // The value of an option for zsh's _arguments.
@@ -155,7 +166,7 @@ std::string zsh_arguments(const CLI::App& command) {
         const bool repeats = option->get_items_expected_max() > 1;
         for (const std::string& name : names_of(*option))
             text += " \\\n        '" + std::string(repeats ? "*" : "") + name + "[" +
-                    short_help(option->get_description()) + "]" +
+                    zsh_help(option->get_description()) + "]" +
                     (takes_value(*option) ? zsh_value(*option) : "") + "'";
     }
     return text + " \\\n        '*:file:_files'";
@@ -164,8 +175,8 @@ std::string zsh_arguments(const CLI::App& command) {
 std::string zsh_commands(const CLI::App& app) {
     std::string text = "commands=(";
     for (const CLI::App* command : commands_of(app))
-        text += "\n        '" + command->get_name() + ":" + short_help(command->get_description()) +
-                "'";
+        text +=
+            "\n        '" + command->get_name() + ":" + zsh_help(command->get_description()) + "'";
     return text + ")\n        _describe command commands";
 }
 

@@ -14,7 +14,7 @@ class Manual : public ::testing::Test {
 protected:
     Manual() {
         CLI::App* host = app.add_subcommand("host", "Stream cameras. To those who join");
-        host->add_option("--admit", admit, "Who: [everybody] or 'some'")
+        host->add_option("--admit", admit, "Who: [everybody] or 'some' of v1.5; or none")
             ->check(CLI::IsMember({"all", "ask"}))
             ->capture_default_str();
         host->add_option("--camera", cameras, "A camera");
@@ -32,8 +32,8 @@ TEST_F(Manual, APageSaysWhatHelpSays) {
     const std::string page = manual_page(app, *app.get_subcommand("host"), "1.2");
     EXPECT_THAT(page, HasSubstr(".TH \"theatron-host\" 1 \"\" \"Theatron 1.2\""));
     EXPECT_THAT(page, HasSubstr("theatron\\-host \\- Stream cameras. To those who join\n"));
-    EXPECT_THAT(page, HasSubstr("\\fB\\-\\-admit\\fR all|ask\nWho: [everybody] or 'some' "
-                                "(default: all)\n"));
+    EXPECT_THAT(page, HasSubstr("\\fB\\-\\-admit\\fR all|ask\nWho: [everybody] or 'some' of v1.5; "
+                                "or none (default: all)\n"));
     EXPECT_THAT(page, HasSubstr("\\fB\\-\\-camera\\fR"));
     EXPECT_THAT(page, Not(HasSubstr("secret")));
 }
@@ -60,7 +60,8 @@ TEST_F(Manual, ShellsKnowCommandsOptionsAndValues) {
     EXPECT_THAT(bash, Not(HasSubstr("secret")));
     const std::string zsh = zsh_completion(app);
     EXPECT_THAT(zsh, HasSubstr("'host:Stream cameras'"));
-    EXPECT_THAT(zsh, HasSubstr("'--admit[Who]:value:(all ask)'"));
+    EXPECT_THAT(zsh, HasSubstr("'--admit[Who\\: (everybody) or '\\''some'\\'' of v1.5]"
+                               ":value:(all ask)'"));
     EXPECT_THAT(zsh, HasSubstr("'*--camera[A camera]:value:_files'"));
 }
 

@@ -8,12 +8,43 @@ import signal
 import socket
 import subprocess
 import tempfile
+import threading
 import unittest
 
 from raw_peer import https_request
-from theatron_process import PROGRAM, Process, run, wait_until
+from theatron_process import Process, run
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+class Manager:
+    """A service manager's socket. A thread reads it at once, since its queue is short: a program that finds it full may go
+    on without a message."""
+
+    def __init__(self, path):
+        self.path, self.told = str(path), []
+        self.environment = os.environ | {"NOTIFY_SOCKET": self.path}
+        self.socket = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
+        self.socket.bind(self.path)
+        self.thread = threading.Thread(target=self._read)
+        self.thread.start()
+
+    def _read(self):
+        # An empty message is the end.
+        while text := self.socket.recv(1000):
+            self.told.append(text.decode())
+
+    def has_told(self, beginning):
+        return [text for text in list(self.told) if text.startswith(beginning)]
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as own:
+            own.sendto(b"", self.path)
+        self.thread.join()
+        self.socket.close()
 
 
 class Service(unittest.TestCase):
@@ -51,41 +82,65 @@ class Service(unittest.TestCase):
         state = self.folder / "state"
         words = words.replace("/var/lib/theatron/%i", str(state)).replace("/etc/theatron/%i.conf", str(self.config))
         self.config.write_text("listen = 127.0.0.1:0\nsession = OR 3\njson = yes\nsession = OR 4\n")
-        path = str(self.folder / "notify")
-        with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as manager:
-            manager.bind(path)
-            manager.setblocking(False)
-            told = []
-
-            def has_told(beginning):
-                try:
-                    while True:
-                        told.append(manager.recv(1000).decode())
-                except BlockingIOError:
-                    return [text for text in told if text.startswith(beginning)]
-
+        with Manager(self.folder / "notify") as manager:
             # A watchdog of two milliseconds hears of every round.
-            environment = os.environ | {"NOTIFY_SOCKET": path, "WATCHDOG_USEC": "2000", "XDG_STATE_HOME": str(self.folder)}
+            environment = manager.environment | {"WATCHDOG_USEC": "2000", "XDG_STATE_HOME": str(self.folder)}
+            has_told = manager.has_told
             with Process(*words.split(), env=environment) as h:
                 greeting = h.read_json()
                 self.assertEqual([session["name"] for session in greeting["sessions"]], ["OR 4"])
-                h.wait_until(lambda: has_told("READY=1\nSTATUS=2 of 2 sessions open at port "))
+                h.wait_until(lambda: has_told("READY=1\nSTATUS=2 sessions open at port "))
                 h.wait_until(lambda: len(has_told("WATCHDOG=1")) > 2)
 
                 for request, status in (("/health", 200), ("/status", 401)):
                     self.assertEqual(https_request(greeting["link"], "GET", request)[0], status)
 
+                self.assertEqual(run("session", "create", "OR 5", "--state", state)[0], 0)
+                h.wait_until(lambda: has_told("STATUS=3 sessions open at port "))
+
                 # Certificates and links are followed anyway, and the service goes on whatever the file says.
-                self.config.write_text("nonsense\n")
+                self.config.write_text("nonsense\n" + "camera = nokind:1\n" * 9)
                 h.send(signal.SIGHUP)
                 h.wait_until(lambda: has_told("RELOADING=1"))
                 h.wait_for_error(":1: nonsense: there is no '='")
+                h.wait_for_error(":10: camera: There is no camera 'nokind'")
+                h.wait_for_error("The host goes on as it was started.")
                 h.wait_until(lambda: len(has_told("READY=1")) == 2)
                 self.assertEqual(https_request(greeting["link"], "GET", "/health")[0], 200)
 
                 h.send(signal.SIGTERM)
                 self.assertEqual(h.end(), 0)
-            self.assertTrue(has_told("STOPPING=1"))
+        self.assertTrue(has_told("STOPPING=1"))
+
+    def test_without_a_manager_the_end_of_its_terminal_is_the_end_of_the_host(self):
+        self.config.write_text("listen = 127.0.0.1:0\njson = yes\n")
+        arguments = ["host", "--config", self.config, "--state", self.folder / "state"]
+        with Process(*arguments) as h:
+            h.read_json()
+            h.send(signal.SIGHUP)
+            self.assertEqual(h.end(), 0)
+        # One that was started to outlive it does.
+        with Process(*arguments, prefix=["nohup"]) as h:
+            link = h.read_json()["link"]
+            h.send(signal.SIGHUP)
+            for _ in range(3):
+                self.assertEqual(https_request(link, "GET", "/health")[0], 200)
+            h.send(signal.SIGTERM)
+            self.assertEqual(h.end(), 0)
+
+    def test_when_it_looks_again_the_command_line_still_counts(self):
+        state = self.folder / "state"
+        self.config.write_text("listen = 127.0.0.1:0\njson = yes\nseconds = 0.1\n")
+        self.assertEqual(run("host", "--config", self.config, "--state", state)[0], 0)
+        # The certificate of this key stands on the command line.
+        self.config.write_text(f"listen = 127.0.0.1:0\njson = yes\nkey = {state / 'host.key'}\n")
+        with Manager(self.folder / "notify") as manager, \
+                Process("host", "--config", self.config, "--certificate", state / "host.crt", "--state", self.folder / "other",
+                        env=manager.environment) as h:
+            h.read_json()
+            h.wait_until(lambda: manager.has_told("READY=1"))
+            h.send(signal.SIGHUP)
+            h.wait_for_error("The configuration can be used")
 
     def test_the_manual_names_every_command_and_shells_complete_them(self):
         self.assertEqual(run("--write-manual", self.folder)[0], 0)

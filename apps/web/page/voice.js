@@ -49,7 +49,7 @@ class Playouts {
         return node;
     }
 
-    // What is still on its way tells of the speaker before.
+    // Messages that are still on their way tell of the speaker before.
     give_back(node) {
         node.port.onmessage = ({ data }) => data === "rests" && this.resting.push(node);
         node.port.postMessage("rest");
