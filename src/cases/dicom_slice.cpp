@@ -156,8 +156,11 @@ Result<DicomSlice> decode_dicom_slice(ByteView bytes) {
                            slice.window.width <= 1e9;
     if (!reader.ok())
         return Status::truncated;
-    if (good && !slice.problem.empty())
+    if (good && !slice.problem.empty()) {
+        // It comes without samples, whatever size it announces.
+        slice.columns = slice.rows = 0;
         return slice;
+    }
     if (!good || flags > all_flags || !is_side || !is_scale || !is_window ||
         (slice.has_place && !is_place(slice)))
         return Status::malformed;

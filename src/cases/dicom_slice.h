@@ -60,7 +60,7 @@ struct DicomSlice {
 };
 
 Bytes encode(const DicomSlice& slice);
-// Identifiers are in UTF-8 then.
+// Identifiers are in UTF-8 then. A slice with a problem has no columns, rows and samples.
 Result<DicomSlice> decode_dicom_slice(ByteView bytes);
 
 // The charset and the identifiers alone, of a file that is no slice.

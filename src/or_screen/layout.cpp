@@ -114,6 +114,11 @@ MonitorPlaces monitor_places(const Rect& monitor, Size slice, std::size_t lines,
     return places;
 }
 
+double scale_to_fit(double width, double most) {
+    constexpr double least = 0.45;
+    return width <= most ? 1 : std::max(most / width, least);
+}
+
 Rect letters_place(const Rect& area, Vec2 towards, std::size_t letters, double letter) {
     constexpr double high = 1.44, wide = 1.0, beside = 0.7, apart = 0.15;  // in letters' heights
     const Vec2 size{(double(letters) * wide + beside) * letter, high * letter};

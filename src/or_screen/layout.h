@@ -53,6 +53,9 @@ struct MonitorPlaces {
     std::vector<Rect> lines;
 };
 MonitorPlaces monitor_places(const Rect& monitor, Size slice, std::size_t lines, double letter);
+// The factor of the letters' size with which a text of `width` pixels fits into `most` pixels: 1 at
+// most, and not less than letters that can be read.
+double scale_to_fit(double width, double most);
 // The place of this number of letters inside of `area`, at its edge in the direction `towards`, of
 // which one coordinate is 0 and the other -1 or 1.
 Rect letters_place(const Rect& area, Vec2 towards, std::size_t letters, double letter);

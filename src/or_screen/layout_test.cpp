@@ -92,11 +92,18 @@ TEST(OrScreenLayout, EverythingDriftsSlowlyAndNowhereForLong) {
     EXPECT_LT(at_home, 0.2 * seconds);
 }
 
+TEST(OrScreenLayout, ATextThatIsTooWideGetsSmallerLettersThatCanStillBeRead) {
+    EXPECT_EQ(scale_to_fit(100, 200), 1);
+    EXPECT_EQ(scale_to_fit(200, 200), 1);
+    EXPECT_EQ(scale_to_fit(300, 200), 200.0 / 300);
+    EXPECT_EQ(scale_to_fit(3000, 200), 0.45);
+}
+
 TEST(OrScreenLayout, ASliceHasItsLettersInsideAndItsTextsBelow) {
     for (const Size screen : {Size{1920, 1080}, Size{1280, 1024}, Size{1080, 1920}})
         for (const Size slice : {Size{512, 512}, Size{512, 200}, Size{200, 512}}) {
             const Layout one = layout({screen, {1280, 720}, 3, true});
-            const MonitorPlaces places = monitor_places(one.monitor, slice, 6, one.letter);
+            const MonitorPlaces places = monitor_places(one.monitor, slice, 5, one.letter);
             EXPECT_NEAR(places.picture.width / places.picture.height,
                         double(slice.width) / slice.height, 1e-9);
             std::vector<Rect> below(places.lines.begin(), places.lines.end());

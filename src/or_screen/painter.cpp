@@ -79,17 +79,21 @@ std::vector<std::string> Painter::in_lines(const ImFont* font, const std::string
 }
 
 void Painter::text(const ImFont* font, ImVec2 place, ImU32 color, const std::string& words,
-                   float wrap) {
-    list_.AddText(font, font->FontSize, {std::round(place.x), std::round(place.y)}, color,
+                   float wrap, float scale) {
+    list_.AddText(font, scale * font->FontSize, {std::round(place.x), std::round(place.y)}, color,
                   words.c_str(), nullptr, wrap);
 }
 
-void Painter::centred(const ImFont* font, const Rect& rect, ImU32 color, const std::string& words) {
-    const std::string fits = shortened(font, words, float(rect.width) - letter_);
-    const ImVec2 size = measure(font, fits);
+void Painter::centred(const ImFont* font, const Rect& rect, ImU32 color, const std::string& words,
+                      float scale) {
+    // A text of the whole width is not cut because its size was rounded.
+    constexpr float rounding = 1;
+    const std::string fits =
+        shortened(font, words, (float(rect.width) - letter_) / scale + rounding);
+    const ImVec2 whole = measure(font, fits), size{scale * whole.x, scale * whole.y};
     text(font,
          {float(rect.x + (rect.width - size.x) / 2), float(rect.y + (rect.height - size.y) / 2)},
-         color, fits);
+         color, fits, 0, scale);
 }
 
 void Painter::ground(Size screen) {
@@ -285,10 +289,11 @@ void Painter::monitor(const Content& content, const Rect& rect,
     std::vector<std::string> lines =
         in_lines(fonts_.small, texts.case_name, float(rect.width) - letter_);
     const std::size_t of_name = lines.size();
-    lines.insert(lines.end(), {texts.plane, texts.window});
-    for (const std::string& line :
-         in_lines(fonts_.small, texts.notice, float(rect.width) - letter_))
-        lines.push_back(line);
+    lines.insert(lines.end(), {texts.plane, texts.window, texts.notice});
+    double widest = 0;
+    for (std::size_t i = of_name; i < lines.size(); ++i)
+        widest = std::max<double>(widest, measure(fonts_.small, lines[i]).x);
+    const auto scale = float(scale_to_fit(widest, rect.width - letter_));
     const MonitorPlaces places = monitor_places(rect, slice->size(), lines.size(), letter_);
     list_.AddImage(xr::texture_of(slice->texture()), from(places.picture), to(places.picture));
     there_.clear();
@@ -308,8 +313,8 @@ void Painter::monitor(const Content& content, const Rect& rect,
     put(texts.letters.top, {0, -1});
     put(texts.letters.bottom, {0, 1});
     for (std::size_t i = 0; i < lines.size(); ++i)
-        centred(fonts_.small, places.lines[i], i < of_name ? colors::text : colors::label,
-                lines[i]);
+        centred(fonts_.small, places.lines[i], i < of_name ? colors::text : colors::label, lines[i],
+                i < of_name ? 1 : scale);
 }
 
 void Painter::card(const PersonCard& card, bool two_lines, const Rect& rect) {

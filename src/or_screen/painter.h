@@ -5,6 +5,7 @@
 #include <imgui.h>
 
 #include <string>
+#include <vector>
 
 #include "or_screen/drawing.h"
 
@@ -40,8 +41,9 @@ private:
     std::vector<std::string> in_lines(const ImFont* font, const std::string& text,
                                       float width) const;
     void text(const ImFont* font, ImVec2 place, ImU32 color, const std::string& words,
-              float wrap = 0);
-    void centred(const ImFont* font, const Rect& rect, ImU32 color, const std::string& words);
+              float wrap = 0, float scale = 1);
+    void centred(const ImFont* font, const Rect& rect, ImU32 color, const std::string& words,
+                 float scale = 1);
     void badge(ImVec2 middle, Rgb color, const std::string& initials);
     // `initials` (may be empty) on `color` and `words` on a dark ground, next to `at`, in `area`.
     void label(ImVec2 at, Rgb color, const std::string& initials, ImU32 words_color,

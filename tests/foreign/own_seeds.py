@@ -189,10 +189,11 @@ def foreign_answers():
         return bytes([len(words)]) + words.encode()
     identifiers = short("ISO_IR 100") + b"\2" + short("PatientName") + short("Doe^Jane") + short("PatientID") + short("AB-4711")
     yield "identifiers", b"\2" + identifiers
-    # Two columns, one row; it has a place and a window.
-    yield "slice", (b"\1" + short("1.2.3") + short("1.2.4") + short("CT") + struct.pack("<HHB", 2, 1, 3) + short("") + 8 * short("")
-                    + struct.pack("<3I9d6d", 1, 0, 0, 1, 0, 0, 0, 1, 0, -10, -20, 5, 0.5, 0.5, 1, -1024, 40, 400)
-                    + identifiers + struct.pack("<2h", 1000, 1100))
+    # Two columns, one row; it has a place and a window. One with a problem has no samples.
+    for name, problem, samples in (("slice", "", struct.pack("<2h", 1000, 1100)), ("slice_with_a_problem", "is encrypted", b"")):
+        yield name, (b"\1" + short("1.2.3") + short("1.2.4") + short("CT") + struct.pack("<HHB", 2, 1, 3) + short(problem) + 8 * short("")
+                     + struct.pack("<3I9d6d", 1, 0, 0, 1, 0, 0, 0, 1, 0, -10, -20, 5, 0.5, 0.5, 1, -1024, 40, 400)
+                     + identifiers + samples)
     yield "mesh", b"\0" + short("liver") + struct.pack("<2I9f3I", 3, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 2)
 
 
