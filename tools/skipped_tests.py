@@ -15,7 +15,7 @@ import subprocess
 import sys
 
 GTEST = re.compile(r"^[^\n]*: Skipped\n(?P<why>.*?)\n+\[  SKIPPED \] (?P<name>[^\s,]+)", re.MULTILINE | re.DOTALL)
-FILTERED = re.compile(r'^Command: "(?P<program>[^"]+)"(?:(?!^Command: ).)*?^Note: Google Test filter = (?P<filter>.*)$', re.MULTILINE | re.DOTALL)
+FILTERED = re.compile(r'^Command: "(?P<program>[^"]+)"(?:(?!^Command: ).)*?^Note: Google Test filter = (?P<filter>[^\n]*)$', re.MULTILINE | re.DOTALL)
 
 
 def skipped(log):

@@ -79,6 +79,14 @@ class Skips(unittest.TestCase):
         self.assertEqual(skipped(log), [("Disk.IsFull", "this folder has room")])
         self.assertEqual(left_out(log), [("A.Long", "left out by the filter of record_test")])
 
+    def test_a_filter_ends_with_its_line_however_much_the_program_prints(self):
+        program = self.folder / "record_test"
+        program.write_text(PROGRAM)
+        program.chmod(0o755)
+        one = GTEST.replace("PROGRAM", str(program)) + "what a test prints\n" * 20000  # more than one argument may have
+        named = [("A.Long", "left out by the filter of record_test")]
+        self.assertEqual(left_out(one + one), named + named)
+
 
 if __name__ == "__main__":
     unittest.main()
