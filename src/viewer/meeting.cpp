@@ -154,7 +154,7 @@ void Meeting::add_to(render::SceneFrame& frame, const render::CameraView& view) 
             continue;
         render::SurfaceLook look{room::color_of(ParticipantId{brick->color}), 0, 0.35};
         frame.objects.push_back({&mesh_of(*brick), object.room_from_object, look, false,
-                                 render::ObjectId(std::uint32_t(id))});
+                                 render::PickId(std::uint32_t(id))});
     }
     case_.add_to(frame, view);
     if (screens_)

@@ -509,7 +509,7 @@ Facts Viewer::facts(TimePoint now) {
         one.camera.description.name = name_of(one.camera);
     // Faces are people, not cameras of the room.
     std::erase_if(facts.received.cameras, [](const client::CameraFigures& one) {
-        return one.camera.description.frame == wire::CameraFrame::face;
+        return one.camera.description.kind == wire::CameraKind::face;
     });
     facts.visitors = participant_.visitors();
     facts.has_picture = eye_.is_placed();

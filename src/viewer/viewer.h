@@ -16,7 +16,7 @@
 #include "render/vignette.h"
 #include "session/permissions.h"
 #include "session/renderer_choice.h"
-#include "viewer/camera_adjusting.h"
+#include "viewer/adjust_panel.h"
 #include "viewer/camera_pictures.h"
 #include "viewer/camera_unrest.h"
 #include "viewer/eye.h"
@@ -252,7 +252,7 @@ private:
     bool microphone_open_ = false;
     Handling handling_;
     Marking marking_;
-    CameraAdjusting adjusting_;
+    AdjustPanel adjusting_;
     Playing playing_;
     LookingBack looking_back_;
     bool slides_playback_ = false;                   // the slider that was pressed last

@@ -157,10 +157,10 @@ bool is_sound(const CameraState& state) {
     return state.condition <= CameraCondition::failed;
 }
 bool is_sound(const OfferedCamera& camera) {
-    return camera.frame <= CameraFrame::face;
+    return camera.kind <= CameraKind::face;
 }
 bool is_sound(const Camera& camera) {
-    return camera.frame <= CameraFrame::face;
+    return camera.kind <= CameraKind::face;
 }
 bool is_sound(const Manage& decision) {
     return decision.action >= ManageAction::admit && decision.action <= clear_objects &&
