@@ -196,7 +196,9 @@ private:
     void look_through_followed(TimePoint now);
     void stop_following();
     std::optional<Pose> place_beside(ParticipantId id) const;
+    void go_to_place(const Place& place, TimePoint now);
     void go_to_person(ParticipantId id, TimePoint now);
+    void look_through(ParticipantId id, TimePoint now);
     void call(bool begins, TimePoint now);
     void answer_call(ParticipantId person, bool comes, TimePoint now);
     void forget_answered();

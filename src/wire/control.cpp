@@ -210,7 +210,7 @@ bool is_sound(const DirectReceiver& receiver) {
     return receiver.secret.size() == direct_secret_size;
 }
 bool is_sound(const Managed& answer) {
-    return answer.refusal <= ManageRefusal::nothing_kept;
+    return answer.refusal <= last_manage_refusal;
 }
 
 // False if the table has a value that its kind does not allow.

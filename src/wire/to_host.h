@@ -67,7 +67,7 @@ struct ChooseCodecs {
     }
 };
 
-// What a camera shows. It says which frame the camera's calibration calls the room.
+// The subject of a camera. By it a receiver knows which frame its calibration calls the room.
 enum class CameraKind : std::uint8_t {
     // The room itself.
     room = 0,

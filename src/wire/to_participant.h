@@ -293,6 +293,7 @@ enum class ManageRefusal : std::uint8_t {
     nothing_to_play = 11,  // the host plays no recording
     nothing_kept = 12,     // of the past that the sender may see
 };
+inline constexpr ManageRefusal last_manage_refusal = ManageRefusal::nothing_kept;
 
 // The host has decided on the sender's Manage, AdjustCamera, Play or LookBack of this number.
 struct Managed {
