@@ -114,7 +114,7 @@ void check_rights(const HostSession& host) {
     }
     for (const wire::Camera& camera : host.streams().cameras().descriptions())
         if (camera.publisher != session::host_publisher &&
-            !may(camera.publisher, session::needed_right(camera.frame)))
+            !may(camera.publisher, session::needed_right(camera.kind)))
             std::abort();
     for (const wire::Visitor& visitor : host.visitors())
         if (may(visitor.participant, Right::see))

@@ -44,7 +44,7 @@ constexpr bool may_know_patient(Role role) {
 
 // The rights of messages that depend on what they say; request_kinds.cpp has those of all.
 constexpr Right needed_right(wire::CameraKind kind) {
-    return frame == wire::CameraKind::face ? Right::be_seen : Right::publish;
+    return kind == wire::CameraKind::face ? Right::be_seen : Right::publish;
 }
 // One camera of the room is enough to need the right for it.
 inline Right needed_right(const wire::Publish& message) {
