@@ -8,12 +8,14 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/standard_streams.h"
 #include "bench_commands.h"
 #include "bench_targets.h"
 #include "capture/mkv_reader.h"
 #include "ffmpeg/ffmpeg.h"
 
 int main(int argc, char** argv) {
+    theatron::reserve_standard_streams();
     try {
         theatron::sandbox::run_as_child(argc, argv, theatron::capture::foreign_readers);
         // Yardsticks call it; this program is linked with FFmpeg for further functions anyway.

@@ -27,7 +27,7 @@ inline void write_golden(const std::string& file, const ColorImage& image) {
     ASSERT_TRUE(out.flush()) << file;
 }
 
-// What write_golden() wrote; an empty image if there is none of this size.
+// Returns what write_golden() wrote; an empty image if there is none of this size.
 inline ColorImage read_golden(const std::string& file, Size size) {
     std::ifstream in(file, std::ios::binary);
     const std::string bytes((std::istreambuf_iterator<char>(in)), {});
