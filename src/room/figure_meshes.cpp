@@ -102,9 +102,8 @@ BustMeshes bust_meshes() {
                                {-0.186, 0.076, 0.073, 0.032},
                                {-0.166, 0.066, 0.067, 0.032},
                                {-0.162, 0.056, 0.058, 0.032}};
-    BustMeshes meshes{loft(head), loft(cap),  loft(mask, -0.44 * pi, 0.44 * pi),
-                      {},         loft(gown), loft(collar)};
-    append(meshes.skin, loft(neck), {1, 1, 1}, {});
+    BustMeshes meshes{loft(head), loft(cap),   loft(mask, -0.44 * pi, 0.44 * pi), {}, loft(neck),
+                      loft(gown), loft(collar)};
     const MeshData ball = render::make_sphere_mesh(1, small_rings);
     for (const double side : {-1.0, 1.0})
         append(meshes.eyes, ball, {0.0125, 0.0065, 0.006}, {side * 0.031, 0.001, -0.074});

@@ -10,11 +10,13 @@
 
 namespace theatron::room {
 
+// Head, cap, mask and eyes turn with the head, the others with the body.
 struct BustMeshes {
-    render::MeshData skin;    // head and neck
-    render::MeshData cap;     // over the hair
-    render::MeshData mask;    // over mouth and nose; seen from before and from the sides
-    render::MeshData eyes;    // two dark ovals
+    render::MeshData head;
+    render::MeshData cap;   // over the hair
+    render::MeshData mask;  // over mouth and nose; seen from before and from the sides
+    render::MeshData eyes;  // two dark ovals
+    render::MeshData neck;
     render::MeshData gown;    // shoulders and chest
     render::MeshData collar;  // of the gown
 };

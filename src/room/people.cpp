@@ -145,7 +145,8 @@ std::string initials_of(const std::string& name) {
         }
         at += bytes;
     }
-    std::erase(words, "");
+    // "(recorded)" and the like say something of the name.
+    std::erase_if(words, [](const std::string& word) { return word.empty() || word[0] == '('; });
     if (words.empty())
         return name.substr(0, name.empty() ? 0 : first_character(name).bytes);
     const auto initial = [](const std::string& word) {
@@ -160,9 +161,10 @@ std::string initials_of(const std::string& name) {
 People::People()
     : bust_([] {
           const BustMeshes meshes = bust_meshes();
-          return Bust{render::SceneMesh(meshes.skin), render::SceneMesh(meshes.cap),
-                      render::SceneMesh(meshes.mask), render::SceneMesh(meshes.eyes),
-                      render::SceneMesh(meshes.gown), render::SceneMesh(meshes.collar)};
+          return Bust{render::SceneMesh(meshes.head),  render::SceneMesh(meshes.cap),
+                      render::SceneMesh(meshes.mask),  render::SceneMesh(meshes.eyes),
+                      render::SceneMesh(meshes.neck),  render::SceneMesh(meshes.gown),
+                      render::SceneMesh(meshes.collar)};
       }()),
       left_(make_hand(Side::left, false)),
       right_(make_hand(Side::right, false)),
@@ -192,10 +194,11 @@ void People::add_hands(render::SceneFrame& frame, const RoomPerson& person, doub
 void People::add_bust(render::SceneFrame& frame, const RoomPerson& person, double opacity) const {
     const Pose body = body_below(*person.head);
     const Vec3 color = color_of(person.id);
-    frame.objects.push_back({&bust_.skin, *person.head, look(skin_color, opacity)});
+    frame.objects.push_back({&bust_.head, *person.head, look(skin_color, opacity)});
     frame.objects.push_back({&bust_.cap, *person.head, look(color, opacity)});
     frame.objects.push_back({&bust_.mask, *person.head, look(mask_color, opacity)});
     frame.objects.push_back({&bust_.eyes, *person.head, look(eye_color, opacity)});
+    frame.objects.push_back({&bust_.neck, body, look(skin_color, opacity)});
     frame.objects.push_back({&bust_.gown, body, look(gown_color, opacity)});
     frame.objects.push_back({&bust_.collar, body, look(color, opacity)});
 }

@@ -56,7 +56,7 @@ public:
 
 private:
     struct Bust {
-        render::SceneMesh skin, cap, mask, eyes, gown, collar;
+        render::SceneMesh head, cap, mask, eyes, neck, gown, collar;
     };
     struct Hand {
         render::SceneMesh glove, cuff;

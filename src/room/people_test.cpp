@@ -61,6 +61,7 @@ TEST(Initials, AreOfTheFirstAndTheLastWordWithoutTitles) {
     EXPECT_EQ(initials_of("remote expert"), "RE");
     EXPECT_EQ(initials_of("Prof. Dr. med. Eva  Maria Lang"), "EL");
     EXPECT_EQ(initials_of("\u00d6zlem \u0160imi\u0107"), "\u00d6\u0160");
+    EXPECT_EQ(initials_of("Anna (recorded)"), "A");
     EXPECT_EQ(initials_of("Dr."), "D");
     EXPECT_EQ(initials_of(" "), " ");
     EXPECT_EQ(initials_of(""), "");
