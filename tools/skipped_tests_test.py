@@ -54,6 +54,13 @@ class Skips(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
 
+    def gtest_log(self):
+        """What a program that keeps one of its tests back prints; the program is there."""
+        program = self.folder / "record_test"
+        program.write_text(PROGRAM)
+        program.chmod(0o755)
+        return GTEST.replace("PROGRAM", str(program))
+
     def run_tests(self, more):
         file = self.folder / "some_test.py"
         file.write_text(TESTS.replace("MORE", more))
@@ -72,18 +79,12 @@ class Skips(unittest.TestCase):
         self.assertEqual(self.run_tests("def test_more(self): self.fail()")[0], 1)
 
     def test_those_of_a_program_are_named_also_when_a_filter_leaves_them_out(self):
-        program = self.folder / "record_test"
-        program.write_text(PROGRAM)
-        program.chmod(0o755)
-        log = GTEST.replace("PROGRAM", str(program))
+        log = self.gtest_log()
         self.assertEqual(skipped(log), [("Disk.IsFull", "this folder has room")])
         self.assertEqual(left_out(log), [("A.Long", "left out by the filter of record_test")])
 
     def test_a_filter_ends_with_its_line_however_much_the_program_prints(self):
-        program = self.folder / "record_test"
-        program.write_text(PROGRAM)
-        program.chmod(0o755)
-        one = GTEST.replace("PROGRAM", str(program)) + "what a test prints\n" * 20000  # more than one argument may have
+        one = self.gtest_log() + "what a test prints\n" * 20000  # more than one argument may have
         named = [("A.Long", "left out by the filter of record_test")]
         self.assertEqual(left_out(one + one), named + named)
 
