@@ -15,7 +15,7 @@ namespace {
 // Goes through the cameras there are, and keeps those of a choice.
 class Chooser {
 public:
-    explicit Chooser(const CameraChoice& choice) : choice_(choice) {}
+    explicit Chooser(const WantedCameras& choice) : choice_(choice) {}
 
     bool takes(const std::string& name, const Calibration& calibration, bool is_in_room) {
         const auto& only = choice_.only;
@@ -59,14 +59,14 @@ public:
     }
 
 private:
-    const CameraChoice& choice_;
+    const WantedCameras& choice_;
     std::set<std::string> taken_;
     std::string there_;  // for people
 };
 
 class OwnCameras final : public DepthSource {
 public:
-    OwnCameras(const std::vector<std::string>& specifications, const CameraChoice& choice,
+    OwnCameras(const std::vector<std::string>& specifications, const WantedCameras& choice,
                const capture::Progress& progress) {
         Chooser chooser(choice);
         for (const std::string& specification : specifications) {
@@ -108,7 +108,7 @@ private:
 
 class SessionCameras final : public DepthSource {
 public:
-    SessionCameras(const net::Link& link, const CameraChoice& choice) {
+    SessionCameras(const net::Link& link, const WantedCameras& choice) {
         client::Participant::Options options;
         options.link = link;
         options.name = "registration";
@@ -152,7 +152,7 @@ public:
     }
 
 private:
-    void wait_for_cameras(const CameraChoice& choice) {
+    void wait_for_cameras(const WantedCameras& choice) {
         constexpr Duration patience = std::chrono::seconds(15);
         const TimePoint begin = steady_now();
         while (true) {
@@ -166,7 +166,7 @@ private:
                 Chooser chooser(choice);
                 for (const client::Participant::Camera& camera : cameras) {
                     if (!chooser.takes(camera.description.name, camera.calibration,
-                                       camera.description.frame == wire::CameraFrame::room))
+                                       camera.description.kind == wire::CameraKind::room))
                         continue;
                     ids_.push_back(camera.description.id);
                     cameras_.push_back(
@@ -194,12 +194,12 @@ private:
 }  // namespace
 
 std::unique_ptr<DepthSource> open_cameras(const std::vector<std::string>& specifications,
-                                          const CameraChoice& choice,
+                                          const WantedCameras& choice,
                                           const capture::Progress& progress) {
     return std::make_unique<OwnCameras>(specifications, choice, progress);
 }
 
-std::unique_ptr<DepthSource> join_for_depth(const net::Link& link, const CameraChoice& choice) {
+std::unique_ptr<DepthSource> join_for_depth(const net::Link& link, const WantedCameras& choice) {
     return std::make_unique<SessionCameras>(link, choice);
 }
 

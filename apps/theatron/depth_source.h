@@ -39,7 +39,7 @@ protected:
 
 // Screens, faces and cameras that move with a person stand nowhere and are left out. So are others
 // than `only` (empty: all), which are cameras' names, and than those of `known`, if it is given.
-struct CameraChoice {
+struct WantedCameras {
     std::vector<std::string> only;
     std::optional<std::set<std::string>> known;  // those with a place in the file
 };
@@ -47,8 +47,8 @@ struct CameraChoice {
 // Throw Error, also if fewer than two cameras are left, if two have one name, or if one of `only`
 // is not there. Those that are left out unasked are said on standard error.
 std::unique_ptr<DepthSource> open_cameras(const std::vector<std::string>& specifications,
-                                          const CameraChoice& choice,
+                                          const WantedCameras& choice,
                                           const capture::Progress& progress);
-std::unique_ptr<DepthSource> join_for_depth(const net::Link& link, const CameraChoice& choice);
+std::unique_ptr<DepthSource> join_for_depth(const net::Link& link, const WantedCameras& choice);
 
 }  // namespace theatron::app

@@ -176,7 +176,7 @@ void run(const Flags& flags) {
     for (const std::string& remark : record::remarks_on_files(*recording))
         std::cerr << remark << std::endl;
     for (const record::Segment& segment : recording->segments()) {
-        damaged |= !segment.closed;
+        damaged |= !segment.closed || !segment.early_end.empty() || !segment.lacks.empty();
         for (const std::string& remark : record::remarks_on(segment))
             std::cerr << segment.file << ": " << remark << std::endl;
     }
@@ -202,6 +202,10 @@ void run(const Flags& flags) {
             exporting::clear_folder(folder, flags.overwrite);
 
     const auto report = [&](const char* what, const Exported& e, const std::string& place) {
+        if (e.count == 0 && flags.from + flags.to > 0)
+            throw Error("'" + flags.file +
+                        "' has no picture in the seconds that --from and --to "
+                        "name; 'theatron inspect' says how long it is.");
         damaged |= e.losses.depth() + e.losses.color() > 0;
         nlohmann::json places = nlohmann::json::array();
         for (const auto& [path, count] : e.places)

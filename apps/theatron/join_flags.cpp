@@ -125,7 +125,7 @@ std::unique_ptr<publish::CameraPublisher> open_own_cameras(const JoinFlags& flag
         throw Error("--may-record is about what you send: it needs --publish or --share.");
     if (cameras.empty())
         return nullptr;
-    auto publisher = open_published(cameras, {}, "", {flags.may_record, wire::CameraFrame::person});
+    auto publisher = open_published(cameras, {}, "", {flags.may_record, wire::CameraKind::person});
     options.publishing = publisher->events();
     return publisher;
 }

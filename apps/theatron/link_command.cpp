@@ -100,7 +100,16 @@ bool is_followed(const std::filesystem::path& state, const std::filesystem::path
 
 void revoke(const Flags& flags, const std::filesystem::path& state,
             const std::filesystem::path& folder) {
-    if (!host::revoke_link(folder, flags.revoke))
+    bool was_there = false;
+    try {
+        was_there = host::revoke_link(folder, flags.revoke);
+    } catch (const Error& error) {
+        throw Error("Link " + flags.revoke +
+                    " is not revoked, and still admits people: " + error.what() +
+                    " Mend that and say it again; an operator in the room can remove people at "
+                    "once.");
+    }
+    if (!was_there)
         throw Error("There is no link '" + flags.revoke + "'. This lists them:\n  " +
                     command_of(flags, "--list"));
     const TimePoint end = steady_now() + answer_patience;

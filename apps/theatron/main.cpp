@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "base/output.h"
+#include "base/standard_streams.h"
 #include "capture/mkv_reader.h"
 #include "cases/foreign_files.h"
 #include "cli/output_end.h"
@@ -60,6 +61,8 @@ int run(int argc, char** argv) {
                                          })
         ->group("");
     const std::vector<std::string> given = theatron::app::take_arguments(argc, argv);
+    if (const auto problem = theatron::app::empty_argument(given); !problem.empty())
+        throw theatron::Error(problem);
     std::vector<std::string> arguments = given;
     theatron::app::PartedWords words{arguments, {}};
     if (argc > 1 && arguments[1] == "host") {
@@ -140,6 +143,7 @@ int run_and_tell(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    theatron::reserve_standard_streams();
     std::vector<theatron::sandbox::Reader> readers(std::begin(theatron::capture::foreign_readers),
                                                    std::end(theatron::capture::foreign_readers));
     readers.insert(readers.end(), std::begin(theatron::cases::foreign_readers),

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/trimmed.h"
 #include "session/room_bytes.h"
 #include "wire/clear_objects.h"
 #include "wire/manage_text.h"
@@ -23,13 +24,6 @@ constexpr struct {
                 {"mute", ManageAction::mute},          {"unmute", ManageAction::unmute},
                 {"role", ManageAction::set_role},      {"remove", ManageAction::remove},
                 {"revoke", ManageAction::revoke_link}, {"clear", wire::clear_objects}};
-
-std::string trimmed(const std::string& text) {
-    const auto begin = text.find_first_not_of(' ');
-    return begin == std::string::npos
-               ? ""
-               : text.substr(begin, text.find_last_not_of(" \r") - begin + 1);
-}
 
 ParticipantId find_person(const std::string& who, const std::vector<SomePerson>& people,
                           bool waits) {

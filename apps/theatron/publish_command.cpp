@@ -91,7 +91,7 @@ void run(const Flags& flags) {
     options.person = client::load_or_make_person_id(files::state_folder());
     options.remark = [](const std::string& text) { log::say(text); };
     const auto publisher = open_published(cameras, flags.filters, flags.places,
-                                          {flags.may_record, wire::CameraFrame::room});
+                                          {flags.may_record, wire::CameraKind::room});
     options.publishing = publisher->events();
 
     cli::catch_stop_signals();

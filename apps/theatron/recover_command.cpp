@@ -4,7 +4,9 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "base/error.h"
 #include "cli/progress.h"
+#include "cli/stop_signal.h"
 #include "commands.h"
 #include "record/recover.h"
 #include "record/remarks.h"
@@ -62,9 +64,12 @@ void print(const record::RecordingFile& recording, const record::Recovered& save
 
 void run(const Flags& flags) {
     const auto recording = record::RecordingFile::open(flags.file);
+    cli::catch_stop_signals();
     const capture::Progress show = cli::show_progress();
     const record::Recovered saved = record::recover(
         *recording, flags.out.empty() ? default_out(flags.file) : flags.out, [&](double done) {
+            if (cli::stop_requested())
+                throw Error("Stopped before it was whole; no file was written.");
             if (show)
                 show("recovering", done);
         });
@@ -125,7 +130,9 @@ void add_recover_command(CLI::App& app) {
         "Pictures that are damaged, and those that cannot be decoded without them, are left out;\n"
         "all others are copied as they are. The recording itself is not changed. Exit code 0: "
         "all\n"
-        "of it was saved; 3: something was left out or is missing; 1: nothing was written.\n"
+        "of it was saved; 3: something was left out or is missing, which the new file says, too; "
+        "1: nothing was\n"
+        "written.\n"
         "\nExamples:\n"
         "  theatron recover operation.mkv\n"
         "  theatron recover operation.mkv saved.mkv");

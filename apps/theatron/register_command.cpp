@@ -44,7 +44,7 @@ struct Flags {
     double seconds = 0;
 };
 
-std::unique_ptr<DepthSource> open(const Flags& flags, const CameraChoice& choice) {
+std::unique_ptr<DepthSource> open(const Flags& flags, const WantedCameras& choice) {
     if (flags.link.empty() == flags.cameras.empty())
         throw Error(
             "Say which cameras: the link of a running session, or --camera for each that this "
@@ -255,7 +255,7 @@ void run(const Flags& flags) {
     // Mistyped ones are told before anybody carries the board.
     (void)tip_of(flags);
     (void)holder_offset_of(flags);
-    CameraChoice choice{flags.only, {}};
+    WantedCameras choice{flags.only, {}};
     capture::CameraPlaces earlier;
     if (!flags.refine.empty()) {
         earlier = capture::load_places(flags.refine);

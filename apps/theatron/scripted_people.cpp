@@ -57,6 +57,10 @@ wire::PersonPose pose_at(std::size_t person, double seconds, TimePoint now) {
     pose.time = now;
     pose.head = towards(head, looks_at);
     pose.right_hand = towards(hand, hand + reach);
+    // The other hand rests before the body: a headset sees both.
+    const Vec3 ahead = normalized(Vec3{reach.x, 0, reach.z});
+    const Vec3 rest = shoulder + Vec3{0, -0.12, 0} + 0.26 * ahead + 0.17 * cross({0, 1, 0}, ahead);
+    pose.left_hand = towards(rest, rest + ahead + Vec3{0, -0.3, 0});
     // The expert shows the student the situs while the brick rests.
     pose.points = person == 0 && attention == 0;
     return pose;

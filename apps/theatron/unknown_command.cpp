@@ -54,4 +54,22 @@ std::string file_taken_for_option(const std::vector<std::string>& arguments) {
     return "";
 }
 
+std::string empty_argument(const std::vector<std::string>& arguments) {
+    std::string before;
+    for (const std::string& word : arguments) {
+        const bool ends_empty = word.size() > 3 && word.starts_with("--") && word.ends_with("=") &&
+                                word.find('=') == word.size() - 1;
+        if (word.empty() || ends_empty) {
+            const std::string option = ends_empty                 ? word.substr(0, word.size() - 1)
+                                       : before.starts_with("--") ? before
+                                                                  : "";
+            return (option.empty() ? "An argument" : "The value of " + option) +
+                   " is empty; a variable of the shell may have none. Leave it out, or give it a "
+                   "value.";
+        }
+        before = word;
+    }
+    return "";
+}
+
 }  // namespace theatron::app

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A misspelt command.
+// Words of the command line that no command takes.
 #pragma once
 
 #include <string>
@@ -14,5 +14,10 @@ std::string unknown_command(const std::string& word, const std::vector<std::stri
 // A sentence on the first of `arguments` that looks like a file's name and is taken for an option,
 // since it begins with a hyphen; empty if there is none.
 std::string file_taken_for_option(const std::vector<std::string>& arguments);
+
+// A sentence on the first of `arguments` that is empty, or on the first option with an empty value,
+// which is what a variable of the shell without a value leaves; empty if there is none. No option
+// takes an empty value.
+std::string empty_argument(const std::vector<std::string>& arguments);
 
 }  // namespace theatron::app

@@ -21,7 +21,7 @@ client::ColorMeasure measure_of(const client::ParticipantFigures& figures) {
     for (const client::CameraFigures& one : figures.cameras) {
         const auto& [camera, color] = std::tie(one.camera, one.color);
         // Faces come in codecs of their own.
-        if (!camera.description.has_color || camera.description.frame == wire::CameraFrame::face)
+        if (!camera.description.has_color || camera.description.kind == wire::CameraKind::face)
             continue;
         measure.has_h264 = measure.has_h264 || is_h264(color.codec);
         measure.decode_ms = std::max(measure.decode_ms, color.decode_ms);

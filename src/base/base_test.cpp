@@ -8,9 +8,18 @@
 #include "base/options.h"
 #include "base/statistics.h"
 #include "base/time_between.h"
+#include "base/trimmed.h"
 
 namespace theatron {
 namespace {
+
+TEST(Trimmed, TakesBlanksAtBothEndsOnly) {
+    EXPECT_EQ(trimmed(" \t a b\r"), "a b");
+    EXPECT_EQ(trimmed(" \t\r"), "");
+    EXPECT_EQ(trimmed(""), "");
+    EXPECT_EQ(trimmed("\na "), "\na");
+    EXPECT_EQ(trimmed("--a-", "-"), "a");
+}
 
 TEST(Bytes, AreLittleEndian) {
     Bytes bytes;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The picture of a person's face, from an ordinary camera: a small screen (geometry/screen.h) that
-// is drawn on the person's head in the room (wire::CameraFrame::face).
+// is drawn on the person's head in the room (wire::CameraKind::face).
 #pragma once
 
 #include <string>

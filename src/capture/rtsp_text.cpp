@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "capture/rtsp_text.h"
+#include "base/trimmed.h"
 #include "ffmpeg/ffmpeg.h"
 
 extern "C" {
@@ -19,15 +20,6 @@ namespace {
 
 constexpr std::string_view scheme = "rtsp://";
 constexpr int max_sequence = 1'000'000'000;
-
-std::string_view trimmed(std::string_view text) {
-    const auto is_blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
-    while (!text.empty() && is_blank(text.front()))
-        text.remove_prefix(1);
-    while (!text.empty() && is_blank(text.back()))
-        text.remove_suffix(1);
-    return text;
-}
 
 bool same_word(std::string_view one, std::string_view other) {
     return std::equal(one.begin(), one.end(), other.begin(), other.end(), [](char a, char b) {

@@ -6,17 +6,12 @@
 #include <cstring>
 
 #include "base/outside_text.h"
+#include "base/trimmed.h"
 
 namespace theatron::cases {
 namespace {
 
-std::string_view trimmed(std::string_view text) {
-    constexpr std::string_view empty(" \0\t\r\n", 5);
-    const std::size_t begin = text.find_first_not_of(empty);
-    if (begin == std::string_view::npos)
-        return {};
-    return text.substr(begin, text.find_last_not_of(empty) - begin + 1);
-}
+constexpr std::string_view padding(" \0\t\r\n", 5);
 
 template <class T>
 double binary_at(ByteView bytes, std::size_t at, bool big_endian) {
@@ -31,7 +26,7 @@ double binary_at(ByteView bytes, std::size_t at, bool big_endian) {
 }  // namespace
 
 std::optional<double> dicom_decimal(std::string_view component) {
-    component = trimmed(component);
+    component = trimmed(component, padding);
     if (component.starts_with('+') && component.size() > 1 && component[1] != '-')
         component.remove_prefix(1);
     double value = 0;
@@ -62,7 +57,7 @@ Field dicom_decimals(const DicomSet& set, DicomTag tag, double* out, int count) 
         return Field::good;
     }
     const std::string list = set.text(tag);
-    if (trimmed(list).empty())
+    if (trimmed(list, padding).empty())
         return Field::absent;
     std::size_t begin = 0;
     for (int i = 0; i < count; ++i) {

@@ -138,6 +138,17 @@ TEST_F(Import, ANumberThatTwoHospitalsGaveIsNotOnePatient) {
     EXPECT_THAT(refusal(), HasSubstr("more than one patient"));
     write("z.dcm", other, "Beispiel^Erika", "19610203");
     EXPECT_EQ(import().manifest.series.size(), 2u) << "she has taken another name";
+    fs::remove_all(folder_.path());
+    fs::create_directories(source());
+    write("a.dcm", image(0), "Mustermann^Erika", "");
+    write("z.dcm", other, "Beispiel^Erika", "");
+    EXPECT_THAT(refusal(), HasSubstr("more than one patient")) << "a number that many have";
+    write("a.dcm", image(0), "", "19610203");
+    write("z.dcm", other, "", "19550101");
+    EXPECT_THAT(refusal(), HasSubstr("more than one patient"));
+    write("a.dcm", image(0), "Mustermann^Erika", "19610203");
+    write("z.dcm", other, "Mustermann^Erika", "19610302");
+    EXPECT_EQ(import().manifest.series.size(), 2u) << "a date that was written wrongly";
 }
 
 TEST_F(Import, NamesOfFilesThatAreLeftOutStayOutOfTextsThatEverybodySees) {

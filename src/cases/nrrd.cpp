@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "base/outside_text.h"
+#include "base/trimmed.h"
 #include "cases/label_map.h"
 #include "cases/sample_stream.h"
 #include "cases/text_words.h"
@@ -21,14 +22,6 @@ constexpr std::size_t max_fields = 8192;
 
 // Names of fields are in small letters; those of keys (":=") as they are.
 using Fields = std::map<std::string, std::string, std::less<>>;
-
-std::string_view trimmed(std::string_view text) {
-    while (!text.empty() && (text.back() == ' ' || text.back() == '\r' || text.back() == '\t'))
-        text.remove_suffix(1);
-    while (!text.empty() && (text.front() == ' ' || text.front() == '\t'))
-        text.remove_prefix(1);
-    return text;
-}
 
 std::string lower(std::string_view text) {
     std::string small(text);

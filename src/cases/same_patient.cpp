@@ -50,12 +50,17 @@ bool may_be_one_patient(const std::vector<Identifier>& a, const std::vector<Iden
     const auto [name_a, name_b] = of_both("PatientName");
     const auto [born_a, born_b] = of_both("PatientBirthDate");
     const bool may_be_name = may_be_one_name(name_a, name_b);
-    const bool may_be_date = born_a.empty() || born_b.empty() || born_a == born_b;
+    const bool is_date_known = !born_a.empty() && !born_b.empty();
+    const bool may_be_date = !is_date_known || born_a == born_b;
     const auto [number_a, number_b] = of_both("PatientID");
     if (number_a.empty() || number_b.empty())
         return may_be_name && may_be_date;
-    // Hospitals use the same numbers, and a person may take another name.
-    return words_of_number(number_a) == words_of_number(number_b) && (may_be_name || may_be_date);
+    // Hospitals use the same numbers, and some give one ("ANON") to all. A person may take another
+    // name, or one of two dates may be written wrongly: the other of both then has to agree.
+    if (words_of_number(number_a) != words_of_number(number_b))
+        return false;
+    return may_be_name ? may_be_date || !(name_a.empty() || name_b.empty())
+                       : is_date_known && may_be_date;
 }
 
 }  // namespace theatron::cases

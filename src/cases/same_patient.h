@@ -10,9 +10,9 @@
 
 namespace theatron::cases {
 
-// False only if it is certain: both have a number that differs, or the same one with another name
-// and another date of birth, or one of them has none and names or dates of birth differ. Only
-// PatientName, PatientBirthDate and PatientID count.
+// False if they have different numbers; if they have the same one and names differ without equal
+// dates of birth, or dates of birth without equal names; if one of them has no number and names or
+// dates of birth differ. Only PatientName, PatientBirthDate and PatientID count.
 bool may_be_one_patient(const std::vector<Identifier>& a, const std::vector<Identifier>& b);
 
 }  // namespace theatron::cases

@@ -34,7 +34,7 @@ wire::OfferedCamera FaceSender::offer(Size picture, double frames_per_second) {
             frames_per_second,
             encode_calibration(screen_calibration(picture, face_width_m, {})),
             false,
-            wire::CameraFrame::face};
+            wire::CameraKind::face};
 }
 
 Participant::Publishing FaceSender::events() {

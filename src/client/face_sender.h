@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sends the picture of this person's face (wire::CameraFrame::face) where a browser takes and
+// Sends the picture of this person's face (wire::CameraKind::face) where a browser takes and
 // encodes it: every picture is a JPEG of its own.
 //
 // Thread safe.

@@ -25,7 +25,7 @@ protected:
 
 TEST_F(FaceSenderTest, OffersWhatTheHostTakes) {
     const wire::OfferedCamera offer = FaceSender::offer({320, 240}, 10);
-    EXPECT_EQ(offer.frame, wire::CameraFrame::face);
+    EXPECT_EQ(offer.kind, wire::CameraKind::face);
     EXPECT_FALSE(offer.may_record);
     const auto calibration = decode_calibration(offer.calibration);
     ASSERT_TRUE(calibration);

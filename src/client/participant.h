@@ -79,7 +79,7 @@ public:
         std::function<void()> news;
         Publishing publishing;  // needed for publish()
         Publishing face;        // needed for publish_face()
-        // Is told of the faces of others (wire::CameraFrame::face), too; they are cameras.
+        // Is told of the faces of others (wire::CameraKind::face), too; they are cameras.
         bool takes_faces = false;
         // Keeps the objects of the room; needed for room() and the functions below it.
         bool keeps_room = false;
@@ -176,7 +176,7 @@ public:
     // Options::publishing.
     void publish(std::vector<wire::OfferedCamera> cameras);
     // The same for the picture of this person's face, apart from the cameras: a camera of
-    // CameraFrame::face. Its number goes to Options::face.
+    // CameraKind::face. Its number goes to Options::face.
     void publish_face(std::optional<wire::OfferedCamera> face);
     // From any thread: sends a frame of such a camera, encoded as the host asked, with the camera's
     // stream in its header and session times (now()). `message` is header and payload. A frame that

@@ -95,7 +95,7 @@ void Participant::on_cameras() {
                                 [&](const Camera& c) { return c.description.id == id; });
         };
         const auto is_face = [](const Camera& camera) {
-            return camera.description.frame == wire::CameraFrame::face;
+            return camera.description.kind == wire::CameraKind::face;
         };
         for (const Camera& camera : cameras)
             if (without(shared_->cameras, camera.description.id) && !is_face(camera))
@@ -145,7 +145,7 @@ void Participant::on_camera_states() {
                 add(say(Phrase::camera_well, name));
             // Faces come and go; people see it.
             if (camera.state.condition == before ||
-                camera.description.frame == wire::CameraFrame::face)
+                camera.description.kind == wire::CameraKind::face)
                 continue;
             if (camera.state.condition == Condition::ended)
                 add(say(Phrase::camera_ended, name));

@@ -326,7 +326,7 @@ private:
             r.name = d.name;
             r.frames_per_second = d.frames_per_second;
             r.calibration = places_.settled(d.id, d.calibration, d.adjustment, steady_now());
-            if (d.frame == wire::CameraFrame::person) {
+            if (d.kind == wire::CameraKind::person) {
                 Calibration before_person = camera.calibration;
                 before_person.person = std::uint32_t(d.publisher);
                 r.calibration = encode_calibration(before_person);

@@ -27,7 +27,7 @@ struct Calibration {
     bool registered = false;
 
     // In recordings: if it is not 0, the camera sees this participant of the recorded session, who
-    // moves, and "the room" above is this person's frame (wire::CameraFrame::person).
+    // moves, and "the room" above is this person's frame (wire::CameraKind::person).
     std::uint32_t person = 0;
 
     // The number of one registration; cameras with the same number were placed together. 0:

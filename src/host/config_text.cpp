@@ -4,20 +4,13 @@
 #include <algorithm>
 
 #include "base/outside_text.h"
+#include "base/trimmed.h"
 
 namespace theatron::host {
 namespace {
 
 constexpr std::size_t shown_characters = 60;  // of what stands in the file
 constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
-
-std::string_view trimmed(std::string_view text) {
-    constexpr std::string_view spaces = " \t\r";
-    const std::size_t begin = text.find_first_not_of(spaces);
-    if (begin == text.npos)
-        return {};
-    return text.substr(begin, text.find_last_not_of(spaces) - begin + 1);
-}
 
 bool is_key(std::string_view text) {
     return !text.empty() && text.front() != '-' &&

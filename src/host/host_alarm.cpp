@@ -27,9 +27,9 @@ void Host::Impl::on_alarm() {
 }
 
 void Host::Impl::send_past() {
-    std::vector<session::LookBack::Due> pictures = session->take_past(steady_now());
+    std::vector<session::LookBacks::Due> pictures = session->take_past(steady_now());
     carry_out();  // settings come before their pictures
-    for (session::LookBack::Due& picture : pictures) {
+    for (session::LookBacks::Due& picture : pictures) {
         const wire::MediaHeader& header = picture.header;
         // Where the link is too slow, the next key frame of the past continues the stream.
         const auto pushed = server->send_media(net::PeerId(std::uint32_t(picture.receiver)),

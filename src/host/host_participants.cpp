@@ -61,7 +61,7 @@ void Host::Impl::note_participants() {
             const auto& state = cameras.find(camera.id)->state;
             published.push_back({camera.id, camera.name, camera.publisher,
                                  condition_here(state, is_silent(camera.publisher)),
-                                 dropped_slow[camera.id], camera.frame == wire::CameraFrame::face,
+                                 dropped_slow[camera.id], camera.kind == wire::CameraKind::face,
                                  received[camera.id]});
         }
     std::string problem_of_places = mixed_registrations(cameras.descriptions());

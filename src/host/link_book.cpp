@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "base/error.h"
+#include "base/log.h"
 #include "base/outside_text.h"
 #include "files/private_file.h"
 #include "host/host_identity.h"
@@ -136,8 +137,17 @@ std::string followed_text(const LinkFiles& files) {
 }  // namespace
 
 void make_role_links(const fs::path& folder) {
-    for (const wire::Role role : wire::roles)
+    const bool has_some = std::ranges::any_of(
+        wire::roles, [&](wire::Role role) { return fs::exists(folder / token_file(role)); });
+    for (const wire::Role role : wire::roles) {
+        const bool was_missing = !fs::exists(folder / token_file(role));
         (void)load_or_make_token(folder, token_file(role));
+        if (has_some && was_missing)
+            log::warning("host",
+                         "token file was missing: its token is new, and earlier links of this "
+                         "role let nobody in",
+                         {{"file", (folder / token_file(role)).string()}});
+    }
 }
 
 KnownLinks load_links(const fs::path& folder) {

@@ -42,7 +42,8 @@ std::string expected_name(const std::string& specification) {
         name = name.empty() ? path.filename().string() : name;
     else if (options.kind() == "mkv" || options.kind() == "video")
         name = path.stem().string();
-    else if (const std::string serial = options.take("serial"); !serial.empty())
+    else if (const std::string serial = options.take("serial");
+             options.kind() == "k4a" && !serial.empty())
         name = "k4a-" + serial;
     return clean_text(name.empty() ? options.text() : name, wire::max_name);
 }

@@ -10,8 +10,7 @@ std::string mixed_registrations(const std::vector<wire::Camera>& cameras) {
     std::uint64_t number = 0;
     for (const wire::Camera& camera : cameras) {
         const auto calibration = decode_calibration(camera.calibration);
-        if (!calibration || calibration->registration == 0 ||
-            camera.frame != wire::CameraFrame::room)
+        if (!calibration || calibration->registration == 0 || camera.kind != wire::CameraKind::room)
             continue;
         if (!first) {
             first = &camera;

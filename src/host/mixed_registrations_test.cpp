@@ -30,7 +30,7 @@ TEST(MixedRegistrations, AreNamed) {
 
 TEST(MixedRegistrations, DoNotMatterForACameraThatMovesWithAPerson) {
     wire::Camera own = camera("own", 8);
-    own.frame = wire::CameraFrame::person;
+    own.kind = wire::CameraKind::person;
     EXPECT_EQ(mixed_registrations({camera("left", 7), own}), "");
 }
 

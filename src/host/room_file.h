@@ -19,7 +19,7 @@
 namespace theatron::host {
 
 struct SavedRoom {
-    session::RoomSnapshot room;
+    session::ObjectsSnapshot room;
     session::HostRoom::Authors authors;
     // When it was saved; times of its objects are session time of that run. 0: unknown.
     TimePoint session_time;

@@ -39,7 +39,7 @@ TEST(RoomFile, ADamagedOneIsKeptAsideAndAnEmptyRoomBegins) {
     const testing::TemporaryFolder folder;
     files::open_private_folder(folder.path() / "state");
     const auto path = folder.path() / "state" / "room";
-    session::RoomSnapshot room;
+    session::ObjectsSnapshot room;
     room.revision = 5;
     room.objects[session::ObjectId{1}] = {session::ObjectKind::mark, anna, {}, {}, {}, 1, {}};
     const UtcTime utc{std::chrono::microseconds(1'700'000'000'123'456)};
@@ -124,7 +124,7 @@ TEST(RoomFile, ThatCannotBeWrittenIsTriedAgainUntilItCan) {
 }
 
 TEST(RoomFile, OlderVersionsHadNoTimesAdjustmentsOrAuthors) {
-    session::RoomSnapshot room;
+    session::ObjectsSnapshot room;
     room.revision = 5;
     room.objects[session::ObjectId{1}] = {session::ObjectKind::mark, anna, {}, {}, {}, 1, {}};
     const Bytes now = encode_room({room, {}, from_us(77), UtcTime(1s), {}});
@@ -149,7 +149,7 @@ TEST(RoomFile, OlderVersionsHadNoTimesAdjustmentsOrAuthors) {
 TEST(RoomFile, KeepsTheAuthorsOfMarksThatAreThere) {
     const session::ObjectId mark{7}, gone{8};
     const Bytes eve(wire::person_id_size, std::byte(5));
-    session::RoomSnapshot room;
+    session::ObjectsSnapshot room;
     room.revision = 9;
     room.objects[mark] = {session::ObjectKind::mark, anna, {}, {}, {}, 1, {}};
     const Bytes bytes = encode_room({room, {{mark, eve}, {gone, eve}}, {}, {}, {}});

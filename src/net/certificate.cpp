@@ -9,6 +9,7 @@
 #include <openssl/x509.h>
 #include <openssl/x509v3.h>
 
+#include <algorithm>
 #include <ctime>
 #include <memory>
 
@@ -75,6 +76,13 @@ std::string content(BIO* bio) {
     return std::string(data, std::size_t(size));
 }
 
+// A host has made links with the certificate of this folder.
+bool has_tokens(const std::filesystem::path& folder) {
+    return std::ranges::any_of(std::filesystem::directory_iterator(folder), [](const auto& entry) {
+        return entry.path().extension() == ".token";
+    });
+}
+
 }  // namespace
 
 std::string certificate_fingerprint(X509* certificate) {
@@ -126,6 +134,11 @@ Certificate load_or_make_certificate(const std::filesystem::path& folder) {
     const auto certificate_path = folder / "host.crt", key_path = folder / "host.key";
     const auto certificate = files::read_private_file(certificate_path, Privacy::readable);
     if (!certificate) {
+        if (std::filesystem::exists(key_path) && has_tokens(folder))
+            throw Error("'" + certificate_path.string() +
+                        "' is missing, and links that were made name it. Put it back; or delete "
+                        "host.key, too, after which the host has a new identity and old links no "
+                        "longer work.");
         // The certificate is written last. A key without one is left by a crash during the first
         // start; no link has ever named it, so both are made again.
         const Certificate made = make_certificate();

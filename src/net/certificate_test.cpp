@@ -59,6 +59,18 @@ TEST(CertificateFiles, ACertificateWhoseKeyIsGoneIsNotReplacedInSilence) {
     EXPECT_THAT(problem_with(folder.path()), HasSubstr("must belong together"));
 }
 
+TEST(CertificateFiles, ACertificateThatLinksNameIsNotReplacedInSilence) {
+    const theatron::testing::TemporaryFolder folder;
+    (void)load_or_make_certificate(folder.path());
+    fs::remove(folder.path() / "host.crt");
+    (void)load_or_make_certificate(folder.path());  // no link was made yet
+    files::write_private_file(folder.path() / "join.token", "0123456789abcdef0123456789abcdef\n");
+    fs::remove(folder.path() / "host.crt");
+    EXPECT_THAT(problem_with(folder.path()), HasSubstr("links that were made name it"));
+    fs::remove(folder.path() / "host.key");
+    (void)load_or_make_certificate(folder.path());  // as the sentence advises
+}
+
 TEST(CertificateFiles, AKeyThatOthersMayReadIsRefused) {
     const theatron::testing::TemporaryFolder folder;
     load_or_make_certificate(folder.path());

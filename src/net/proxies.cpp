@@ -6,6 +6,7 @@
 #include <charconv>
 
 #include "base/error.h"
+#include "base/trimmed.h"
 
 namespace theatron::net {
 namespace {
@@ -13,12 +14,6 @@ namespace {
 namespace ip = boost::asio::ip;
 
 constexpr unsigned address_bits = 128, mapped_bits = 96;  // the latter before an IPv4 address
-
-std::string_view trimmed(std::string_view text) {
-    constexpr std::string_view blanks = " \t";
-    text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
-    return text.substr(0, text.find_last_not_of(blanks) + 1);
-}
 
 // An address as proxies write it: some add quotes, brackets or a port.
 std::string_view without_port(std::string_view text) {

@@ -86,7 +86,7 @@ CameraPublisher::CameraPublisher(std::vector<std::string> specifications, const 
                                  const capture::Progress& progress, const Sharing& sharing)
     : specifications_(std::move(specifications)),
       places_(places.empty() ? capture::CameraPlaces() : capture::load_places(places)),
-      is_face_(sharing.frame == wire::CameraFrame::face),
+      is_face_(sharing.kind == wire::CameraKind::face),
       states_(specifications_.size()) {
     std::vector<std::unique_ptr<capture::Camera>> cameras;
     std::vector<Calibration> calibrations;
@@ -94,7 +94,7 @@ CameraPublisher::CameraPublisher(std::vector<std::string> specifications, const 
         cameras.push_back(capture::open_camera_at(specification, places_, progress));
         calibrations.push_back(without_person(cameras.back()->info().calibration));
     }
-    if (sharing.frame == wire::CameraFrame::person)
+    if (sharing.kind == wire::CameraKind::person)
         place_before_person(cameras, calibrations);
     std::vector<std::string> names;
     for (const auto& camera : cameras)
@@ -106,7 +106,7 @@ CameraPublisher::CameraPublisher(std::vector<std::string> specifications, const 
         const bool is_in_room = is_screen(calibrations[i]) && !is_face_;
         offers_.push_back({names[i], info.calibration.color.size != Size{}, info.frames_per_second,
                            encode_calibration(calibrations[i]), sharing.may_record,
-                           is_in_room ? wire::CameraFrame::room : sharing.frame});
+                           is_in_room ? wire::CameraKind::room : sharing.kind});
     }
     for (std::size_t i = 0; i < cameras.size(); ++i)
         open(i, std::move(cameras[i]));

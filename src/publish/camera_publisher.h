@@ -25,15 +25,15 @@ namespace theatron::publish {
 
 // The part that is the same for all cameras of a publisher.
 struct Sharing {
-    bool may_record = false;                            // others may record them
-    wire::CameraFrame frame = wire::CameraFrame::room;  // face: of one camera, the only one
+    bool may_record = false;                         // others may record them
+    wire::CameraKind kind = wire::CameraKind::room;  // face: of one camera, the only one
 };
 
 class CameraPublisher {
 public:
     // Opens the cameras; throws Error with one sentence if one cannot be opened. `places`: a file
     // with their poses in the room (docs/formats/places.md); empty: the cameras have none. With
-    // CameraFrame::person the cameras see the participant, whom the first one finds in its first
+    // CameraKind::person the cameras see the participant, whom the first one finds in its first
     // depth images (own_camera.h); this takes up to `person_patience` longer.
     CameraPublisher(std::vector<std::string> specifications, const std::string& places,
                     const capture::Progress& progress, const Sharing& sharing = {});

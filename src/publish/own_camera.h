@@ -26,7 +26,7 @@ struct Eyes {
 // 2.5 m that is large enough for a person.
 std::optional<Eyes> find_eyes(DepthView depth, const Calibration& calibration);
 
-// The pose of the depth camera in the person's frame (wire::CameraFrame::person).
+// The pose of the depth camera in the person's frame (wire::CameraKind::person).
 Pose person_from_camera(const Calibration& calibration, std::optional<Vec3> eyes_in_camera);
 
 }  // namespace theatron::publish

@@ -57,7 +57,7 @@ void OwnFace::show(bool shown) {
     opening_ = std::async(std::launch::async, [device = device_] {
         return std::make_shared<CameraPublisher>(std::vector{"face:" + device}, "",
                                                  capture::Progress(),
-                                                 Sharing{false, wire::CameraFrame::face});
+                                                 Sharing{false, wire::CameraKind::face});
     });
 }
 

@@ -124,7 +124,7 @@ void Receiver::stop(Stream& stream) {
     stream.submitted.clear();
     stream.color_reference.reset();
     stream.counting = false;
-    CameraState& camera = cameras_[stream.camera];
+    CameraImages& camera = cameras_[stream.camera];
     camera.depth.reset();
     if (stream.is_depth)
         camera.has_depth = false;
@@ -136,7 +136,7 @@ void Receiver::stop(Stream& stream) {
 void Receiver::set_past(Stream& stream, bool past) {
     stream.past = past;
     stream.counting = false;
-    CameraState& camera = cameras_[stream.camera];
+    CameraImages& camera = cameras_[stream.camera];
     camera.depth.reset();
     camera.color.reset();
 }
@@ -233,7 +233,7 @@ Status Receiver::decode_depth(Stream& stream, const wire::MediaHeader& header, B
     stream.newest_captured = header.captured;
     stream.exact = exactness(stream, payload);
 
-    CameraState& camera = cameras_[stream.camera];
+    CameraImages& camera = cameras_[stream.camera];
     // Its colour never came: the depth image is shown with an older one.
     if (camera.depth)
         hand_on(camera);
@@ -326,7 +326,7 @@ void Receiver::take_pictures(StreamId id, Stream& stream, TimePoint now) {
         add_age(stream, to_ms(done - submitted.captured));
         add_decode_time(stream, done - submitted.arrived);
 
-        CameraState& camera = cameras_[stream.camera];
+        CameraImages& camera = cameras_[stream.camera];
         const std::shared_ptr<ColorImage> image = colors_.take();
         std::swap(*image, decoded->image);
         stream.color->recycle(std::move(decoded->image));
@@ -361,7 +361,7 @@ std::size_t Receiver::pending() const {
     return sum;
 }
 
-void Receiver::hand_on(CameraState& camera) {
+void Receiver::hand_on(CameraImages& camera) {
     camera.depth->color = camera.color;
     events_.frame(std::exchange(camera.depth, nullptr));
 }

@@ -154,7 +154,7 @@ private:
         bool past = false;
     };
     // Images that wait for the other one of the same moment.
-    struct CameraState {
+    struct CameraImages {
         Bytes calibration;
         std::shared_ptr<CameraFrame> depth;  // newest, not yet handed on
         std::shared_ptr<const ColorImage> color;
@@ -179,13 +179,13 @@ private:
     void count(Stream& stream, const wire::MediaHeader& header, std::size_t size, TimePoint now);
     static Exactness exactness(const Stream& stream, ByteView payload);
     void ask_for_key(StreamId id, Stream& stream, TimePoint now);
-    void hand_on(CameraState& camera);
+    void hand_on(CameraImages& camera);
     void hand_on_color(const Stream& stream, const Stream::Submitted& submitted, TimePoint done);
     static void sort_ages(Stream& stream);
 
     Events events_;
     std::map<StreamId, Stream> streams_;
-    std::map<CameraId, CameraState> cameras_;
+    std::map<CameraId, CameraImages> cameras_;
     Pool<CameraFrame> frames_;
     Pool<ColorImage> colors_;
     std::uint64_t refused_ = 0;

@@ -170,32 +170,63 @@ void check(const std::filesystem::path& file, const Written& expected) {
                     "' is not what can be read from it; its disk may be failing.");
 }
 
-// Removes the new files on destruction, unless keep() was called.
+// Files that get their names when all of them are whole, and are removed otherwise:
+// keep() says that they are.
 class NewFiles {
 public:
     ~NewFiles() {
         std::error_code ignored;
         for (const std::filesystem::path& file : files_)
-            std::filesystem::remove(file, ignored);
+            std::filesystem::remove(draft_of(file), ignored);
     }
-    void add(const std::filesystem::path& file) { files_.push_back(file); }
-    void keep() { files_.clear(); }
+    // Returns where to write the file.
+    std::filesystem::path add(const std::filesystem::path& file) {
+        files_.push_back(file);
+        // Left by a program that was killed.
+        std::error_code ignored;
+        std::filesystem::remove(draft_of(file), ignored);
+        return draft_of(file);
+    }
+    void keep() {
+        for (const std::filesystem::path& file : files_)
+            std::filesystem::rename(draft_of(file), file);
+        files_.clear();
+    }
 
 private:
+    static std::filesystem::path draft_of(std::filesystem::path file) { return file += ".part"; }
+
     std::vector<std::filesystem::path> files_;
 };
 
-bool saved_all(const RecordingFile& recording, const Recovered& result) {
-    bool all = recording.missing_segments() == 0 && recording.unreadable_files().empty();
-    for (const Segment& segment : recording.segments())
-        all = all && segment.closed && segment.early_end.empty() && segment.damaged_places == 0 &&
-              segment.refused == 0 && segment.foreign.files == 0;
-    for (const Recovered::Camera& camera : result.cameras)
-        for (const RecoveredStream* stream : {&camera.depth, &camera.color})
-            all = all && stream->damaged == 0 && stream->undecodable == 0;
-    for (const RecoveredStream* stream : {&result.room, &result.voices})
-        all = all && stream->damaged == 0 && stream->undecodable == 0;
-    return all;
+// The reasons for which the new files lack something that was to be recorded.
+Lacks lacks_of(const RecordingFile& recording, const Recovered& result) {
+    Lacks lacks;
+    if (recording.missing_segments() > 0 || !recording.unreadable_files().empty())
+        lacks.insert(Lack::files);
+    for (const Segment& segment : recording.segments()) {
+        lacks.insert(segment.lacks.begin(), segment.lacks.end());
+        if (!segment.early_end.empty() || segment.lacks_end() || segment.damaged_places > 0 ||
+            segment.refused > 0)
+            lacks.insert(Lack::pictures);
+    }
+    const auto add = [&](const RecoveredStream& stream) {
+        if (stream.damaged > 0 || stream.undecodable > 0)
+            lacks.insert(Lack::pictures);
+    };
+    for (const Recovered::Camera& camera : result.cameras) {
+        add(camera.depth);
+        add(camera.color);
+    }
+    add(result.room);
+    add(result.voices);
+    return lacks;
+}
+
+bool saved_all(const RecordingFile& recording, const Lacks& lacks) {
+    return lacks.empty() && std::ranges::all_of(recording.segments(), [](const Segment& segment) {
+               return segment.closed && segment.foreign.files == 0;
+           });
 }
 
 bool has_content(const Recovered& result) {
@@ -203,6 +234,12 @@ bool has_content(const Recovered& result) {
     for (const Recovered::Camera& camera : result.cameras)
         saved += camera.depth.saved + camera.color.saved;
     return saved > 0;
+}
+
+// The last file says what its recording lacks, as that of a recorder does.
+void note_lacks(SegmentWriter& writer, const Lacks& lacks) {
+    if (!lacks.empty())
+        writer.note_lacks(letters_of(lacks));
 }
 
 // The writer's own sentence is about a recording that ends early, and keeps what it has.
@@ -239,7 +276,7 @@ Recovered recover(const RecordingFile& recording, const std::filesystem::path& o
         std::error_code ignored;
         if (std::filesystem::exists(file, ignored))
             throw Error("'" + file.string() + "' exists already; name another file.");
-        new_files.add(file);
+        const std::filesystem::path draft = new_files.add(file);
         SegmentInfo info = segment.info;
         // Files of version 1 have no session time: it is taken from the media headers.
         if (!segment.has_info) {
@@ -248,7 +285,7 @@ Recovered recover(const RecordingFile& recording, const std::filesystem::path& o
         }
         const SegmentWriter::Content content{cameras_in(recording, s), voices_in(recording, s),
                                              segment.has_room};
-        SegmentWriter writer(file, content, info, true, losses_of(segment));
+        SegmentWriter writer(draft, content, info, true, losses_of(segment));
         std::vector<RecordedMessage> messages;
         std::size_t waiting = 0;
         Written written;
@@ -297,14 +334,16 @@ Recovered recover(const RecordingFile& recording, const std::filesystem::path& o
         // It may be missing; then it is missing from the new recording as well.
         if (segment.next != 0)
             writer.name_next(segment.next);
-        check(file, written);
+        else if (s + 1 == recording.segments().size())
+            note_lacks(writer, lacks_of(recording, result));
+        check(draft, written);
         bytes_before += segment.bytes;
         result.bytes += writer.bytes();
         result.files.push_back(file.string());
     }
     if (!has_content(result))
         throw Error("Nothing in this recording can be saved: no picture of it is whole.");
-    result.complete = saved_all(recording, result);
+    result.complete = saved_all(recording, lacks_of(recording, result));
     new_files.keep();
     return result;
 }

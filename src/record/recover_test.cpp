@@ -38,6 +38,16 @@ Bytes recording_of(const std::vector<Message>& messages) {
     return bytes_of(folder.path() / "a.mkv");
 }
 
+Bytes recording_that_lacks(const std::vector<Message>& messages, const Lacks& lacks) {
+    const testing::TemporaryFolder folder;
+    Recorder recorder(folder.path() / "a.mkv", cameras(1), session_begin);
+    for (const Message& m : messages)
+        EXPECT_EQ(add(recorder, m), Recorder::Added::taken);
+    recorder.finish();
+    recorder.note_lacks(lacks);
+    return bytes_of(folder.path() / "a.mkv");
+}
+
 std::unique_ptr<RecordingFile> recovered(const Bytes& bytes, const fs::path& folder) {
     write_bytes(folder / "broken.mkv", bytes);
     const auto saved =
@@ -322,6 +332,7 @@ TEST(Recover, LeavesAWordOfWhatWasMissing) {
     const Segment cut = RecordingFile::open(folder.path() / "broken.mkv")->segments()[0];
     EXPECT_EQ(whole->segments()[0].recovered, end_of(cut));
     EXPECT_EQ(end_of(whole->segments()[0]), "");
+    EXPECT_EQ(whole->segments()[0].lacks, Lacks{Lack::pictures}) << "its file says so, too";
     // It survives damage, and another recovery.
     Bytes bytes = bytes_of(folder.path() / "whole.mkv");
     bytes[1] ^= std::byte{1};
@@ -329,6 +340,31 @@ TEST(Recover, LeavesAWordOfWhatWasMissing) {
     fs::remove(folder.path() / "whole.mkv");
     const auto again = recovered(bytes, folder.path());
     EXPECT_EQ(again->segments()[0].recovered.find(end_of(cut)), 0u);
+}
+
+TEST(Recover, KeepsWhatTheRecorderKnewToBeMissing) {
+    const testing::TemporaryFolder folder;
+    write_bytes(folder.path() / "a.mkv", recording_of(with_keys(20, 500)));
+    EXPECT_TRUE(recover(*RecordingFile::open(folder.path() / "a.mkv"), folder.path() / "b.mkv", {})
+                    .complete);
+    EXPECT_TRUE(RecordingFile::open(folder.path() / "b.mkv")->segments()[0].lacks.empty());
+
+    write_bytes(folder.path() / "c.mkv", recording_that_lacks(with_keys(20, 500), {Lack::refused}));
+    const auto saved =
+        recover(*RecordingFile::open(folder.path() / "c.mkv"), folder.path() / "d.mkv", {});
+    EXPECT_FALSE(saved.complete) << "every picture in it was saved, but some never came";
+    EXPECT_EQ(RecordingFile::open(folder.path() / "d.mkv")->segments()[0].lacks,
+              Lacks{Lack::refused});
+}
+
+TEST(Recover, ThatIsStoppedLeavesNoFile) {
+    const testing::TemporaryFolder folder;
+    write_bytes(folder.path() / "a.mkv", recording_of(with_keys(400, 50'000)));
+    write_bytes(folder.path() / "b.mkv.part", Bytes(100));  // of a program that was killed
+    EXPECT_THROW(recover(*RecordingFile::open(folder.path() / "a.mkv"), folder.path() / "b.mkv",
+                         [](double) { throw Error("stopped"); }),
+                 Error);
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 1);
 }
 
 // Where the copies of the head stand.

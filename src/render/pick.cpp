@@ -9,7 +9,7 @@ std::optional<Picked> pick(const SceneFrame& frame, const PickRay& ray) {
     const Vec3 direction = normalized(ray.direction);
     std::optional<Picked> nearest;
     for (const SceneObject& object : frame.objects) {
-        if (object.id == ObjectId::none)
+        if (object.id == PickId::none)
             continue;
         const Pose object_from_room = inverse(object.room_from_object);
         const Vec3 along = rotate(object_from_room.rotation, direction);

@@ -18,7 +18,7 @@ struct PickRay {
 };
 
 struct Picked {
-    ObjectId id = ObjectId::none;
+    PickId id = PickId::none;
     double distance_m = 0;
     Vec3 place, normal;  // the normal points to the side that the ray comes from
 };

@@ -8,7 +8,7 @@
 namespace theatron::render {
 namespace {
 
-constexpr ObjectId liver{7}, panel_id{9};
+constexpr PickId liver{7}, panel_id{9};
 
 class PickTest : public ::testing::Test {
 protected:

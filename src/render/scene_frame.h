@@ -95,7 +95,7 @@ struct SurfaceLook {
 };
 
 // Names an object in the result of a pick (pick.h). The code that appends an object chooses it.
-enum class ObjectId : std::uint32_t { none = 0 };
+enum class PickId : std::uint32_t { none = 0 };
 
 // A plane of the room that cuts an object: places with dot(normal, place) > distance_m are left
 // out.
@@ -111,7 +111,7 @@ struct SceneObject {
     // Floor and walls of the room, whose inside is convex. They are drawn behind everything else at
     // any distance, so that they never hide a real floor that was measured a little lower.
     bool backdrop = false;
-    ObjectId id = ObjectId::none;           // none: rays pass through it
+    PickId id = PickId::none;               // none: rays pass through it
     double scale = 1;                       // metres of the room in a metre of the mesh
     std::optional<Cut> cut = std::nullopt;  // objects that are cut cast no shadows
     bool casts_shadow = true;

@@ -96,7 +96,7 @@ TEST_F(SceneTest, WhatIsInsideOfATranslucentShellIsSeenThroughIt) {
 TEST_F(SceneTest, ACutShowsTheInside) {
     frame.objects = {
         {&*ball, {Quat{}, {0, 0.3, 0}}, {{0.8, 0.2, 0.2}, 0, 0.5}},
-        {&*pillar, {Quat{}, {0, -0.1, 0}}, {{0.1, 0.8, 0.1}, 0, 0.7}, false, ObjectId::none, 0.5}};
+        {&*pillar, {Quat{}, {0, -0.1, 0}}, {{0.1, 0.8, 0.1}, 0, 0.7}, false, PickId::none, 0.5}};
     const Vec3 middle{0, 0.3, 0};
     const Rgb closed = at(draw({160, 120}), middle);
     EXPECT_GT(closed.r, closed.g + 30);

@@ -6,17 +6,16 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/utf8.h"
 #include "phrases/phrase.h"
 #include "room/facing.h"
-#include "room/mesh_parts.h"
+#include "room/figure_meshes.h"
 
 namespace theatron::room {
 namespace {
 
 using render::MeshData;
 
-constexpr double head_radius_m = 0.105;
-constexpr int rings = 14;
 // An eye nearer than this to a head is inside of it, or so close that the head fills the picture.
 constexpr double free_around_eye_m = 0.3;
 constexpr double name_above_m = 0.18, letter_width = 0.8;
@@ -26,7 +25,18 @@ constexpr double least_name_m = 0.025, largest_name_m = 0.09, name_per_distance 
 constexpr double age_share = 0.65, age_lines = 1.5;
 constexpr double stale_opacity = 0.35;
 
-// The picture of a face: 4:3 with round corners, before the drawn face's nose, in a rim of the
+// The plate, its rim, its letters before it, and the cone below it. Letters are in heights.
+constexpr double plate_radius_m = 0.12, plate_rim_m = 0.01, rim_behind_plate_m = 0.004;
+constexpr double initials_m = 0.1, before_plate_m = 0.004, initial_width = 1.0;
+constexpr double cone_below_m = 0.175;
+// Letters on a plate of more than this share of white's brightness are dark.
+constexpr double bright = 0.3;
+
+// Clothes and skin of busts; linear. Skin, mask and gown tell nothing of a person.
+constexpr Vec3 skin_color{0.42, 0.3, 0.24}, mask_color{0.6, 0.72, 0.78},
+    gown_color{0.2, 0.25, 0.31}, glove_color{0.72, 0.72, 0.68}, eye_color{0.025, 0.02, 0.02};
+
+// The picture of a face: 4:3 with round corners, before the middle of the head, in a rim of the
 // person's colour.
 constexpr double face_width_m = 0.28, face_height_m = 0.21, face_corner_m = 0.045;
 constexpr double face_before_m = 0.14, rim_m = 0.009, rim_behind_m = 0.004;
@@ -77,44 +87,30 @@ Pose head_from_picture(double before_m) {
     return {Quat{0, 0, 0, 1}, {0, 0, -before_m}};
 }
 
-// A head with ears' width, and a body that ends in the air.
-MeshData skin_mesh() {
-    const MeshData ball = render::make_sphere_mesh(1, rings);
-    MeshData mesh;
-    append(mesh, ball, {0.9 * head_radius_m, 1.15 * head_radius_m, head_radius_m}, {});
-    append(mesh, ball, {0.16, 0.17, 0.09}, {0, -0.33, 0.03});
-    append(mesh, ball, {0.05, 0.08, 0.05}, {0, -0.14, 0.01});
-    return mesh;
-}
-
-MeshData nose_mesh() {
-    MeshData mesh;
-    append(mesh, render::make_sphere_mesh(1, rings), {0.018, 0.02, 0.03},
-           {0, -0.012, -head_radius_m});
-    return mesh;
-}
-
-// Both of a pair, mirrored at x = 0.
-MeshData pair_mesh(double radius, Vec3 place) {
-    const MeshData ball = render::make_sphere_mesh(radius, rings);
-    MeshData mesh;
-    append(mesh, ball, {1, 1, 1}, place);
-    append(mesh, ball, {1, 1, 1}, {-place.x, place.y, place.z});
-    return mesh;
-}
-
-// A palm with a finger that points along -z.
-MeshData hand_mesh() {
-    const MeshData ball = render::make_sphere_mesh(1, rings);
-    MeshData mesh;
-    append(mesh, ball, {0.042, 0.024, 0.05}, {});
-    append(mesh, ball, {0.011, 0.011, 0.06}, {0, 0, -0.075});
-    append(mesh, ball, {0.011, 0.011, 0.035}, {-0.045, 0, -0.02});
-    return mesh;
-}
-
 render::SurfaceLook look(Vec3 color, double opacity) {
     return {color, 0, 0.55, opacity, 0};
+}
+
+// Without light: a sign keeps its colour everywhere in the room.
+render::SurfaceLook sign_look(Vec3 color, double opacity) {
+    render::SurfaceLook sign = look(color, opacity);
+    sign.unlit = true;
+    return sign;
+}
+
+double brightness(Vec3 linear) {
+    return 0.2126 * linear.x + 0.7152 * linear.y + 0.0722 * linear.z;
+}
+
+// The frame of a body below this head: upright, turned as the head about the vertical.
+Pose body_below(const Pose& head) {
+    Vec3 ahead = rotate(head.rotation, {0, 0, -1});
+    // One who looks straight up or down still has a direction: that of the crown or of the chin.
+    if (std::hypot(ahead.x, ahead.z) < 0.2)
+        ahead = rotate(head.rotation, {0, ahead.y < 0 ? 1.0 : -1.0, 0});
+    const double yaw = std::atan2(-ahead.x, -ahead.z);
+    const Pose turned{rotation_about({0, 1, 0}, yaw), {}};
+    return {turned.rotation, head * neck_pivot - turned * neck_pivot};
 }
 
 }  // namespace
@@ -135,29 +131,113 @@ Vec3 color_of(ParticipantId id) {
     return {linear(srgb[0]), linear(srgb[1]), linear(srgb[2])};
 }
 
+std::string initials_of(const std::string& name) {
+    std::vector<std::string> words(1);
+    for (std::size_t at = 0; at < name.size();) {
+        const std::size_t bytes = first_character(std::string_view(name).substr(at)).bytes;
+        if (name[at] == ' ') {
+            words.emplace_back();
+        } else {
+            words.back() += name.substr(at, bytes);
+            // A word that ends with a dot is a title or a short form.
+            if (name[at] == '.')
+                words.back().clear();
+        }
+        at += bytes;
+    }
+    // "(recorded)" and the like say something of the name.
+    std::erase_if(words, [](const std::string& word) { return word.empty() || word[0] == '('; });
+    if (words.empty())
+        return name.substr(0, name.empty() ? 0 : first_character(name).bytes);
+    const auto initial = [](const std::string& word) {
+        std::string letter = word.substr(0, first_character(word).bytes);
+        if (letter[0] >= 'a' && letter[0] <= 'z')
+            letter[0] = char(letter[0] - 'a' + 'A');
+        return letter;
+    };
+    return initial(words.front()) + (words.size() > 1 ? initial(words.back()) : "");
+}
+
 People::People()
-    : skin_(skin_mesh()),
-      nose_(nose_mesh()),
-      eyes_(pair_mesh(0.024, {0.037, 0.02, -0.085})),
-      pupils_(pair_mesh(0.012, {0.037, 0.02, -0.102})),
-      hand_(hand_mesh()),
+    : bust_([] {
+          const BustMeshes meshes = bust_meshes();
+          return Bust{render::SceneMesh(meshes.head),  render::SceneMesh(meshes.cap),
+                      render::SceneMesh(meshes.mask),  render::SceneMesh(meshes.eyes),
+                      render::SceneMesh(meshes.neck),  render::SceneMesh(meshes.gown),
+                      render::SceneMesh(meshes.collar)};
+      }()),
+      left_(make_hand(Side::left, false)),
+      right_(make_hand(Side::right, false)),
+      pointing_(make_hand(Side::right, true)),
+      plate_(disc_mesh(plate_radius_m)),
+      plate_rim_(disc_mesh(plate_radius_m + plate_rim_m)),
+      cone_(view_cone_mesh()),
       picture_(rounded_mesh(face_width_m, face_height_m, face_corner_m)),
       rim_(rim_mesh()) {}
 
-void People::add_face(render::SceneFrame& frame, const RoomPerson& person, double opacity) const {
-    const double shown = person.face ? opacity * person.face->opacity : 0;
-    if (!person.face || person.face->opacity < 1) {
-        frame.objects.push_back({&nose_, *person.head, look(color_of(person.id), opacity)});
-        frame.objects.push_back({&eyes_, *person.head, look({0.9, 0.9, 0.9}, opacity)});
-        frame.objects.push_back({&pupils_, *person.head, look({0.02, 0.02, 0.02}, opacity)});
-    }
+People::Hand People::make_hand(Side side, bool points) {
+    const HandMeshes meshes = hand_meshes(side, points);
+    return {render::SceneMesh(meshes.glove), render::SceneMesh(meshes.cuff)};
+}
+
+void People::add_hands(render::SceneFrame& frame, const RoomPerson& person, double opacity) const {
+    const auto add = [&](const Hand& hand, const Pose& place) {
+        frame.objects.push_back({&hand.glove, place, look(glove_color, opacity)});
+        frame.objects.push_back({&hand.cuff, place, look(color_of(person.id), opacity)});
+    };
+    if (person.left_hand)
+        add(left_, *person.left_hand);
+    if (person.right_hand)
+        add(person.points ? pointing_ : right_, *person.right_hand);
+}
+
+void People::add_bust(render::SceneFrame& frame, const RoomPerson& person, double opacity) const {
+    const Pose body = body_below(*person.head);
+    const Vec3 color = color_of(person.id);
+    frame.objects.push_back({&bust_.head, *person.head, look(skin_color, opacity)});
+    frame.objects.push_back({&bust_.cap, *person.head, look(color, opacity)});
+    frame.objects.push_back({&bust_.mask, *person.head, look(mask_color, opacity)});
+    frame.objects.push_back({&bust_.eyes, *person.head, look(eye_color, opacity)});
+    frame.objects.push_back({&bust_.neck, body, look(skin_color, opacity)});
+    frame.objects.push_back({&bust_.gown, body, look(gown_color, opacity)});
+    frame.objects.push_back({&bust_.collar, body, look(color, opacity)});
+}
+
+void People::add_plate(render::SceneFrame& frame, const RoomPerson& person, double opacity,
+                       Vec3 eye) const {
+    const Vec3 color = color_of(person.id);
+    const Pose plate = facing(person.head->translation, eye);
+    const auto add = [&](const render::SceneMesh& mesh, double behind_m, Vec3 of) {
+        render::SceneObject part{&mesh, plate * Pose{{}, {0, 0, behind_m}}, sign_look(of, opacity)};
+        part.casts_shadow = false;
+        frame.objects.push_back(part);
+    };
+    const bool is_bright = brightness(color) > bright;
+    add(plate_rim_, rim_behind_plate_m,
+        is_bright ? Vec3{0.01, 0.01, 0.015} : Vec3{0.85, 0.87, 0.88});
+    add(plate_, 0, color);
+    const Pose below{person.head->rotation, person.head->translation - Vec3{0, cone_below_m, 0}};
+    frame.objects.push_back({&cone_, below, look(color, opacity)});
+    const std::string initials = initials_of(person.name);
+    std::size_t letters = 0;
+    for (std::size_t at = 0; at < initials.size(); ++letters)
+        at += first_character(std::string_view(initials).substr(at)).bytes;
+    frame.texts.push_back({initials,
+                           plate * Pose{{},
+                                        {-0.5 * initials_m * initial_width * double(letters),
+                                         0.5 * initials_m, -before_plate_m}},
+                           initials_m, is_bright ? Rgb{20, 22, 26} : Rgb{245, 248, 250}});
+}
+
+void People::add_picture(render::SceneFrame& frame, const RoomPerson& person,
+                         double opacity) const {
+    const double shown = opacity * person.face->opacity;
     if (shown <= 0)
         return;
     frame.objects.push_back({&rim_, *person.head * head_from_picture(face_before_m - rim_behind_m),
                              look(color_of(person.id), shown)});
-    render::SurfaceLook face = look({1, 1, 1}, shown);
+    render::SurfaceLook face = sign_look({1, 1, 1}, shown);
     face.texture = person.face->texture;
-    face.unlit = true;
     render::SceneObject picture{&picture_, *person.head * head_from_picture(face_before_m), face};
     picture.casts_shadow = false;
     frame.objects.push_back(picture);
@@ -167,16 +247,19 @@ void People::add_to(render::SceneFrame& frame, const std::vector<RoomPerson>& pe
                     const render::CameraView& view) const {
     const Vec3 eye = view.room_from_eye.translation;
     for (const RoomPerson& person : people) {
-        const Vec3 color = color_of(person.id);
         const double opacity = person.is_stale ? stale_opacity : 1;
-        for (const auto& hand : {person.left_hand, person.right_hand})
-            if (hand)
-                frame.objects.push_back({&hand_, *hand, look(color, opacity)});
+        add_hands(frame, person, opacity);
         if (!person.head || length(person.head->translation - eye) < free_around_eye_m)
             continue;
         if (!person.has_cloud) {
-            frame.objects.push_back({&skin_, *person.head, look(color, opacity)});
-            add_face(frame, person, opacity);
+            if (!person.face || person.face->opacity < 1) {
+                if (person.has_headset)
+                    add_bust(frame, person, opacity);
+                else
+                    add_plate(frame, person, opacity, eye);
+            }
+            if (person.face)
+                add_picture(frame, person, opacity);
         }
         const std::string name = person.is_stale && person.age.empty()
                                      ? say(Phrase::person_of_old_view, person.name)

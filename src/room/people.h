@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Avatars: a name, hands, and for people without a depth camera a floating head with a face, drawn
-// or that of their webcam. The face shows the direction in which a person looks, a hand's finger
-// where it points.
+// Avatars of people, by what is known of them, and their names. A person with a headset is a bust
+// with gloved hands, one with a webcam is its picture, and anybody else is a plate with initials
+// that faces the eye, and below it a cone that points where the person looks.
 #pragma once
 
 #include <optional>
@@ -11,13 +11,14 @@
 #include "base/ids.h"
 #include "render/camera_view.h"
 #include "render/scene_frame.h"
+#include "room/figure_meshes.h"
 
 namespace theatron::room {
 
-// The picture of a person's own face, in place of the drawn one.
+// The picture of a person's own face, in place of the bust or the plate.
 struct FacePicture {
     const render::SceneTexture* texture = nullptr;
-    double opacity = 1;  // below 1: it is old, and the drawn face shows through
+    double opacity = 1;  // below 1: it is old, and the bust or the plate shows through
     std::string age;     // of an old one, for people; else empty
 };
 
@@ -28,7 +29,8 @@ struct RoomPerson {
     std::optional<Pose> head, left_hand, right_hand;
     bool is_stale = false;  // its poses are old: it is drawn half transparent
     std::string age;        // of what is seen of it, above the name; empty: not shown
-    // It is seen as a point cloud, in place of the head with a face.
+    bool has_headset = false;
+    // It is seen as a point cloud, in place of its bust, picture or plate.
     bool has_cloud = false;
     std::optional<FacePicture> face;
     bool calls = false;   // asks the others to come
@@ -38,6 +40,10 @@ struct RoomPerson {
 // The colour of everything that belongs to a participant: avatar, pointer, ownership. Neighbouring
 // numbers have different colours, also for colour-blind eyes (Okabe and Ito, 2008). Linear.
 Vec3 color_of(ParticipantId id);
+
+// One or two letters that stand for a name: those of its first and last word, titles such as "Dr."
+// left out. Basic letters are capitals.
+std::string initials_of(const std::string& name);
 
 // Needs the GL context current in which it was made.
 class People {
@@ -49,9 +55,22 @@ public:
                 const render::CameraView& view) const;
 
 private:
-    void add_face(render::SceneFrame& frame, const RoomPerson& person, double opacity) const;
+    struct Bust {
+        render::SceneMesh head, cap, mask, eyes, neck, gown, collar;
+    };
+    struct Hand {
+        render::SceneMesh glove, cuff;
+    };
+    static Hand make_hand(Side side, bool points);
+    void add_hands(render::SceneFrame& frame, const RoomPerson& person, double opacity) const;
+    void add_bust(render::SceneFrame& frame, const RoomPerson& person, double opacity) const;
+    void add_plate(render::SceneFrame& frame, const RoomPerson& person, double opacity,
+                   Vec3 eye) const;
+    void add_picture(render::SceneFrame& frame, const RoomPerson& person, double opacity) const;
 
-    render::SceneMesh skin_, nose_, eyes_, pupils_, hand_, picture_, rim_;
+    Bust bust_;
+    Hand left_, right_, pointing_;
+    render::SceneMesh plate_, plate_rim_, cone_, picture_, rim_;
 };
 
 }  // namespace theatron::room

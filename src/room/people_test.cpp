@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <numbers>
+
 #include "render/room_picture.h"
 #include "render/test_context.h"
 
@@ -27,39 +30,90 @@ render::SceneFrame seen(const std::vector<RoomPerson>& people, const render::Cam
 class PeopleTest : public ::testing::Test {
 protected:
     PeopleTest() { render::test_context(); }
+    std::vector<std::string> texts_of(const RoomPerson& person) const {
+        std::vector<std::string> texts;
+        for (const render::SceneText& text : seen({person}, view).texts)
+            texts.push_back(text.utf8);
+        return texts;
+    }
     const render::CameraView view = render::view_towards({0, 1.6, 1}, {0, 1.6, 0}, 60, {160, 120});
 };
 
 TEST_F(PeopleTest, HaveHeadNameAndTheHandsThatAreKnown) {
     RoomPerson person = person_at(ParticipantId{1}, {0, 1.6, 0}, {0, 1.6, 3});
-    EXPECT_EQ(seen({person}, view).texts.size(), 1u);
+    EXPECT_EQ(texts_of(person), (std::vector<std::string>{"A", "Anna"}));
     const std::size_t without_hands = seen({person}, view).objects.size();
     person.right_hand = Pose{{}, {0.3, 1.2, 0}};
-    EXPECT_EQ(seen({person}, view).objects.size(), without_hands + 1);
+    EXPECT_EQ(seen({person}, view).objects.size(), without_hands + 2) << "glove and cuff";
     person.head.reset();
-    EXPECT_EQ(seen({person}, view).objects.size(), 1u) << "a hand alone";
+    EXPECT_EQ(seen({person}, view).objects.size(), 2u) << "a hand alone";
     EXPECT_TRUE(seen({person}, view).texts.empty());
 }
 
-TEST_F(PeopleTest, ShowTheirFaceWhereTheyLook) {
-    const auto white = [&](Vec3 looks_at) {
-        const render::SceneFrame frame =
-            seen({person_at(ParticipantId{2}, {0, 1.6, 0}, looks_at)}, view);
-        render::ScenePasses passes(nullptr);
-        render::SceneFrame without_names = frame;
-        without_names.texts.clear();
-        const auto picture =
-            render::draw_and_read(&without_names, {}, {view}, {160, 120}, &passes).color;
-        int pixels = 0;
-        for (int y = 0; y < 120; ++y)
-            for (int x = 0; x < 160; ++x) {
-                const Rgb c = picture.view().row(y)[x];
-                pixels += c.r > 150 && c.g > 150 && c.b > 150;
-            }
-        return pixels;
+TEST_F(PeopleTest, WithAHeadsetAreABustInPlaceOfThePlate) {
+    RoomPerson person = person_at(ParticipantId{1}, {0, 1.6, 0}, {0, 1.6, 3});
+    person.has_headset = true;
+    EXPECT_EQ(texts_of(person), std::vector<std::string>{"Anna"}) << "no initials";
+}
+
+TEST(Initials, AreOfTheFirstAndTheLastWordWithoutTitles) {
+    EXPECT_EQ(initials_of("Anna"), "A");
+    EXPECT_EQ(initials_of("remote expert"), "RE");
+    EXPECT_EQ(initials_of("Prof. Dr. med. Eva  Maria Lang"), "EL");
+    EXPECT_EQ(initials_of("\u00d6zlem \u0160imi\u0107"), "\u00d6\u0160");
+    EXPECT_EQ(initials_of("Anna (recorded)"), "A");
+    EXPECT_EQ(initials_of("Dr."), "D");
+    EXPECT_EQ(initials_of(" "), " ");
+    EXPECT_EQ(initials_of(""), "");
+}
+
+// Pixels of the picture that fulfil `is`, without texts.
+template <class Is>
+int pixels_of(const RoomPerson& person, const render::CameraView& view, Is is) {
+    render::SceneFrame frame = seen({person}, view);
+    frame.texts.clear();
+    render::ScenePasses passes(nullptr);
+    const auto picture = render::draw_and_read(&frame, {}, {view}, {160, 120}, &passes).color;
+    return int(std::count_if(picture.pixels.begin(), picture.pixels.end(), is));
+}
+
+TEST_F(PeopleTest, ABustShowsItsMaskWhereItLooks) {
+    const auto masks = [&](Vec3 looks_at) {
+        RoomPerson person = person_at(ParticipantId{2}, {0, 1.6, 0}, looks_at);
+        person.has_headset = true;
+        return pixels_of(person, view, [](Rgb c) { return c.r > 130 && c.g > 150 && c.b > 160; });
     };
-    EXPECT_GT(white({0, 1.6, 3}), 4) << "eyes";
-    EXPECT_EQ(white({0, 1.6, -3}), 0) << "the back of a head";
+    EXPECT_GT(masks({0, 1.6, 3}), 10) << "before";
+    EXPECT_EQ(masks({0, 1.6, -3}), 0) << "behind";
+}
+
+TEST_F(PeopleTest, ABodyStaysUprightUnderAHeadThatLooksDown) {
+    RoomPerson person = person_at(ParticipantId{2}, {0, 1.6, 0}, {0, 0.5, 0.5});
+    person.has_headset = true;
+    for (const render::SceneObject& object : seen({person}, view).objects) {
+        const Vec3 up = rotate(object.room_from_object.rotation, {0, 1, 0});
+        if (object.room_from_object.rotation != person.head->rotation) {
+            EXPECT_NEAR(up.y, 1, 1e-9);
+            EXPECT_LT(length(object.room_from_object * neck_pivot - *person.head * neck_pivot),
+                      1e-9);
+        }
+    }
+    // Straight down there is no direction ahead; the crown tells it.
+    person.head->rotation = rotation_about({1, 0, 0}, -std::numbers::pi / 2);
+    const auto objects = seen({person}, view).objects;
+    EXPECT_NEAR(rotate(objects.back().room_from_object.rotation, {0, 0, -1}).z, -1, 1e-9);
+}
+
+TEST_F(PeopleTest, APlateFacesTheEyeAndItsConeTellsWhereThePersonLooks) {
+    // To the left of the one who sees it, and away.
+    for (const Vec3 looks_at : {Vec3{-3, 1.6, 0}, Vec3{0, 1.6, -3}}) {
+        const RoomPerson person = person_at(ParticipantId{2}, {0, 1.6, 0}, looks_at);
+        const render::SceneFrame frame = seen({person}, view);
+        const Vec3 to_eye = rotate(frame.objects.at(0).room_from_object.rotation, {0, 0, -1});
+        EXPECT_NEAR(to_eye.z, 1, 1e-9);
+        const Vec3 ahead = rotate(frame.objects.back().room_from_object.rotation, {0, 0, -1});
+        EXPECT_LT(length(ahead - normalized(looks_at - Vec3{0, 1.6, 0})), 1e-9);
+    }
 }
 
 // Red on the reader's left, blue on the right.
@@ -102,17 +156,17 @@ TEST_F(PeopleTest, ThePictureOfAFaceIsUprightAndNotMirroredOnTheHead) {
     EXPECT_NEAR(reds, 0.5 * 0.28 * 0.21 * 121 * 121, 60);
 }
 
-TEST_F(PeopleTest, APictureThatFadesShowsTheDrawnFaceAndSaysHowOldItIs) {
+TEST_F(PeopleTest, APictureThatFadesShowsThePlateAndSaysHowOldItIs) {
     const render::SceneTexture texture = two_colors();
     RoomPerson person = person_at(ParticipantId{2}, {0, 1.6, 0}, {0, 1.6, 3});
     const std::size_t plain = seen({person}, view).objects.size();
     person.face = FacePicture{&texture, 1, ""};
-    EXPECT_LT(seen({person}, view).objects.size(), plain) << "no eyes behind the picture";
+    EXPECT_LT(seen({person}, view).objects.size(), plain) << "no plate behind the picture";
     person.face = FacePicture{&texture, 0.5, "picture stands still for 2 s"};
     const render::SceneFrame frame = seen({person}, view);
-    EXPECT_EQ(frame.objects.size(), plain + 2) << "rim and picture before the face";
-    ASSERT_EQ(frame.texts.size(), 2u);
-    EXPECT_EQ(frame.texts[1].utf8, "picture stands still for 2 s");
+    EXPECT_EQ(frame.objects.size(), plain + 2) << "rim and picture before the plate";
+    EXPECT_EQ(texts_of(person),
+              (std::vector<std::string>{"A", "Anna", "picture stands still for 2 s"}));
     person.has_cloud = true;
     EXPECT_TRUE(seen({person}, view).objects.empty()) << "the cloud has a face";
     EXPECT_EQ(seen({person}, view).texts.size(), 1u);
@@ -131,18 +185,16 @@ TEST_F(PeopleTest, WithOldPosesAreHalfTransparentAndSaidSo) {
     ASSERT_FALSE(frame.objects.empty());
     for (const render::SceneObject& object : frame.objects)
         EXPECT_LT(object.look.opacity, 0.5);
-    EXPECT_EQ(frame.texts.at(0).utf8, "Anna (view is old)");
+    EXPECT_EQ(texts_of(person), (std::vector<std::string>{"A", "Anna (view is old)"}));
 }
 
 TEST_F(PeopleTest, TheirAgeStandsAboveTheName) {
     RoomPerson person = person_at(ParticipantId{1}, {0, 1.6, 0}, {0, 1.6, 3});
     person.age = "85 ms";
     const render::SceneFrame frame = seen({person}, view);
-    ASSERT_EQ(frame.texts.size(), 2u);
-    EXPECT_EQ(frame.texts[0].utf8, "Anna");
-    EXPECT_EQ(frame.texts[1].utf8, "85 ms");
-    EXPECT_GT(frame.texts[1].room_from_text.translation.y,
-              frame.texts[0].room_from_text.translation.y + frame.texts[0].height_m);
+    ASSERT_EQ(texts_of(person), (std::vector<std::string>{"A", "Anna", "85 ms"}));
+    EXPECT_GT(frame.texts[2].room_from_text.translation.y,
+              frame.texts[1].room_from_text.translation.y + frame.texts[1].height_m);
 }
 
 TEST(PersonColor, DiffersBetweenNeighbours) {

@@ -30,7 +30,7 @@ void Pointers::add_to(render::SceneFrame& frame, const std::vector<Pointer>& poi
                                      {{}, pointer.from + pointer.direction * (i * dots_apart_m)},
                                      look,
                                      false,
-                                     render::ObjectId::none,
+                                     render::PickId::none,
                                      dot_m / ball_m});
         if (!pointer.reach_m)
             continue;

@@ -66,7 +66,7 @@ TEST_F(PointersTest, EndInTheAirWithoutDotAndName) {
 
 TEST_F(PointersTest, AreNothingThatRaysMeet) {
     for (const render::SceneObject& object : seen(pointer).objects)
-        EXPECT_EQ(object.id, render::ObjectId::none);
+        EXPECT_EQ(object.id, render::PickId::none);
 }
 
 }  // namespace

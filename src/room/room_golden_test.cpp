@@ -1,46 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small pictures of the virtual room in both qualities, compared with those in tests/golden. To
-// accept a wanted change run this test with THEATRON_WRITE_GOLDEN=1 and look at the new pictures
-// before keeping them.
+// Small pictures of the virtual room in both qualities, and of people in it.
 #include <gtest/gtest.h>
-
-#include <cstdlib>
-#include <fstream>
-#include <iterator>
 
 #include "render/room_picture.h"
 #include "render/test_context.h"
+#include "room/people.h"
 #include "room/virtual_room.h"
+#include "testing/golden_picture.h"
 
 namespace theatron::room {
 namespace {
 
 constexpr Size picture_size{256, 144};
-const std::string header = "P6\n256 144\n255\n";
-
-ColorImage read_ppm(const std::string& file) {
-    std::ifstream in(file, std::ios::binary);
-    const std::string bytes((std::istreambuf_iterator<char>(in)), {});
-    ColorImage image(picture_size);
-    if (bytes.size() != header.size() + 3 * image.pixels.size() ||
-        bytes.compare(0, header.size(), header) != 0)
-        return {};
-    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-        const auto at = [&](std::size_t c) {
-            return std::uint8_t(bytes[header.size() + 3 * i + c]);
-        };
-        image.pixels[i] = {at(0), at(1), at(2)};
-    }
-    return image;
-}
-
-void write_ppm(const std::string& file, const ColorImage& image) {
-    std::ofstream out(file, std::ios::binary);
-    out << header;
-    out.write(reinterpret_cast<const char*>(image.pixels.data()),
-              std::streamsize(image.pixels.size() * sizeof(Rgb)));
-    ASSERT_TRUE(out.flush()) << file;
-}
 
 void expect_golden(render::SceneQuality quality, const std::string& file) {
     render::test_context();
@@ -53,21 +24,46 @@ void expect_golden(render::SceneQuality quality, const std::string& file) {
     room.add_to(frame, view);
     render::ScenePasses passes;
     const ColorImage drawn = render::draw_and_read(&frame, {}, {view}, picture_size, &passes).color;
-    if (std::getenv("THEATRON_WRITE_GOLDEN"))
-        write_ppm(file, drawn);
-    const ColorImage golden = read_ppm(file);
-    ASSERT_EQ(golden.size, picture_size) << "cannot read " << file;
-    double sum = 0;
-    int different = 0;
-    for (std::size_t i = 0; i < golden.pixels.size(); ++i) {
-        const Rgb a = drawn.pixels[i], b = golden.pixels[i];
-        const int difference = std::abs(a.r - b.r) + std::abs(a.g - b.g) + std::abs(a.b - b.b);
-        sum += difference / 3.0;
-        different += difference > 60;
-    }
-    // Drivers round differently at outlines.
-    EXPECT_LT(sum / double(golden.pixels.size()), 2.5);
-    EXPECT_LT(different, int(golden.pixels.size()) / 25);
+    theatron::testing::expect_golden(drawn, file);
+}
+
+RoomPerson person(std::uint32_t id, const char* name, Vec3 place, Vec3 looks_at, bool has_headset) {
+    RoomPerson person;
+    person.id = ParticipantId{id};
+    person.name = name;
+    person.head = look_at(place, looks_at, {0, 1, 0}) * Pose{Quat{0, 1, 0, 0}, {}};
+    person.has_headset = has_headset;
+    return person;
+}
+
+// From the left: a bust that looks at the eye with both hands, one from its side that points, and
+// plates of people who look at the eye and to the right.
+TEST(RoomGolden, FiguresAreThePictureThatWasLookedAt) {
+    constexpr Size size{512, 288};
+    render::test_context();
+    VirtualRoom room;
+    room.set_cameras({});
+    const Vec3 eye{0, 1.6, 2.2};
+    const auto view = render::view_towards(eye, {0, 1.5, 0}, 60, size);
+    std::vector<RoomPerson> people{person(0, "Dr. Eva Lang", {-1.1, 1.65, 0.3}, eye, true),
+                                   person(1, "remote expert", {-0.3, 1.6, 0}, {3, 1.2, 1}, true),
+                                   person(2, "student", {0.45, 1.6, 0}, eye, false),
+                                   person(3, "Ben Ito", {1.15, 1.6, 0.2}, {5, 1.2, 0}, false)};
+    const auto towards = [](Vec3 hand, Vec3 at) {
+        return look_at(hand, at, {0, 1, 0}) * Pose{Quat{0, 1, 0, 0}, {}};
+    };
+    people[0].left_hand = towards({-0.85, 1.3, 0.6}, {-0.8, 1.3, 3});
+    people[0].right_hand = towards({-1.35, 1.3, 0.6}, {-1.3, 1.3, 3});
+    people[1].right_hand = towards({-0.05, 1.25, 0.25}, {3, 1.2, 1});
+    people[1].points = true;
+    render::SceneFrame frame;
+    room.build(frame.quality);
+    room.add_to(frame, view);
+    const People figures;
+    figures.add_to(frame, people, view);
+    render::ScenePasses passes;
+    theatron::testing::expect_golden(render::draw_and_read(&frame, {}, {view}, size, &passes).color,
+                                     "tests/golden/figures.ppm", 0.8, 0.01);
 }
 
 TEST(RoomGolden, LowIsThePictureThatWasLookedAt) {

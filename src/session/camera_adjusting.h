@@ -10,14 +10,14 @@
 
 #include "session/camera_adjustment.h"
 #include "session/host_actions.h"
-#include "session/look_back.h"
+#include "session/look_backs.h"
 #include "session/streams.h"
 
 namespace theatron::session {
 
 class CameraAdjusting {
 public:
-    CameraAdjusting(Streams& streams, LookBack& look_back, std::vector<Action>& actions)
+    CameraAdjusting(Streams& streams, LookBacks& look_back, std::vector<Action>& actions)
         : streams_(streams), look_back_(look_back), actions_(actions) {}
 
     // Adjusts a camera, as an operator of this name does.
@@ -33,7 +33,7 @@ private:
     };
 
     Streams& streams_;
-    LookBack& look_back_;
+    LookBacks& look_back_;
     std::vector<Action>& actions_;
     std::map<CameraId, Adjusting> adjusted_;  // not yet in the audit log
 };

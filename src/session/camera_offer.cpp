@@ -19,7 +19,7 @@ wire::Text problem_of_faces(ParticipantId id, const Admission::Participant& publ
     if (!publisher.has(wire::Feature::webcam))
         return {TextCode::face_forbidden};
     for (const wire::Camera& camera : cameras) {
-        if (camera.frame != wire::CameraFrame::face)
+        if (camera.kind != wire::CameraKind::face)
             continue;
         const auto calibration = decode_calibration(camera.calibration);
         if (!camera.has_color || !calibration || !is_face(*calibration, camera.frames_per_second))
@@ -48,7 +48,7 @@ std::vector<wire::Camera> cameras_of(const wire::Publish& offer, wire::SessionId
         camera.calibration = offered.calibration;
         camera.may_record = offered.may_record;
         camera.session = session;
-        camera.frame = offered.frame;
+        camera.kind = offered.kind;
         cameras.push_back(std::move(camera));
     }
     return cameras;
@@ -61,7 +61,7 @@ wire::Text problem_of_offer(ParticipantId id, const Admission::Participant& publ
         return {TextCode::no_camera_offered};
     const auto new_faces =
         std::size_t(std::count_if(cameras.begin(), cameras.end(), [](const wire::Camera& camera) {
-            return camera.frame == wire::CameraFrame::face;
+            return camera.kind == wire::CameraKind::face;
         }));
     if (new_faces < cameras.size() && !publisher.has(wire::Feature::publish))
         return {TextCode::link_without_cameras};

@@ -41,7 +41,7 @@ public:
     // come. One that has gains of its own keeps those. True if the description changed.
     bool set_estimated_gain(Vec3 gain);
     ParticipantId publisher() const { return description_.publisher; }
-    bool is_face() const { return description_.frame == wire::CameraFrame::face; }
+    bool is_face() const { return description_.kind == wire::CameraKind::face; }
     // Nobody is told of its own camera, and of faces only programs that show them.
     bool is_told_to(ParticipantId receiver, bool takes_faces) const {
         return publisher() != receiver && (takes_faces || !is_face());
@@ -53,7 +53,7 @@ public:
     // The last minute of it may be shown again: a camera of the room that may be recorded. Nobody
     // is shown as a person was: the person's pose is that of now.
     bool may_be_kept() const {
-        return description_.may_record && description_.frame == wire::CameraFrame::room &&
+        return description_.may_record && description_.kind == wire::CameraKind::room &&
                !sees_person_;
     }
     StreamId stream(bool depth) const {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Limits of the picture of a participant's face (wire::CameraFrame::face): it is small, so that
+// Limits of the picture of a participant's face (wire::CameraKind::face): it is small, so that
 // every participant can send one. The host checks them.
 //
 // Pure; time is passed in.

@@ -10,7 +10,7 @@
 namespace theatron::session {
 namespace {
 
-using wire::CameraFrame;
+using wire::CameraKind;
 using wire::Feature;
 using wire::TextCode;
 
@@ -46,7 +46,7 @@ protected:
                                     bool may_record = false) {
         return {"face",     true,
                 fps,        encode_calibration(screen_calibration(size, 0.3, {})),
-                may_record, CameraFrame::face};
+                may_record, CameraKind::face};
     }
     wire::Published offer(ParticipantId id, std::vector<wire::OfferedCamera> cameras) {
         tell(id, wire::Publish{std::move(cameras)});
@@ -91,7 +91,7 @@ TEST_F(Faces, AnExpertShowsOneToThoseWhoseProgramsKnowFaces) {
     EXPECT_TRUE(answer.problem.empty()) << wire::english(answer.problem);
     ASSERT_EQ(answer.cameras.size(), 1u);
     ASSERT_EQ(to<wire::CamerasAdded>(bob).size(), 1u);
-    EXPECT_EQ(to<wire::CamerasAdded>(bob)[0].cameras[0].frame, CameraFrame::face);
+    EXPECT_EQ(to<wire::CamerasAdded>(bob)[0].cameras[0].kind, CameraKind::face);
     EXPECT_EQ(to<wire::CamerasAdded>(bob)[0].cameras[0].publisher, alice);
     EXPECT_TRUE(to<wire::CamerasAdded>(carol).empty()) << "she could not read the message";
     come(dave);
@@ -128,7 +128,7 @@ TEST_F(Faces, AnObserverSendsNone) {
 TEST_F(Faces, AnExpertSendsNoOtherCamera) {
     come(alice);
     wire::OfferedCamera camera = face();
-    camera.frame = CameraFrame::room;
+    camera.kind = CameraKind::room;
     EXPECT_EQ(problem_with(alice, {camera}), TextCode::link_without_cameras);
     EXPECT_EQ(problem_with(alice, {face(), camera}), TextCode::link_without_cameras);
     EXPECT_TRUE(session_->streams().cameras().of(alice).empty());

@@ -37,7 +37,7 @@ void HostRoom::join(ParticipantId id, const PersonFacts& facts, bool keeps_room,
     for (const auto& [object, author] : authors_)
         if (author == person && state_.objects().at(object).kind == ObjectKind::mark)
             own.push_back(object);
-    for (const RoomChange& change : state_.set_creator(own, id))
+    for (const ObjectChange& change : state_.set_creator(own, id))
         tell(change);
     take_own_screens(id);
     if (keeps_room)
@@ -57,12 +57,12 @@ void HostRoom::set_person(ParticipantId id, const PersonFacts& facts) {
     member->second.role = facts.role;
     member->second.name = facts.name;
     if (!may(facts.role, Right::handle)) {
-        for (const RoomChange& change : state_.release_all(id))
+        for (const ObjectChange& change : state_.release_all(id))
             tell(change);
-        for (const RoomChange& change : end_presenting(id))
+        for (const ObjectChange& change : end_presenting(id))
             tell(change);
     }
-    for (const RoomChange& change : state_.on_person(id, encode_person(facts)))
+    for (const ObjectChange& change : state_.on_person(id, encode_person(facts)))
         tell(change);
 }
 
@@ -75,14 +75,14 @@ bool HostRoom::gives_to_observer(const Request& request) const {
 void HostRoom::leave(ParticipantId id) {
     if (members_.erase(id) == 0)
         return;
-    for (const RoomChange& change : end_presenting(id))
+    for (const ObjectChange& change : end_presenting(id))
         tell(change);
-    for (const RoomChange& change : state_.on_left(id))
+    for (const ObjectChange& change : state_.on_left(id))
         tell(change);
 }
 
 void HostRoom::clear() {
-    for (const RoomChange& change : state_.clear())
+    for (const ObjectChange& change : state_.clear())
         tell(change);
 }
 
@@ -114,7 +114,7 @@ std::optional<CameraId> HostRoom::on_request(ParticipantId id, const wire::RoomR
         decision = state_.on_request(id, message.number, *request, true);
     if (request)
         note_author(id, *request, decision);
-    for (const RoomChange& change : decision.changes)
+    for (const ObjectChange& change : decision.changes)
         tell(change);
     member->second.decided = message.number;
     send(id, wire::RoomDecision{message.number, std::uint8_t(decision.refusal)});
@@ -182,7 +182,7 @@ std::vector<ObjectPose> HostRoom::replay(const RoomObjects& recorded, TimePoint 
     return std::move(step.moved);
 }
 
-void HostRoom::tell(const RoomChange& change) {
+void HostRoom::tell(const ObjectChange& change) {
     wire::RoomChange message{change.revision, std::uint32_t(change.object), {}};
     if (change.now)
         append_object(change.object, *change.now, message.now);

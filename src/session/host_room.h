@@ -50,7 +50,7 @@ public:
     using Authors = std::map<ObjectId, Bytes>;
 
     // Continues from `restored`. `actions` must outlive this object.
-    HostRoom(const RoomSnapshot& restored, std::vector<Action>& actions, Authors authors = {})
+    HostRoom(const ObjectsSnapshot& restored, std::vector<Action>& actions, Authors authors = {})
         : state_(restored), authors_(std::move(authors)), actions_(actions) {
         (void)end_presenting(std::nullopt);
         take_restored_sharers();
@@ -120,7 +120,7 @@ public:
     std::vector<ParticipantId> receivers() const;
 
     // Without a replayed recording.
-    RoomSnapshot snapshot() const { return state_.snapshot(); }
+    ObjectsSnapshot snapshot() const { return state_.snapshot(); }
     // Those of the objects of snapshot(), at least. A person's id proves who somebody is, so it
     // stays at the host.
     Authors authors() const;
@@ -167,9 +167,9 @@ private:
     // Makes the member of the same person the one who shares the screens.
     void take_own_screens(ParticipantId id);
     // Makes a participant the presenter of no screen; without one: all participants.
-    std::vector<RoomChange> end_presenting(std::optional<ParticipantId> presenter);
+    std::vector<ObjectChange> end_presenting(std::optional<ParticipantId> presenter);
     RoomState::Decision open_case(ParticipantId id, const request::Create& request);
-    void tell(const RoomChange& change);
+    void tell(const ObjectChange& change);
     void send(ParticipantId id, wire::ToParticipant message) {
         actions_.push_back(action::Send{id, std::move(message)});
     }

@@ -75,7 +75,7 @@ std::size_t HostRoom::clear_of(ParticipantId id) {
         if (may_go && (facts.creator == id || (!person.empty() && author == person)))
             made.push_back(object);
     }
-    for (const RoomChange& change : state_.remove(made))
+    for (const ObjectChange& change : state_.remove(made))
         tell(change);
     return made.size();
 }
@@ -133,7 +133,7 @@ std::optional<RoomState::Decision> HostRoom::decide_on_case(ParticipantId id, st
         return RoomState::Decision{Refusal::part_of_case, {}};
     RoomState::Decision decision = state_.on_request(id, number, request, true);
     if (decision.refusal == Refusal::none)
-        for (RoomChange& change : state_.replace_case(id, {}).changes)
+        for (ObjectChange& change : state_.replace_case(id, {}).changes)
             decision.changes.push_back(std::move(change));
     return decision;
 }
@@ -150,8 +150,8 @@ RoomState::Decision HostRoom::open_case(ParticipantId id, const request::Create&
     return state_.replace_case(id, case_objects(*facts, request.room_from_object));
 }
 
-std::vector<RoomChange> HostRoom::end_presenting(std::optional<ParticipantId> presenter) {
-    std::vector<RoomChange> changes;
+std::vector<ObjectChange> HostRoom::end_presenting(std::optional<ParticipantId> presenter) {
+    std::vector<ObjectChange> changes;
     const RoomObjects objects = state_.objects();
     for (const auto& [id, object] : objects) {
         auto screen = decode_as<CaseScreen>(object.kind, object.properties);

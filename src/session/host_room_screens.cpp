@@ -97,7 +97,7 @@ void HostRoom::take_own_screens(ParticipantId id) {
         if (shown && shown->camera)
             own.push_back(screen);
     }
-    for (const RoomChange& change : state_.set_creator(own, id))
+    for (const ObjectChange& change : state_.set_creator(own, id))
         tell(change);
 }
 
@@ -126,7 +126,7 @@ void HostRoom::drop_oldest_kept() {
     if (away.size() <= max_kept_screens)
         return;
     away.resize(away.size() - max_kept_screens);
-    for (const RoomChange& change : state_.remove(away))
+    for (const ObjectChange& change : state_.remove(away))
         tell(change);
 }
 

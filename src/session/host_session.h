@@ -19,7 +19,7 @@
 #include "session/host_actions.h"
 #include "session/host_room.h"
 #include "session/link_budgets.h"
-#include "session/look_back.h"
+#include "session/look_backs.h"
 #include "session/membership.h"
 #include "session/offered_cases.h"
 #include "session/renderers.h"
@@ -48,7 +48,7 @@ public:
         std::set<CameraId> absent = {};     // numbers among them, of cameras that come later
         CheckCodec check_depth, check_color;
         SessionCameras::Config streams;
-        RoomSnapshot room;          // from the previous run
+        ObjectsSnapshot room;       // from the previous run
         HostRoom::Authors authors;  // of its marks
         // Those of them that may_know_patient() are told who the patient of the open case is.
         std::vector<Role> patient_for = {Role::operator_};
@@ -97,8 +97,8 @@ public:
     void keep(const wire::MediaHeader& header, ByteView message, TimePoint now) {
         look_back_.keep(header, message, now);
     }
-    // See LookBack.
-    std::vector<LookBack::Due> take_past(TimePoint now) { return look_back_.take_due(now); }
+    // See LookBacks.
+    std::vector<LookBacks::Due> take_past(TimePoint now) { return look_back_.take_due(now); }
     std::optional<TimePoint> past_due() const { return look_back_.due(); }
     std::size_t past_bytes() const { return look_back_.bytes(); }
 
@@ -244,7 +244,7 @@ private:
     TimePoint noted_here_;  // for the budgets
     Membership membership_;
     Streams streams_;
-    LookBack look_back_;
+    LookBacks look_back_;
     DirectPaths direct_;
     std::uint64_t streams_seen_ = 0;  // Streams::changes() at the last follow_paths()
     HostRoom room_;

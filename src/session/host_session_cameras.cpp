@@ -88,7 +88,7 @@ void HostSession::carry_out(ParticipantId id, const wire::LookBack& wish, TimePo
     if (person.admitted)
         ago = std::min(ago, now - *person.admitted - Past::key_every);
     const bool may = person.has(wire::Feature::look_back) &&
-                     (wish.ago < LookBack::least || ago >= LookBack::least);
+                     (wish.ago < LookBacks::least || ago >= LookBacks::least);
     send(id, wire::Managed{wish.number,
                            may ? look_back_.begin(id, ago, now) : ManageRefusal::nothing_kept});
 }

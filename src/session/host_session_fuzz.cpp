@@ -114,7 +114,7 @@ void check_rights(const HostSession& host) {
     }
     for (const wire::Camera& camera : host.streams().cameras().descriptions())
         if (camera.publisher != session::host_publisher &&
-            !may(camera.publisher, session::needed_right(camera.frame)))
+            !may(camera.publisher, session::needed_right(camera.kind)))
             std::abort();
     for (const wire::Visitor& visitor : host.visitors())
         if (may(visitor.participant, Right::see))
@@ -124,8 +124,8 @@ void check_rights(const HostSession& host) {
 }
 
 // Nobody is shown the past of its own camera, nor of a camera that has left.
-void check_past(const HostSession& host, const std::vector<session::LookBack::Due>& pictures) {
-    for (const session::LookBack::Due& due : pictures) {
+void check_past(const HostSession& host, const std::vector<session::LookBacks::Due>& pictures) {
+    for (const session::LookBacks::Due& due : pictures) {
         const auto* camera = host.streams().cameras().find(camera_of(due.header.stream));
         const auto found = host.participants().find(due.receiver);
         if (!camera || !camera->may_be_kept() || camera->publisher() == due.receiver ||

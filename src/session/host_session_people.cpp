@@ -211,7 +211,7 @@ void HostSession::set_role(ParticipantId id, Role role) {
         std::erase(person.features, wire::Feature::publish);
         std::vector<CameraId> forbidden = streams_.cameras().of(id);
         std::erase_if(forbidden, [&](CameraId camera) {
-            return person.may(needed_right(streams_.cameras().find(camera)->description().frame));
+            return person.may(needed_right(streams_.cameras().find(camera)->description().kind));
         });
         shared_.remove(id, forbidden);
     } else if (person.asks_to_publish && !could_publish) {

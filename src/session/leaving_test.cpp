@@ -97,7 +97,7 @@ protected:
     }
     std::size_t pictures_of_the_past() {
         std::size_t count = 0;
-        for (const LookBack::Due& due : session_->take_past(now + seconds(1)))
+        for (const LookBacks::Due& due : session_->take_past(now + seconds(1)))
             count += due.receiver == bob;
         return count;
     }

@@ -58,7 +58,7 @@ void MemberRoom::on(const wire::RoomSnapshot& part) {
 }
 
 void MemberRoom::on(const wire::RoomChange& message) {
-    RoomChange change{message.revision, ObjectId(message.object), std::nullopt};
+    ObjectChange change{message.revision, ObjectId(message.object), std::nullopt};
     if (!message.now.empty()) {
         const auto decoded = decode_objects(message.now, 1);
         if (!decoded || decoded->size() != 1 || decoded->begin()->first != change.object)

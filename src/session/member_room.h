@@ -19,8 +19,8 @@ public:
     // A new connection has begun, with this number. Requests of the previous one are discarded.
     void begin(ParticipantId self);
 
-    // RoomSnapshot, RoomChange or RoomDecision. Safe for untrusted input: a damaged message changes
-    // nothing.
+    // ObjectsSnapshot, ObjectChange or RoomDecision. Safe for untrusted input: a damaged message
+    // changes nothing.
     void on_message(const wire::ToParticipant& message);
     void on_pose(ObjectId object, ByteView body);
 
@@ -54,7 +54,7 @@ private:
     bool known_ = false;
     std::uint64_t version_ = 0;
     RoomReplica replica_{ParticipantId{}};
-    RoomSnapshot gathered_;  // from the parts received so far
+    ObjectsSnapshot gathered_;  // from the parts received so far
     std::uint16_t next_part_ = 0;
     bool asked_for_snapshot_ = false;
     std::vector<wire::RoomRequest> requests_;

@@ -43,13 +43,13 @@ constexpr bool may_know_patient(Role role) {
 }
 
 // The rights of messages that depend on what they say; request_kinds.cpp has those of all.
-constexpr Right needed_right(wire::CameraFrame frame) {
-    return frame == wire::CameraFrame::face ? Right::be_seen : Right::publish;
+constexpr Right needed_right(wire::CameraKind kind) {
+    return kind == wire::CameraKind::face ? Right::be_seen : Right::publish;
 }
 // One camera of the room is enough to need the right for it.
 inline Right needed_right(const wire::Publish& message) {
     for (const wire::OfferedCamera& camera : message.cameras)
-        if (camera.frame != wire::CameraFrame::face)
+        if (camera.kind != wire::CameraKind::face)
             return Right::publish;
     return message.cameras.empty() ? Right::publish : Right::be_seen;
 }

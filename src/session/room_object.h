@@ -117,12 +117,12 @@ struct ObjectPose {
 };
 
 // A change that the host decided on; all participants get the changes in the same order.
-struct RoomChange {
+struct ObjectChange {
     std::uint64_t revision = 0;  // one more than that of the change before
     ObjectId object{};
     std::optional<RoomObject> now;  // none: the object is removed
 };
-struct RoomSnapshot {
+struct ObjectsSnapshot {
     std::uint64_t revision = 0;
     RoomObjects objects;
     // The receiver's newest request that the host has decided on; earlier answers may be lost.

@@ -83,7 +83,7 @@ std::optional<ObjectPose> RoomReplica::move(ObjectId object, const Pose& room_fr
     return pose;
 }
 
-bool RoomReplica::on_change(const RoomChange& change) {
+bool RoomReplica::on_change(const ObjectChange& change) {
     if (!has_snapshot_)
         return false;
     if (change.revision <= revision_)
@@ -133,7 +133,7 @@ bool RoomReplica::apply(const ObjectPose& pose) {
     return true;
 }
 
-void RoomReplica::on_snapshot(const RoomSnapshot& snapshot) {
+void RoomReplica::on_snapshot(const ObjectsSnapshot& snapshot) {
     has_snapshot_ = true;
     revision_ = snapshot.revision;
     std::erase_if(objects_,

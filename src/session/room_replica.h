@@ -26,8 +26,8 @@ public:
                                    TimePoint now);
 
     // From the host. False if a change or the snapshot is missing: then request a snapshot.
-    bool on_change(const RoomChange& change);
-    void on_snapshot(const RoomSnapshot& snapshot);
+    bool on_change(const ObjectChange& change);
+    void on_snapshot(const ObjectsSnapshot& snapshot);
     // The host has decided on a request; its changes came before.
     void on_decision(std::uint32_t number);
     // Newest poses of the grips granted since the last call, to be sent again: poses overtake

@@ -41,7 +41,7 @@ bool RoomState::may_be_at(const RoomObject& object, const Pose& pose, double sca
     return is_sound(pose, scale) && (!is_shared_screen(object) || is_screen_width(scale));
 }
 
-RoomState::RoomState(const RoomSnapshot& snapshot)
+RoomState::RoomState(const ObjectsSnapshot& snapshot)
     : revision_(snapshot.revision), objects_(snapshot.objects) {
     std::erase_if(objects_,
                   [](const auto& entry) { return entry.second.kind == ObjectKind::person; });
@@ -53,13 +53,13 @@ RoomState::RoomState(const RoomSnapshot& snapshot)
     }
 }
 
-RoomChange RoomState::changed(ObjectId object) {
+ObjectChange RoomState::changed(ObjectId object) {
     const auto found = objects_.find(object);
     return {++revision_, object,
             found == objects_.end() ? std::nullopt : std::optional(found->second)};
 }
 
-RoomChange RoomState::on_joined(ParticipantId participant, Bytes properties, TimePoint joined) {
+ObjectChange RoomState::on_joined(ParticipantId participant, Bytes properties, TimePoint joined) {
     participants_.insert(participant);
     const ObjectId person{++newest_id_};
     objects_[person] = {ObjectKind::person, participant, {}, joined, {}, 1, std::move(properties)};
@@ -71,7 +71,7 @@ bool RoomState::has_room_for(std::size_t bytes, std::size_t before) const {
            property_bytes(objects_) - before + bytes <= max_property_bytes_of_all;
 }
 
-std::vector<RoomChange> RoomState::on_person(ParticipantId participant, Bytes properties) {
+std::vector<ObjectChange> RoomState::on_person(ParticipantId participant, Bytes properties) {
     for (auto& [id, object] : objects_)
         if (object.kind == ObjectKind::person && object.creator == participant) {
             object.properties = std::move(properties);
@@ -80,8 +80,8 @@ std::vector<RoomChange> RoomState::on_person(ParticipantId participant, Bytes pr
     return {};
 }
 
-std::vector<RoomChange> RoomState::release_all(ParticipantId participant) {
-    std::vector<RoomChange> changes;
+std::vector<ObjectChange> RoomState::release_all(ParticipantId participant) {
+    std::vector<ObjectChange> changes;
     for (auto& [id, object] : objects_)
         if (object.grip.holder == participant) {
             object.grip = {};
@@ -90,7 +90,7 @@ std::vector<RoomChange> RoomState::release_all(ParticipantId participant) {
     return changes;
 }
 
-std::vector<RoomChange> RoomState::clear() {
+std::vector<ObjectChange> RoomState::clear() {
     std::vector<ObjectId> gone;
     for (const auto& [id, object] : objects_)
         if (object.kind != ObjectKind::person && !shows_camera(object))
@@ -98,17 +98,17 @@ std::vector<RoomChange> RoomState::clear() {
     return remove(gone);
 }
 
-std::vector<RoomChange> RoomState::remove(const std::vector<ObjectId>& gone) {
-    std::vector<RoomChange> changes;
+std::vector<ObjectChange> RoomState::remove(const std::vector<ObjectId>& gone) {
+    std::vector<ObjectChange> changes;
     for (const ObjectId id : gone)
         if (objects_.erase(id) > 0)
             changes.push_back(changed(id));
     return changes;
 }
 
-std::vector<RoomChange> RoomState::set_creator(const std::vector<ObjectId>& objects,
-                                               ParticipantId to) {
-    std::vector<RoomChange> changes;
+std::vector<ObjectChange> RoomState::set_creator(const std::vector<ObjectId>& objects,
+                                                 ParticipantId to) {
+    std::vector<ObjectChange> changes;
     for (const ObjectId id : objects)
         if (const auto found = objects_.find(id); found != objects_.end()) {
             found->second.creator = to;
@@ -117,7 +117,7 @@ std::vector<RoomChange> RoomState::set_creator(const std::vector<ObjectId>& obje
     return changes;
 }
 
-std::optional<RoomChange> RoomState::put(std::optional<ObjectId> id, RoomObject object) {
+std::optional<ObjectChange> RoomState::put(std::optional<ObjectId> id, RoomObject object) {
     const auto before = id ? objects_.find(*id) : objects_.end();
     const bool is_new = before == objects_.end();
     if ((is_new && objects_.size() >= max_objects) ||
@@ -129,9 +129,9 @@ std::optional<RoomChange> RoomState::put(std::optional<ObjectId> id, RoomObject 
     return changed(place);
 }
 
-std::vector<RoomChange> RoomState::on_left(ParticipantId participant) {
+std::vector<ObjectChange> RoomState::on_left(ParticipantId participant) {
     participants_.erase(participant);
-    std::vector<RoomChange> changes;
+    std::vector<ObjectChange> changes;
     for (auto entry = objects_.begin(); entry != objects_.end();) {
         const auto [id, object] = *entry;
         const bool is_its_person =
@@ -171,7 +171,7 @@ RoomState::Decision RoomState::replace_case(ParticipantId by, std::vector<RoomOb
         return {Refusal::too_many, {}};
     Decision decision;
     decision.changes = remove(old);
-    for (RoomChange& change : remove(marks_without_surface(objects_)))
+    for (ObjectChange& change : remove(marks_without_surface(objects_)))
         decision.changes.push_back(std::move(change));
     for (RoomObject& object : objects) {
         const ObjectId id{++newest_id_};

@@ -24,29 +24,29 @@ public:
     RoomState() = default;
     // Continues from a snapshot, for example after a restart of the host. No object is held, and
     // marks have no creator: numbers of participants begin again.
-    explicit RoomState(const RoomSnapshot& snapshot);
+    explicit RoomState(const ObjectsSnapshot& snapshot);
 
     // Creates the participant's person object with these properties; `joined`, session time,
     // becomes its moved_at. Only the host changes it.
-    RoomChange on_joined(ParticipantId participant, Bytes properties, TimePoint joined = {});
+    ObjectChange on_joined(ParticipantId participant, Bytes properties, TimePoint joined = {});
     // Changes the properties of the participant's person object, if it has one.
-    std::vector<RoomChange> on_person(ParticipantId participant, Bytes properties);
+    std::vector<ObjectChange> on_person(ParticipantId participant, Bytes properties);
     // Releases the objects that it holds where they are.
-    std::vector<RoomChange> release_all(ParticipantId participant);
+    std::vector<ObjectChange> release_all(ParticipantId participant);
     // Removes all objects but people and the shared screens whose source is here.
-    std::vector<RoomChange> clear();
+    std::vector<ObjectChange> clear();
     // Removes these objects, or makes another participant their creator.
-    std::vector<RoomChange> remove(const std::vector<ObjectId>& objects);
-    std::vector<RoomChange> set_creator(const std::vector<ObjectId>& objects, ParticipantId to);
+    std::vector<ObjectChange> remove(const std::vector<ObjectId>& objects);
+    std::vector<ObjectChange> set_creator(const std::vector<ObjectId>& objects, ParticipantId to);
     // The host's own change: adds the object, or replaces `id`. nullopt, and nothing has changed:
     // the room is full, or the object is beyond its limits.
-    std::optional<RoomChange> put(std::optional<ObjectId> id, RoomObject object);
+    std::optional<ObjectChange> put(std::optional<ObjectId> id, RoomObject object);
     // As release_all(), and removes its person object.
-    std::vector<RoomChange> on_left(ParticipantId participant);
+    std::vector<ObjectChange> on_left(ParticipantId participant);
 
     struct Decision {
         Refusal refusal = Refusal::none;
-        std::vector<RoomChange> changes;  // for all participants
+        std::vector<ObjectChange> changes;  // for all participants
     };
     // `may_change`: the participant's role allows to change the room.
     Decision on_request(ParticipantId from, std::uint32_t number, const Request& request,
@@ -60,7 +60,7 @@ public:
     // `from` is the holder, and the pose is newer than the one before.
     bool on_pose(ParticipantId from, const ObjectPose& pose);
 
-    RoomSnapshot snapshot() const { return {revision_, objects_}; }
+    ObjectsSnapshot snapshot() const { return {revision_, objects_}; }
     std::uint64_t revision() const { return revision_; }
     // The number of a change of objects that are kept elsewhere.
     std::uint64_t take_revision() { return ++revision_; }
@@ -69,7 +69,7 @@ public:
 private:
     static bool is_sound(const Pose& pose, double scale);
     static bool may_be_at(const RoomObject& object, const Pose& pose, double scale);
-    RoomChange changed(ObjectId object);
+    ObjectChange changed(ObjectId object);
     // True if an object may have `bytes` bytes of properties instead of `before`.
     bool has_room_for(std::size_t bytes, std::size_t before) const;
     // The object, if this grip holds it.

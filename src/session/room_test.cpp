@@ -276,7 +276,7 @@ private:
     struct Decided {
         std::uint32_t number = 0;
     };
-    using FromHost = std::variant<RoomChange, RoomSnapshot, Decided>;
+    using FromHost = std::variant<ObjectChange, ObjectsSnapshot, Decided>;
     template <class Message>
     using Ordered = std::deque<std::pair<TimePoint, Message>>;
     using Poses = std::map<ObjectId, std::pair<TimePoint, ObjectPose>>;
@@ -326,8 +326,8 @@ private:
         host_ = RoomState(host_.snapshot());
         people_.clear();  // they come back as other participants
     }
-    void tell(const std::vector<RoomChange>& changes) {
-        for (const RoomChange& change : changes)
+    void tell(const std::vector<ObjectChange>& changes) {
+        for (const ObjectChange& change : changes)
             for (auto& person : people_)
                 if (chance(0.01))
                     resynchronise(*person);
@@ -340,7 +340,7 @@ private:
         send_snapshot(person);
     }
     void send_snapshot(Person& person) {
-        RoomSnapshot snapshot = host_.snapshot();
+        ObjectsSnapshot snapshot = host_.snapshot();
         snapshot.decided = person.decided;
         send<FromHost>(person.news, std::move(snapshot));
     }
@@ -421,11 +421,11 @@ private:
         send<FromHost>(person.news, Decided{message.number});
     }
     void on_participant(Person& person, const FromHost& message) {
-        if (const auto* snapshot = std::get_if<RoomSnapshot>(&message))
+        if (const auto* snapshot = std::get_if<ObjectsSnapshot>(&message))
             person.replica.on_snapshot(*snapshot);
         else if (const auto* decided = std::get_if<Decided>(&message)) {
             person.replica.on_decision(decided->number);
-        } else if (!person.replica.on_change(std::get<RoomChange>(message)))
+        } else if (!person.replica.on_change(std::get<ObjectChange>(message)))
             send(person.requests, ToHost{});
         for (const ObjectPose& pose : person.replica.take_poses_again())
             send(person.poses_up, pose);

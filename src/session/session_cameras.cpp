@@ -23,7 +23,7 @@ Bytes stand_apart(const Bytes& encoded, double distance_m) {
 bool can_be_adjusted(const CameraStreams& camera, const CameraAdjustment& adjustment) {
     const auto calibration = decode_calibration(camera.description().calibration);
     return calibration && calibration->person == 0 &&
-           camera.description().frame == wire::CameraFrame::room &&
+           camera.description().kind == wire::CameraKind::room &&
            (!adjustment.region || camera.publisher() == host_publisher) &&
            is_within_limits(adjustment, calibration->depth.size);
 }

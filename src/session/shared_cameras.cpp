@@ -68,7 +68,7 @@ void SharedCameras::name_cameras(ParticipantId id, std::vector<wire::Camera>& ca
         facts.push_back(wire::text_of(wire::CameraCondition(i)));
     for (wire::Camera& camera : cameras) {
         // It is shown with the person.
-        if (camera.frame == wire::CameraFrame::face)
+        if (camera.kind == wire::CameraKind::face)
             continue;
         const std::string name = person_name(camera.name, facts, wire::max_name);
         camera.name = told_apart(name.empty() ? "camera" : name, others, wire::max_name);
@@ -81,8 +81,7 @@ std::vector<SharedCameras::PlacedScreen> SharedCameras::place_screens(
     std::vector<HostRoom::ChosenPlace> places;
     for (std::size_t i = 0; i < cameras.size(); ++i) {
         const auto calibration = decode_calibration(cameras[i].calibration);
-        if (cameras[i].frame == wire::CameraFrame::face || !calibration ||
-            !is_screen(*calibration) ||
+        if (cameras[i].kind == wire::CameraKind::face || !calibration || !is_screen(*calibration) ||
             (which == Placing::only_unplaced && calibration->registered))
             continue;
         ScreenOffer one = offer;

@@ -17,7 +17,7 @@
 #include "session/face_limits.h"
 #include "session/host_actions.h"
 #include "session/host_room.h"
-#include "session/look_back.h"
+#include "session/look_backs.h"
 #include "session/streams.h"
 #include "wire/control.h"
 #include "wire/media_header.h"
@@ -27,7 +27,7 @@ namespace theatron::session {
 class SharedCameras {
 public:
     SharedCameras(wire::SessionId session, Admission& admission, Streams& streams, HostRoom& room,
-                  LookBack& look_back, DirectPaths& direct, std::vector<Action>& actions)
+                  LookBacks& look_back, DirectPaths& direct, std::vector<Action>& actions)
         : session_(session),
           admission_(admission),
           streams_(streams),
@@ -89,7 +89,7 @@ private:
     Admission& admission_;
     Streams& streams_;
     HostRoom& room_;
-    LookBack& look_back_;
+    LookBacks& look_back_;
     DirectPaths& direct_;
     std::vector<Action>& actions_;
     std::map<SettingId, FacePace> face_paces_;  // of active settings

@@ -82,7 +82,7 @@ public:
     void choose(ParticipantId receiver, const CodecWish& wish,
                 const std::vector<CameraId>& cameras);
     void set_goal(ParticipantId receiver, const wire::ChooseDelivery& goal);
-    // The receiver is shown the past of exactly these cameras (look_back.h): it gets nothing of
+    // The receiver is shown the past of exactly these cameras (look_backs.h): it gets nothing of
     // their present, and no settings. The cameras of an earlier call that are not among them it
     // gets anew.
     void look_back(ParticipantId receiver, std::set<CameraId> cameras);

@@ -257,7 +257,7 @@ void ViewerSession::add_cameras(std::vector<wire::Camera> cameras) {
 bool ViewerSession::change_camera(wire::Camera camera) {
     for (wire::Camera& known : welcome_.cameras) {
         if (known.id != camera.id || known.session != camera.session ||
-            known.has_color != camera.has_color || known.frame != camera.frame)
+            known.has_color != camera.has_color || known.kind != camera.kind)
             continue;
         const auto before = decode_calibration(known.calibration),
                    now = decode_calibration(camera.calibration);

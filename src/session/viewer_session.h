@@ -100,7 +100,7 @@ public:
     const wire::ShareEnded& share_ended() const { return share_ended_; }
     const wire::Encode& encode() const { return encode_; }
     const wire::EncodeKey& encode_key() const { return encode_key_; }
-    // RoomSnapshot, RoomChange or RoomDecision.
+    // ObjectsSnapshot, ObjectChange or RoomDecision.
     const wire::ToParticipant& room() const { return room_; }
     const wire::Waiting& waiting() const { return waiting_; }
     const wire::Standing& standing() const { return standing_; }

@@ -87,7 +87,7 @@ void CaseScene::add_to(render::SceneFrame& frame, const render::CameraView& view
                                  tissue_roughness};
         look.opacity = part.facts.opacity / 255.0;
         frame.objects.push_back({&mesh->mesh, place.pose, look, false,
-                                 render::ObjectId(std::uint32_t(part.id)), place.scale, cut});
+                                 render::PickId(std::uint32_t(part.id)), place.scale, cut});
     }
     monitor_.add_to(frame, *room_, about->middle_mm, view);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pictures of participants' faces (wire::CameraFrame::face) for the heads of their avatars. One
+// The pictures of participants' faces (wire::CameraKind::face) for the heads of their avatars. One
 // that stands still fades away, so that nobody talks to a frozen picture.
 #pragma once
 

@@ -32,13 +32,13 @@ LiveScene::Origin origin_of(const client::Participant::Camera& camera) {
 }
 
 bool is_face(const client::Participant::Camera& camera) {
-    return camera.description.frame == wire::CameraFrame::face;
+    return camera.description.kind == wire::CameraKind::face;
 }
 
 // The person whom the camera sees and moves with, if it is no camera of the room. In a replay the
 // host's cameras see people of the recording.
 std::optional<ParticipantId> person_of(const client::Participant::Camera& camera) {
-    if (camera.description.frame == wire::CameraFrame::person)
+    if (camera.description.kind == wire::CameraKind::person)
         return camera.description.publisher;
     if (camera.calibration.person != 0)
         return ParticipantId(camera.calibration.person | session::recorded_bit);

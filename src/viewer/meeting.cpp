@@ -24,7 +24,8 @@ std::optional<Pose> pose_of(const std::optional<wire::PartPose>& part) {
 bool same(const room::RoomPerson& a, const room::RoomPerson& b) {
     return a.id == b.id && a.name == b.name && a.head == b.head && a.left_hand == b.left_hand &&
            a.right_hand == b.right_hand && a.is_stale == b.is_stale && a.has_cloud == b.has_cloud &&
-           a.calls == b.calls && a.points == b.points && (!a.is_stale || a.age == b.age);
+           a.has_headset == b.has_headset && a.calls == b.calls && a.points == b.points &&
+           (!a.is_stale || a.age == b.age);
 }
 
 }  // namespace
@@ -97,9 +98,11 @@ bool Meeting::take(const client::Participant& participant) {
         track.add(pose, now);
         pose = *track.at(now);
     }
+    headsets_.take(poses, now);
     std::vector<room::RoomPerson> people = people_of(room_, poses, now);
     for (room::RoomPerson& person : people) {
         person.has_cloud = clouds_.contains(person.id);
+        person.has_headset = headsets_.has(person.id);
         const auto pose = poses.find(person.id);
         if (pose == poses.end())
             continue;
@@ -154,7 +157,7 @@ void Meeting::add_to(render::SceneFrame& frame, const render::CameraView& view) 
             continue;
         render::SurfaceLook look{room::color_of(ParticipantId{brick->color}), 0, 0.35};
         frame.objects.push_back({&mesh_of(*brick), object.room_from_object, look, false,
-                                 render::ObjectId(std::uint32_t(id))});
+                                 render::PickId(std::uint32_t(id))});
     }
     case_.add_to(frame, view);
     if (screens_)

@@ -20,6 +20,7 @@
 #include "viewer/case_scene.h"
 #include "viewer/room_past.h"
 #include "viewer/shared_screens.h"
+#include "viewer/worn_headsets.h"
 
 namespace theatron::viewer {
 
@@ -125,6 +126,7 @@ private:
     bool shows_ages_ = false;
     std::map<ParticipantId, std::string> meters_;  // of those who speak
     std::map<ParticipantId, session::PoseTrack> tracks_;
+    WornHeadsets headsets_;
     TimePoint taken_at_;  // session time
     std::optional<room::TeleportArc> arc_;
     std::array<std::optional<Pose>, 2> own_hands_;

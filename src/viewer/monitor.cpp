@@ -193,7 +193,7 @@ void Monitor::add_to(render::SceneFrame& frame, const session::CaseInRoom& room,
     if (!shown || !room.screen)
         return;
     const session::RoomObject& object = room.screen->object;
-    const auto id = render::ObjectId(std::uint32_t(room.screen->id));
+    const auto id = render::PickId(std::uint32_t(room.screen->id));
     const Pose place = object.room_from_object * object_from_picture;
     SurfaceLook look = unlit({1, 1, 1});
     look.texture = &*shown->texture;
@@ -211,14 +211,14 @@ void Monitor::add_to(render::SceneFrame& frame, const session::CaseInRoom& room,
         session::part_in_room(room.organ_object, organ_from_picture(middle_mm));
     look.texture = &*slice_.texture;
     frame.objects.push_back(
-        {&*inside_, inside.pose, look, false, render::ObjectId::none, inside.scale});
+        {&*inside_, inside.pose, look, false, render::PickId::none, inside.scale});
 }
 
 void Monitor::add_slice_facts(render::SceneFrame& frame, const session::RoomObject& object) const {
     const ScreenWriter facts(frame, object);
     const Vec2 half{slice_.size_m.x / 2, slice_.size_m.y / 2};
     frame.objects.push_back({&*ruler_, facts.at(-half.x + 0.02, half.y - 0.02),
-                             unlit({1, 0.86, 0.35}), false, render::ObjectId::none, object.scale});
+                             unlit({1, 0.86, 0.35}), false, render::PickId::none, object.scale});
     const auto width = [](const std::string& text) {
         return double(text.size()) * letter_m * letter_width;
     };

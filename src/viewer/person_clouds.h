@@ -16,7 +16,7 @@
 
 namespace theatron::viewer {
 
-// The person's frame (wire::CameraFrame::person) in the room, from the pose of the head (y up, -z
+// The person's frame (wire::CameraKind::person) in the room, from the pose of the head (y up, -z
 // forward): the same place, upright.
 Pose room_from_person(const Pose& room_from_head);
 

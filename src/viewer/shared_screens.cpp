@@ -143,7 +143,7 @@ void SharedScreens::add(Screen& screen, render::SceneFrame& frame) {
     if (std::exchange(screen.is_new, false))
         screen.texture->set(screen.color->view());
     const auto id =
-        screen.object ? render::ObjectId(std::uint32_t(screen.object->id)) : render::ObjectId::none;
+        screen.object ? render::PickId(std::uint32_t(screen.object->id)) : render::PickId::none;
     render::SurfaceLook look;
     const double light = !screen.color ? 0 : screen.is_faint ? faint_light : 1;
     look.base_color = {light, light, light};

@@ -40,7 +40,7 @@ std::vector<ShownCamera> shown_cameras(const std::vector<client::CameraFigures>&
                                        TimePoint now) {
     std::vector<ShownCamera> shown;
     for (const client::CameraFigures& camera : cameras)
-        if (camera.camera.description.frame == wire::CameraFrame::room &&
+        if (camera.camera.description.kind == wire::CameraKind::room &&
             camera.camera.calibration.person == 0 && !is_screen(camera.camera.calibration))
             shown.push_back(shown_camera(camera, now));
     return shown;

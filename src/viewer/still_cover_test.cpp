@@ -69,7 +69,7 @@ TEST(StillCover, FiguresTellAgesRecordingsAndThePast) {
     camera.depth.past = true;
     EXPECT_FALSE(cover(camera));
     camera = figures(2500);
-    camera.camera.description.frame = wire::CameraFrame::person;
+    camera.camera.description.kind = wire::CameraKind::person;
     EXPECT_FALSE(cover(camera)) << "a person's own camera is not the room's picture";
 }
 

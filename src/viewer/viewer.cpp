@@ -302,13 +302,21 @@ void Viewer::press(int command, TimePoint now) {
         return answer_call(answer->person, answer->comes, now);
     if (const auto* person = std::get_if<GoToPerson>(&chosen))
         return go_to_person(person->person, now);
+    if (const auto* place = std::get_if<GoToPlace>(&chosen))
+        return go_to_place(place->place, now);
+    look_through(std::get<LookThrough>(chosen).person, now);
+}
+
+void Viewer::go_to_place(const Place& place, TimePoint now) {
     stop_following();
     scene_changed_ = true;
-    if (const auto* place = std::get_if<GoToPlace>(&chosen)) {
-        eye_.go_to(place->place.room_from_eye);
-        return note(place->place.name, now);
-    }
-    const ParticipantId id = std::get<LookThrough>(chosen).person;
+    eye_.go_to(place.room_from_eye);
+    note(place.name, now);
+}
+
+void Viewer::look_through(ParticipantId id, TimePoint now) {
+    stop_following();
+    scene_changed_ = true;
     const room::RoomPerson* person = scene_.meeting().person(id);
     if (!person)
         return note(say(Phrase::person_has_left), now);
@@ -509,7 +517,7 @@ Facts Viewer::facts(TimePoint now) {
         one.camera.description.name = name_of(one.camera);
     // Faces are people, not cameras of the room.
     std::erase_if(facts.received.cameras, [](const client::CameraFigures& one) {
-        return one.camera.description.frame == wire::CameraFrame::face;
+        return one.camera.description.kind == wire::CameraKind::face;
     });
     facts.visitors = participant_.visitors();
     facts.has_picture = eye_.is_placed();

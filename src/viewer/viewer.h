@@ -16,7 +16,7 @@
 #include "render/vignette.h"
 #include "session/permissions.h"
 #include "session/renderer_choice.h"
-#include "viewer/camera_adjusting.h"
+#include "viewer/adjust_panel.h"
 #include "viewer/camera_pictures.h"
 #include "viewer/camera_unrest.h"
 #include "viewer/eye.h"
@@ -196,7 +196,9 @@ private:
     void look_through_followed(TimePoint now);
     void stop_following();
     std::optional<Pose> place_beside(ParticipantId id) const;
+    void go_to_place(const Place& place, TimePoint now);
     void go_to_person(ParticipantId id, TimePoint now);
+    void look_through(ParticipantId id, TimePoint now);
     void call(bool begins, TimePoint now);
     void answer_call(ParticipantId person, bool comes, TimePoint now);
     void forget_answered();
@@ -252,7 +254,7 @@ private:
     bool microphone_open_ = false;
     Handling handling_;
     Marking marking_;
-    CameraAdjusting adjusting_;
+    AdjustPanel adjusting_;
     Playing playing_;
     LookingBack looking_back_;
     bool slides_playback_ = false;                   // the slider that was pressed last

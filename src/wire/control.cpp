@@ -157,10 +157,10 @@ bool is_sound(const CameraState& state) {
     return state.condition <= CameraCondition::failed;
 }
 bool is_sound(const OfferedCamera& camera) {
-    return camera.frame <= CameraFrame::face;
+    return camera.kind <= CameraKind::face;
 }
 bool is_sound(const Camera& camera) {
-    return camera.frame <= CameraFrame::face;
+    return camera.kind <= CameraKind::face;
 }
 bool is_sound(const Manage& decision) {
     return decision.action >= ManageAction::admit && decision.action <= clear_objects &&
@@ -210,7 +210,7 @@ bool is_sound(const DirectReceiver& receiver) {
     return receiver.secret.size() == direct_secret_size;
 }
 bool is_sound(const Managed& answer) {
-    return answer.refusal <= ManageRefusal::nothing_kept;
+    return answer.refusal <= last_manage_refusal;
 }
 
 // False if the table has a value that its kind does not allow.

@@ -28,6 +28,7 @@ static_assert(code_of(ManageRefusal::adjusting_role) == TextCode::operators_adju
 static_assert(code_of(ManageRefusal::playing_role) == TextCode::role_plays_not);
 static_assert(code_of(ManageRefusal::nothing_to_play) == TextCode::nothing_to_play);
 static_assert(code_of(ManageRefusal::nothing_kept) == TextCode::nothing_kept);
+static_assert(last_manage_refusal == ManageRefusal::nothing_kept);
 
 // A sentence, in the language of the program's person; empty for `none`.
 inline std::string text_of(ManageRefusal refusal) {

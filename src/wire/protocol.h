@@ -40,7 +40,7 @@ enum class Feature : std::uint16_t {
     playback = 7,       // is told where the host's recording is, and may play it
     screens = 8,        // is told with ShareEnded that others have ended its screens
     look_back = 9,      // may look back at the last minute: LookBack
-    webcam = 10,        // is told of faces (CameraFrame::face), and may send its own
+    webcam = 10,        // is told of faces (CameraKind::face), and may send its own
     patient = 11,       // shows who the patient of the open case is, to a person who may know it
     direct = 12,        // pictures go from publisher to receiver: OfferDirect, DirectGrants
     asks_patient = 13,  // may ask whose case it is before it is opened: AskPatient, AskedPatient

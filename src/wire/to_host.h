@@ -67,15 +67,16 @@ struct ChooseCodecs {
     }
 };
 
-// The frame that a camera's calibration calls the room.
-enum class CameraFrame : std::uint8_t {
+// The subject of a camera. By it a receiver knows which frame its calibration calls the room.
+enum class CameraKind : std::uint8_t {
+    // The room itself.
     room = 0,
-    // The head of the person who publishes the camera: the origin is between the eyes, y is up, -z
-    // points where the person looks, without its slope. The person's pose moves it through the
-    // room.
+    // Its publisher. The frame is that of the publisher's head: the origin is between the eyes, y
+    // is up, -z points where the person looks, without its slope. The person's pose moves it
+    // through the room.
     person = 1,
-    // None: the camera is the picture of its publisher's face, a small screen (geometry/screen.h)
-    // that is drawn on the head. For those who have Feature::webcam; others cannot read it.
+    // Its publisher's face, as a small screen (geometry/screen.h) that is drawn on the head: there
+    // is no frame. For those who have Feature::webcam; others cannot read it.
     face = 2,
 };
 
@@ -87,7 +88,7 @@ struct OfferedCamera {
     Bytes calibration;  // geometry/calibration.h
     // Its participant agrees that others record it; else the host sends it to no recorder.
     bool may_record = false;
-    CameraFrame frame{};
+    CameraKind kind{};
 
     static void fields(auto& m, auto&& field) {
         field(m.name, max_name);
@@ -95,7 +96,7 @@ struct OfferedCamera {
         field(m.frames_per_second);
         field(m.calibration, max_calibration_size);
         field(m.may_record);
-        field(m.frame);
+        field(m.kind);
     }
 };
 

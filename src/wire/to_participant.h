@@ -26,7 +26,7 @@ struct Camera {
     ParticipantId publisher{};  // 0: the host
     SessionId session{};        // to which it belongs
     bool may_record = false;    // as in OfferedCamera; always for the host's own
-    CameraFrame frame{};
+    CameraKind kind{};
     // The changes by operators (session/camera_adjustment.h); the calibration contains it.
     Bytes adjustment;
 
@@ -41,7 +41,7 @@ struct Camera {
         field(m.publisher);
         field(m.session);
         field(m.may_record);
-        field(m.frame);
+        field(m.kind);
         field(m.adjustment, max_adjustment_size);
     }
 };
@@ -293,6 +293,7 @@ enum class ManageRefusal : std::uint8_t {
     nothing_to_play = 11,  // the host plays no recording
     nothing_kept = 12,     // of the past that the sender may see
 };
+inline constexpr ManageRefusal last_manage_refusal = ManageRefusal::nothing_kept;
 
 // The host has decided on the sender's Manage, AdjustCamera, Play or LookBack of this number.
 struct Managed {

@@ -297,10 +297,10 @@ TEST(Control, EveryMessageRoundTrips) {
     EXPECT_EQ(round_trip(ChooseCodecs{"rvl", "", cameras}).depth_codec, "rvl");
     EXPECT_EQ(round_trip(ChooseCodecs{"rvl", "", cameras}).cameras, cameras);
     const Publish offer =
-        round_trip(Publish{{{"face", true, 30, numbered(5), true, CameraFrame::person}}});
-    EXPECT_EQ(offer.cameras.at(0).frame, CameraFrame::person);
+        round_trip(Publish{{{"face", true, 30, numbered(5), true, CameraKind::person}}});
+    EXPECT_EQ(offer.cameras.at(0).kind, CameraKind::person);
     EXPECT_FALSE(
-        decode_to_host(encode(Publish{{{"face", true, 30, numbered(5), true, CameraFrame{3}}}})));
+        decode_to_host(encode(Publish{{{"face", true, 30, numbered(5), true, CameraKind{3}}}})));
     ASSERT_EQ(offer.cameras.size(), 1u);
     EXPECT_EQ(offer.cameras[0].name, "face");
     EXPECT_EQ(offer.cameras[0].calibration, numbered(5));
@@ -318,8 +318,8 @@ TEST(Control, EveryMessageRoundTrips) {
                                                          ParticipantId{4},
                                                          SessionId{7},
                                                          true,
-                                                         CameraFrame::person}}});
-    EXPECT_EQ(added.cameras.at(0).frame, CameraFrame::person);
+                                                         CameraKind::person}}});
+    EXPECT_EQ(added.cameras.at(0).kind, CameraKind::person);
     EXPECT_EQ(added.cameras.at(0).session, SessionId{7});
     ASSERT_EQ(added.cameras.size(), 1u);
     EXPECT_EQ(added.cameras[0].publisher, ParticipantId{4});

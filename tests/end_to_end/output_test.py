@@ -232,6 +232,29 @@ class Output(unittest.TestCase):
             served.terminate()
             self.assertEqual(patience.end_of(served), 0)
 
+    def test_closed_streams_are_nothing_that_files_get(self):
+        """What is meant for people must never land in a file that got the number of a closed stream."""
+        closings = ("<&-", ">&-", "2>&-", "<&- >&-", "<&- >&- 2>&-")
+        for n, closing in enumerate(closings):
+            with self.subTest(closing=closing):
+                file = self.folder / f"{n}.mkv"
+                subprocess.run(["sh", "-c", f'exec "$@" {closing}', "sh", PROGRAM, "record", "--camera", self.camera.replace(",loop=1", ""), file],
+                               timeout=600)
+                code, out, errors = run("inspect", file, "--verify")
+                self.assertEqual(code, 0, out + errors)
+        state = self.folder / "closed"
+        for closing in closings:
+            with self.subTest(closing=closing):
+                subprocess.run(["sh", "-c", f'exec "$@" {closing}', "sh", PROGRAM, "host", "--listen", "127.0.0.1:0", "--camera", self.camera,
+                                "--state", state, "--seconds", "1", "--json", "--print-links"], timeout=600)
+        tokens = [file.read_text().strip() for file in state.glob("*.token")]
+        self.assertGreaterEqual(len(tokens), 4)
+        for file in (path for path in state.rglob("*") if path.is_file() and path.suffix != ".token"):
+            for token in tokens:
+                self.assertNotIn(token.encode(), file.read_bytes(), file.name)
+        for line in (state / "audit.jsonl").read_text().splitlines():
+            json.loads(line)
+
     def test_a_short_command_whose_reader_is_gone_ends_with_a_code(self):
         output = self.closed()
         self.addCleanup(os.close, output)

@@ -36,7 +36,7 @@ class VideoFiles(unittest.TestCase):
         code, out, errors = run("record", "--camera", f"video:{video}{options}", recording, "--color-codec", "raw", "--json")
         self.assertIn(code, (0, 3), errors)
         exported = self.folder / f"{video.name}.pictures"
-        self.assertEqual(run("export", recording, "--png", exported)[0], 0)
+        self.assertEqual(run("export", recording, "--png", exported)[0], code, "what the recording lacks, its export lacks")
         return json.loads(out), [read_png(picture) for picture in sorted((exported / "color").glob("*.png"))]
 
     def assert_color(self, pixel, color, what=None):

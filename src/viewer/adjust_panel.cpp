@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "viewer/camera_adjusting.h"
+#include "viewer/adjust_panel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -40,12 +40,12 @@ std::string value_text(CameraAdjustment adjustment, int part) {
 
 }  // namespace
 
-void CameraAdjusting::take(const std::vector<client::Participant::Camera>& cameras) {
+void AdjustPanel::take(const std::vector<client::Participant::Camera>& cameras) {
     cameras_.clear();
     for (const auto& camera : cameras) {
         const wire::Camera& description = camera.description;
         const auto adjustment = session::decode_adjustment(description.adjustment);
-        if (description.frame != wire::CameraFrame::room || camera.calibration.person != 0 ||
+        if (description.kind != wire::CameraKind::room || camera.calibration.person != 0 ||
             is_screen(camera.calibration) || !adjustment)
             continue;
         cameras_.push_back({description.id, description.name, *adjustment,
@@ -58,18 +58,18 @@ void CameraAdjusting::take(const std::vector<client::Participant::Camera>& camer
         chosen_ = cameras_.front().id;
 }
 
-const CameraAdjusting::Camera* CameraAdjusting::chosen() const {
+const AdjustPanel::Camera* AdjustPanel::chosen() const {
     const auto found = std::find_if(cameras_.begin(), cameras_.end(),
                                     [&](const Camera& camera) { return camera.id == chosen_; });
     return found == cameras_.end() ? nullptr : &*found;
 }
 
-CameraAdjustment CameraAdjusting::current(const Camera& camera) const {
+CameraAdjustment AdjustPanel::current(const Camera& camera) const {
     const auto wanted = wanted_.find(camera.id);
     return wanted == wanted_.end() ? camera.adjustment : wanted->second;
 }
 
-void CameraAdjusting::note_undo() {
+void AdjustPanel::note_undo() {
     const Camera* camera = chosen();
     if (!camera)
         return;
@@ -78,14 +78,14 @@ void CameraAdjusting::note_undo() {
         undo_.erase(undo_.begin());
 }
 
-void CameraAdjusting::want(CameraAdjustment adjustment) {
+void AdjustPanel::want(CameraAdjustment adjustment) {
     adjustment.moved_m = within(adjustment.moved_m, CameraAdjustment::max_moved_m);
     adjustment.turned_deg = within(adjustment.turned_deg, CameraAdjustment::max_turned_deg);
     wanted_[*chosen_] = adjustment;
     sent_.erase(*chosen_);
 }
 
-void CameraAdjusting::carry_out(const AdjustStep& step) {
+void AdjustPanel::carry_out(const AdjustStep& step) {
     using What = AdjustStep::What;
     if (step.what == What::choose)
         chosen_ = step.camera;
@@ -126,7 +126,7 @@ void CameraAdjusting::carry_out(const AdjustStep& step) {
     }
 }
 
-void CameraAdjusting::slide(double value) {
+void AdjustPanel::slide(double value) {
     const Camera* camera = chosen();
     if (!camera)
         return;
@@ -135,7 +135,7 @@ void CameraAdjusting::slide(double value) {
     want(adjustment);
 }
 
-void CameraAdjusting::nudge(xr::Nudge nudge, double yaw) {
+void AdjustPanel::nudge(xr::Nudge nudge, double yaw) {
     const Camera* camera = chosen();
     if (!camera)
         return;
@@ -173,8 +173,8 @@ void CameraAdjusting::nudge(xr::Nudge nudge, double yaw) {
     want(adjustment);
 }
 
-std::string CameraAdjusting::draw(xr::WindowInput& input, const render::CameraView& view,
-                                  const std::vector<CloudCamera>& cloud) {
+std::string AdjustPanel::draw(xr::WindowInput& input, const render::CameraView& view,
+                              const std::vector<CloudCamera>& cloud) {
     if (!draws_)
         return "";
     if (input.grabbed && input.grabbed_left) {
@@ -206,13 +206,13 @@ std::string CameraAdjusting::draw(xr::WindowInput& input, const render::CameraVi
     return say(Phrase::region_is_sent, camera->name);
 }
 
-std::optional<std::pair<Vec2, Vec2>> CameraAdjusting::rectangle() const {
+std::optional<std::pair<Vec2, Vec2>> AdjustPanel::rectangle() const {
     if (!drawn_)
         return std::nullopt;
     return std::pair(drawn_->from, drawn_->to);
 }
 
-void CameraAdjusting::on_tick(client::Participant& participant, TimePoint now) {
+void AdjustPanel::on_tick(client::Participant& participant, TimePoint now) {
     if (now - sent_at_ < send_every)
         return;
     for (const auto& [camera, adjustment] : wanted_) {
@@ -226,7 +226,7 @@ void CameraAdjusting::on_tick(client::Participant& participant, TimePoint now) {
     }
 }
 
-void CameraAdjusting::add_panel(RoomPanel& panel) const {
+void AdjustPanel::add_panel(RoomPanel& panel) const {
     xr::Panel shown{say(Phrase::place_of_cameras), {}};
     const auto command = [&](AdjustStep step) {
         panel.commands.push_back(step);

@@ -1,30 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "session/look_back.h"
+#include "session/look_backs.h"
 
 #include <algorithm>
 #include <utility>
 
 namespace theatron::session {
 
-void LookBack::keep(const wire::MediaHeader& header, ByteView message, TimePoint now) {
+void LookBacks::keep(const wire::MediaHeader& header, ByteView message, TimePoint now) {
     const ActiveSetting* kept = is_possible() ? streams_.kept_setting(header.stream) : nullptr;
     if (kept && kept->id == header.setting && past_.add(header, message, kept->codec, now))
         streams_.request_key(header.stream, header.setting);
 }
 
-void LookBack::clear() {
+void LookBacks::clear() {
     while (!lookers_.empty())
         end(lookers_.begin()->first);
     past_.clear();
 }
 
-bool LookBack::is_shown(ParticipantId id, const Past::Picture& picture) const {
+bool LookBacks::is_shown(ParticipantId id, const Past::Picture& picture) const {
     const CameraStreams* camera =
         picture.message ? streams_.cameras().find(camera_of(picture.header.stream)) : nullptr;
     return camera && camera->is_for(id, false, false);
 }
 
-wire::ManageRefusal LookBack::begin(ParticipantId id, Duration ago, TimePoint now) {
+wire::ManageRefusal LookBacks::begin(ParticipantId id, Duration ago, TimePoint now) {
     if (ago < least) {
         end(id);
         return wire::ManageRefusal::none;
@@ -58,8 +58,8 @@ wire::ManageRefusal LookBack::begin(ParticipantId id, Duration ago, TimePoint no
 }
 
 // Tells the participant the settings of these pictures.
-void LookBack::announce(ParticipantId id, Looker& looker,
-                        const std::vector<Past::Position>& pictures) {
+void LookBacks::announce(ParticipantId id, Looker& looker,
+                         const std::vector<Past::Position>& pictures) {
     wire::Settings message;
     for (const Past::Position at : pictures) {
         const Past::Picture& picture = *past_.find(at);
@@ -75,13 +75,13 @@ void LookBack::announce(ParticipantId id, Looker& looker,
     actions_.push_back(action::Send{id, std::move(message)});
 }
 
-void LookBack::give_numbers_back(Looker& looker) {
+void LookBacks::give_numbers_back(Looker& looker) {
     for (const auto& [stream, shown] : looker.shown)
         streams_.give_number_back(shown.number);
     looker.shown.clear();
 }
 
-void LookBack::end(ParticipantId id) {
+void LookBacks::end(ParticipantId id) {
     const auto found = lookers_.find(id);
     if (found == lookers_.end())
         return;
@@ -89,7 +89,7 @@ void LookBack::end(ParticipantId id) {
     streams_.look_back(id, {});
 }
 
-void LookBack::leave(ParticipantId id) {
+void LookBacks::leave(ParticipantId id) {
     if (const auto found = lookers_.find(id); found != lookers_.end()) {
         give_numbers_back(found->second);
         lookers_.erase(found);
@@ -97,7 +97,7 @@ void LookBack::leave(ParticipantId id) {
 }
 
 // The bound of bytes may drop pictures that were not shown yet: then it goes on with the oldest.
-void LookBack::follow_bounds(Looker& looker, TimePoint now) const {
+void LookBacks::follow_bounds(Looker& looker, TimePoint now) const {
     if (looker.next >= past_.begin())
         return;
     looker.next = past_.begin();
@@ -107,7 +107,7 @@ void LookBack::follow_bounds(Looker& looker, TimePoint now) const {
         looker.behind = std::min(looker.behind, now - oldest->at);
 }
 
-std::vector<LookBack::Due> LookBack::take_due(TimePoint now) {
+std::vector<LookBacks::Due> LookBacks::take_due(TimePoint now) {
     past_.on_time(now);
     std::vector<Due> due;
     for (auto& [id, looker] : lookers_) {
@@ -136,7 +136,7 @@ std::vector<LookBack::Due> LookBack::take_due(TimePoint now) {
     return due;
 }
 
-std::optional<TimePoint> LookBack::due() const {
+std::optional<TimePoint> LookBacks::due() const {
     std::optional<TimePoint> first;
     for (const auto& [id, looker] : lookers_)
         if (const Past::Picture* next = past_.find(std::max(looker.next, past_.begin())))

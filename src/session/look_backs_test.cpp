@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "session/look_back.h"
+#include "session/look_backs.h"
 
 #include <gtest/gtest.h>
 
@@ -80,7 +80,7 @@ protected:
             }
             ++frame_;
             session_->on_tick(now);
-            for (LookBack::Due& due : session_->take_past(now))
+            for (LookBacks::Due& due : session_->take_past(now))
                 got_.push_back(std::move(due));
         }
         last_ = session_->take_actions();
@@ -89,7 +89,7 @@ protected:
 
     FrameNumber frame_ = 0;
     std::vector<Action> last_;
-    std::vector<LookBack::Due> got_;
+    std::vector<LookBacks::Due> got_;
     std::optional<HostSession> session_;
 };
 
@@ -114,7 +114,7 @@ TEST_F(LookingBack, ALatecomerSeesThePastAndTheOthersThePresent) {
     ASSERT_GE(got_.size(), 90u);
     EXPECT_TRUE(got_[0].header.key);
     FrameNumber expected = got_[0].header.frame;
-    for (const LookBack::Due& due : got_) {
+    for (const LookBacks::Due& due : got_) {
         EXPECT_EQ(due.receiver, bob);
         if (!is_depth(due.header.stream))
             continue;
@@ -254,14 +254,14 @@ TEST_F(LookingBack, WaitsForNoAlarmWithoutAnybodyWhoLooks) {
 class LookingBackAtOthers : public LookingBack {
 protected:
     // Bob publishes a camera, and its pictures come for five seconds.
-    void publish(bool may_record, wire::CameraFrame frame) {
+    void publish(bool may_record, wire::CameraKind kind) {
         come(bob, true, false, "publish");
         wire::OfferedCamera offer;
         offer.name = "own";
         offer.calibration = config().cameras.at(0).calibration;
         offer.frames_per_second = 10;
         offer.may_record = may_record;
-        offer.frame = frame;
+        offer.kind = kind;
         last_ = tell(bob, wire::Publish{{offer}});
         camera_ = messages_to<wire::Published>(bob, last_).at(0).cameras.at(0);
         const SettingId setting =
@@ -275,7 +275,7 @@ protected:
 };
 
 TEST_F(LookingBackAtOthers, ShowsACameraOfTheRoomThatMayBeRecordedButNotToItsPublisher) {
-    publish(true, wire::CameraFrame::room);
+    publish(true, wire::CameraKind::room);
     EXPECT_EQ(look_back(alice, seconds(4)), ManageRefusal::none);
     ASSERT_EQ(told(alice).size(), 1u);
     EXPECT_EQ(told(alice)[0].stream, depth_stream(camera_));
@@ -287,12 +287,12 @@ TEST_F(LookingBackAtOthers, ShowsACameraOfTheRoomThatMayBeRecordedButNotToItsPub
 }
 
 TEST_F(LookingBackAtOthers, KeepsNoCameraWhoseOwnerDoesNotAgree) {
-    publish(false, wire::CameraFrame::room);
+    publish(false, wire::CameraKind::room);
     EXPECT_EQ(session_->past_bytes(), 0u);
 }
 
 TEST_F(LookingBackAtOthers, KeepsNobodysOwnCloud) {
-    publish(true, wire::CameraFrame::person);
+    publish(true, wire::CameraKind::person);
     EXPECT_EQ(session_->past_bytes(), 0u);
 }
 

@@ -16,7 +16,7 @@
 namespace theatron::viewer {
 
 // Use from one thread.
-class CameraAdjusting {
+class AdjustPanel {
 public:
     // For one key press or click.
     static constexpr double step_m = 0.005, step_deg = 0.5;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "viewer/camera_adjusting.h"
+#include "viewer/adjust_panel.h"
 
 #include <gtest/gtest.h>
 
@@ -23,12 +23,12 @@ std::vector<client::Participant::Camera> cameras(const CameraAdjustment& left = 
     all[0].description.name = "left";
     all[0].description.adjustment = encode_adjustment(left);
     all[1].description.name = "right";
-    all[2].description.frame = wire::CameraFrame::person;
+    all[2].description.kind = wire::CameraKind::person;
     return all;
 }
 
 // The panel's rows as texts.
-std::vector<std::string> rows_of(const CameraAdjusting& adjusting) {
+std::vector<std::string> rows_of(const AdjustPanel& adjusting) {
     RoomPanel panel;
     adjusting.add_panel(panel);
     std::vector<std::string> rows;
@@ -36,13 +36,13 @@ std::vector<std::string> rows_of(const CameraAdjusting& adjusting) {
         rows.push_back(row.text);
     return rows;
 }
-bool has_row(const CameraAdjusting& adjusting, const std::string& text) {
+bool has_row(const AdjustPanel& adjusting, const std::string& text) {
     const auto rows = rows_of(adjusting);
     return std::find(rows.begin(), rows.end(), text) != rows.end();
 }
 
-TEST(CameraAdjusting, ShowsTheRoomsCamerasAndTheSlidersOfOne) {
-    CameraAdjusting adjusting;
+TEST(AdjustPanel, ShowsTheRoomsCamerasAndTheSlidersOfOne) {
+    AdjustPanel adjusting;
     adjusting.take(cameras({{0.012, 0, 0}, {}, {}}));
     const auto rows = rows_of(adjusting);
     EXPECT_EQ(rows.front(), "left");
@@ -51,9 +51,9 @@ TEST(CameraAdjusting, ShowsTheRoomsCamerasAndTheSlidersOfOne) {
     EXPECT_TRUE(has_row(adjusting, "Turn y +0.0°"));
 }
 
-TEST(CameraAdjusting, StepsKeepWithinLimitsAndAreUndone) {
+TEST(AdjustPanel, StepsKeepWithinLimitsAndAreUndone) {
     using What = AdjustStep::What;
-    CameraAdjusting adjusting;
+    AdjustPanel adjusting;
     adjusting.take(cameras());
     adjusting.carry_out({What::step, {}, 0, 0.25});
     adjusting.carry_out({What::step, {}, 0, 0.25});
@@ -72,8 +72,8 @@ TEST(CameraAdjusting, StepsKeepWithinLimitsAndAreUndone) {
     EXPECT_TRUE(has_row(adjusting, "Right x +0 mm")) << "as the host has it";
 }
 
-TEST(CameraAdjusting, ArrowKeysMoveAsThePersonLooks) {
-    CameraAdjusting adjusting;
+TEST(AdjustPanel, ArrowKeysMoveAsThePersonLooks) {
+    AdjustPanel adjusting;
     adjusting.take(cameras());
     // An eye that looks along -x has -z at its right.
     adjusting.nudge(xr::Nudge::right, std::numbers::pi / 2);

@@ -20,13 +20,13 @@
 
 namespace theatron::session {
 
-class LookBack {
+class LookBacks {
 public:
     // Below this the receiver is shown the present.
     static constexpr Duration least = std::chrono::seconds(1);
 
     // `streams` and `actions` must outlive it.
-    LookBack(const PastBounds& bounds, Streams& streams, std::vector<Action>& actions)
+    LookBacks(const PastBounds& bounds, Streams& streams, std::vector<Action>& actions)
         : past_(bounds), streams_(streams), actions_(actions) {}
 
     bool is_possible() const { return past_.reach() > Duration(0); }
