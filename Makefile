@@ -27,19 +27,18 @@ setup:
 
 program: setup
 	@cmake --preset release > /dev/null
-	@cmake --build --preset release --target theatron manual
-	@if command -v em++ > /dev/null; then cmake --preset web > /dev/null && cmake --build --preset web --target page; \
-	else echo "build: em++ is missing, so the host has no browser client"; fi
+	@cmake --build --preset release --target theatron
 
 build: program
-	@cmake --build --preset release --target theatron_bench
+	@cmake --build --preset release --target manual theatron_bench
+	@if command -v em++ > /dev/null; then cmake --preset web > /dev/null && cmake --build --preset web --target page; \
+	else echo "build: em++ is missing, so the host has no browser client"; fi
 
 package: setup
 	@tools/package.sh
 
 demo: program
-	@test -e demo/case || build/release/apps/theatron/theatron case synth demo/case --dicom demo/ct
-	@build/release/apps/theatron/theatron demo $(SECONDS_OF_DEMO)
+	@tools/demo.sh $(SECONDS_OF_DEMO)
 
 test: setup
 	@tools/test.sh

@@ -126,6 +126,9 @@ set(THEATRON_COMPILED_ALONE
   src/xr/overlay_native.cpp
 )
 
+# Options, JSON and handshakes: what they do takes no time, and the compiler takes the longest of all with them.
+set(THEATRON_COMPILED_QUICKLY src/net/client.cpp src/net/door.cpp src/net/https_get.cpp)
+
 # theatron_compile_together(TARGET SOURCE...): the sources of TARGET, but for those of the lists above.
 function(theatron_compile_together target)
   if(NOT ARGN)
@@ -155,8 +158,11 @@ function(theatron_compile_together target)
     $<$<CXX_COMPILER_ID:GNU>:-Wno-shadow;-Wno-array-bounds;-Wno-stringop-overflow;-Wno-stringop-overread;-Wno-maybe-uninitialized;-Wno-subobject-linkage>)
   foreach(source ${ARGN})
     file(RELATIVE_PATH path ${CMAKE_SOURCE_DIR} ${source})
-    if(path IN_LIST THEATRON_COMPILED_ALONE)
+    if(path IN_LIST THEATRON_COMPILED_ALONE OR path IN_LIST THEATRON_COMPILED_QUICKLY)
       set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    endif()
+    if(path IN_LIST THEATRON_COMPILED_QUICKLY)
+      set_property(SOURCE ${source} APPEND PROPERTY COMPILE_OPTIONS $<$<CONFIG:Release>:-O1>)
     endif()
   endforeach()
 endfunction()

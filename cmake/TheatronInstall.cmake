@@ -30,7 +30,8 @@ endif()" COMPONENT page)
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT doc PATTERN changes EXCLUDE)
 install(FILES ${CMAKE_SOURCE_DIR}/README.md ${CMAKE_SOURCE_DIR}/CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT doc)
 
-install(FILES ${packaging}/theatron.desktop ${packaging}/theatron-link.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications
+install(FILES ${packaging}/theatron.desktop ${packaging}/theatron-link.desktop ${packaging}/theatron-view.desktop
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/applications
   COMPONENT desktop)
 install(FILES ${packaging}/theatron.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/mime/packages COMPONENT desktop)
 install(FILES ${packaging}/theatron.svg DESTINATION ${CMAKE_INSTALL_DATADIR}/icons/hicolor/scalable/apps COMPONENT desktop)

@@ -26,6 +26,7 @@ void add_recover_command(CLI::App& app);
 void add_export_command(CLI::App& app);
 void add_bench_command(CLI::App& app);
 void add_demo_command(CLI::App& app);
+void add_view_command(CLI::App& app);
 void add_cameras_command(CLI::App& app);
 void add_lobby_command(CLI::App& app);
 void add_status_command(CLI::App& app);

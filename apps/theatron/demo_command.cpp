@@ -31,8 +31,8 @@ namespace {
 
 struct Flags {
     std::string program;  // as it was called, for commands to copy
-    std::vector<std::string> cameras = {"synthetic:camera=0,cameras=2",
-                                        "synthetic:camera=1,cameras=2"};
+    std::vector<std::string> cameras = {"synthetic:camera=0,cameras=2,wait=off",
+                                        "synthetic:camera=1,cameras=2,wait=off"};
     std::string out = "demo";
     std::string listen = "127.0.0.1:0";
     double seconds = 0;
@@ -160,8 +160,9 @@ void run(const Flags& flags) {
     const Meeting meeting(link);
 
     output::print(
-        "\nThe demo room is open. Join it from another terminal, or open the link in a "
-        "browser:\n\n  " +
+        std::string("\nThe demo room is open. Join it from another terminal, or open the link in "
+                    "a browser") +
+        (host::has_page(options.page) ? "" : " once the browser client is built") + ":\n\n  " +
         flags.program + " join '" + host.link() +
         "'\n\nTwo scripted people are in it, who point, hold a brick and hand it over.\n");
     if (window) {

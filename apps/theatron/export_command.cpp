@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "cli/progress.h"
+#include "cli/stop_signal.h"
 #include "commands.h"
 #include "export/export_formats.h"
 #include "export/export_places.h"
@@ -40,7 +41,14 @@ using Recording = std::shared_ptr<const record::RecordingFile>;
 exporting::ExportSource open_source(const Flags& flags, const Recording& recording,
                                     std::size_t calibration) {
     exporting::ExportSource source;
-    source.progress = cli::show_progress();
+    source.progress = [show = cli::show_progress()](std::string_view step, double done) {
+        if (cli::stop_requested())
+            throw Error(
+                "Stopped before the end of the recording: pictures and points that were written "
+                "so far stay, a file is only written as a whole.");
+        if (show)
+            show(step, done);
+    };
     source.selection.from = seconds_to_duration(flags.from);
     if (flags.to > 0)
         source.selection.to = seconds_to_duration(flags.to);
@@ -160,6 +168,7 @@ void run(const Flags& flags) {
     if (flags.to > 0 && flags.to <= flags.from)
         throw Error("--to must be later than --from.");
     const Recording recording = record::RecordingFile::open(flags.file);
+    cli::catch_stop_signals();
     if (flags.camera && std::size_t(*flags.camera) >= recording->cameras().size())
         throw Error("'" + flags.file + "' has no camera " + std::to_string(*flags.camera) +
                     ": it has " + std::to_string(recording->cameras().size()) +

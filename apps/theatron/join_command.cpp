@@ -35,6 +35,7 @@
 #include "participant_json.h"
 #include "people_lines.h"
 #include "phrases/language.h"
+#include "picture_options.h"
 #include "playback_lines.h"
 #include "published_cameras.h"
 #include "room_lines.h"
@@ -196,7 +197,9 @@ void list_devices(bool as_json) {
     list("loudspeakers", found.loudspeakers);
 }
 
-void run(const JoinFlags& flags) {
+}  // namespace
+
+void run_join(const JoinFlags& flags) {
     if (flags.list_devices)
         return list_devices(flags.json);
     refuse_unused(flags);
@@ -317,15 +320,6 @@ void run(const JoinFlags& flags) {
         output::print(status_line(participant) + "\n");
 }
 
-std::string join_names(const std::vector<std::string>& names) {
-    std::string text;
-    for (const std::string& name : names)
-        text += (text.empty() ? "" : ", ") + name;
-    return text;
-}
-
-}  // namespace
-
 void add_join_command(CLI::App& app) {
     const auto flags = std::make_shared<JoinFlags>();
     CLI::App* command = app.add_subcommand("join", "Join a session with the link of its host");
@@ -359,11 +353,7 @@ void add_join_command(CLI::App& app) {
                         "left out: a form asks for it");
     command->add_option("--name", flags->name, "Your name, shown to the others")
         ->default_str("that of your last window, else guest");
-    command
-        ->add_option("--language", flags->language,
-                     "Language of the texts in the window, and of news: en, or de for German")
-        ->check(CLI::IsMember({"en", "de"}))
-        ->capture_default_str();
+    add_picture_options(*command, *flags);
     command->add_option("--depth-codec", flags->depth_codec, "How the host sends depth to you")
         ->capture_default_str();
     command->add_option("--color-codec", flags->color_codec, "How the host sends colour to you")
@@ -384,42 +374,6 @@ void add_join_command(CLI::App& app) {
     command->add_flag("--may-record", flags->may_record,
                       "Agree that other participants record your cameras and screens; without it "
                       "the host sends them to no recorder");
-    command->add_option("--offscreen", flags->offscreen,
-                        "Without a window: draw the last picture into this PNG file");
-    command->add_option("--depth", flags->depth_file,
-                        "Write the clouds' depth in that picture, in millimetres, into this 16-bit "
-                        "PNG file");
-    command
-        ->add_option(
-            "--renderer", flags->renderer,
-            join_names(viewer::renderer_choices()) +
-                "; auto is blend for two cameras and more, in a window whatever keeps up. The "
-                "host may set another")
-        ->default_str("that of your last window, else auto");
-    command->add_option("--size", flags->size, "Size of the window or of the picture")
-        ->capture_default_str();
-    command
-        ->add_option("--view", flags->view,
-                     "camera:N, or camera:N,yaw=DEGREES,pitch=DEGREES to look from beside it")
-        ->capture_default_str();
-    command
-        ->add_option(
-            "--room", flags->room,
-            "on: floor, walls and the cameras' names around the clouds, where the cameras' "
-            "places in the room are known; off: the clouds alone")
-        ->capture_default_str()
-        ->check(CLI::IsMember({"on", "off"}));
-    command
-        ->add_option("--quality", flags->quality,
-                     "How carefully that room is lit: low, high, or auto, which is low where no "
-                     "graphics card draws. The clouds are the same in both")
-        ->default_str("that of your last window, else auto")
-        ->check(CLI::IsMember({"auto", "low", "high"}));
-    command
-        ->add_option("--save-to", flags->save_to,
-                     "The folder into which F9 and F10 in the window save pictures and points")
-        ->capture_default_str()
-        ->check(CLI::ExistingDirectory);
     command
         ->add_option("--person", flags->people,
                      "CAMERA=X:Y:Z, a person seen by that camera (number from 0 or name) and where "
@@ -433,10 +387,6 @@ void add_join_command(CLI::App& app) {
                      "The same for a camera that sees yourself: also your head and what is right "
                      "before your eyes is left out; hands stay")
         ->allow_extra_args(false);
-    command->add_flag("--stereo", flags->stereo,
-                      "With --offscreen: what the left and the right eye see, beside each other");
-    cli::add_seconds_option(*command, flags->seconds,
-                            "End this long after the first picture (default with --offscreen: 3)");
     cli::add_seconds_option(*command, flags->warmup, "Leave these first seconds out of the figures",
                             "--warmup");
     cli::add_seconds_option(*command, flags->every,
@@ -457,7 +407,6 @@ void add_join_command(CLI::App& app) {
         ->check(cli::number_check(
             [](double value) { return std::isfinite(value) && (value == 0 || value >= 0.001); },
             "is not a number of megabits: 0, or 0.001 and more"));
-    command->add_flag("--json", flags->json, "Print the figures as one JSON line at the end");
     command->add_option("--microphone", flags->microphone,
                         "Speak to the others: default, the name of a microphone, or a WAV file. "
                         "Without it you only listen. In the window L closes and opens it, "
@@ -504,15 +453,9 @@ void add_join_command(CLI::App& app) {
         "with --offscreen it is a picture");
     command->add_flag("--no-window", flags->no_window,
                       "Receive and tell the figures, draw nothing");
-    command
-        ->add_option("--render-scale", flags->render_scale,
-                     "Share of the window's pixels that is drawn on each side: auto, or 0.1 to 1")
-        ->capture_default_str();
     command->callback([flags, command] {
-        for (const CLI::Option* option : command->get_options())
-            if (option->count() > 0)
-                flags->given.insert(option->get_name());
-        run(*flags);
+        note_given(*command, *flags);
+        run_join(*flags);
     });
 }
 

@@ -54,12 +54,16 @@ struct JoinFlags {
     std::string webcam;  // empty: the face is not shown
     int voice_frame_ms = 20;
     std::set<std::string> given;  // "--size", ...: all that the person wrote
+    bool is_alone = false;        // nobody else is in the session, so a window asks for no name
 
     // Files and figures are made without a window.
     bool window() const {
         return offscreen.empty() && depth_file.empty() && every <= 0 && !json && !no_window;
     }
 };
+
+// Joins until the session or the person ends it. Throws Error with one sentence.
+void run_join(const JoinFlags& flags);
 
 // Throws Error with one sentence if an option was given that has no effect beside the others.
 void refuse_unused(const JoinFlags& flags);

@@ -53,7 +53,7 @@ void join_in_window(const JoinFlags& flags) {
     use_kept_settings(shown, flags.name, flags.renderer, flags.quality);
     shown.viewer.scale = parse_render_scale(flags.render_scale);
     const bool is_named = flags.name || shown.settings.name != client::Settings().name;
-    bool asks = flags.link.empty() || !is_named;
+    bool asks = flags.link.empty() || (!is_named && !flags.is_alone);
     if (!flags.link.empty())
         shown.join.link = parse_link_argument(flags.link);
     xr::EntryFields fields{flags.link,

@@ -80,6 +80,7 @@ int run(int argc, char** argv) {
     theatron::app::add_export_command(app);
     theatron::app::add_bench_command(app);
     theatron::app::add_demo_command(app);
+    theatron::app::add_view_command(app);
     theatron::app::add_cameras_command(app);
     theatron::app::add_lobby_command(app);
     theatron::app::add_status_command(app);
@@ -116,7 +117,9 @@ int run(int argc, char** argv) {
             dynamic_cast<const CLI::ExtrasError*>(&e) && !unexpected.empty())
             throw theatron::Error("'" + unexpected.front() + "' is not expected here; 'theatron " +
                                   arguments[1] + " --help' tells what is.");
-        return app.exit(e);
+        // A command's own exit code is kept; those of the library for mistakes in options become 1.
+        const int code = app.exit(e);
+        return code == 0 || dynamic_cast<const CLI::RuntimeError*>(&e) ? code : 1;
     }
     return 0;
 }

@@ -5,7 +5,7 @@
 // Text and program are compressed in advance. files.txt has a line for each file: its path, type and name.
 // WEB_SOURCES, the number of the page's sources, and MISSING, the libraries that it lacks, are copied.
 import { createHash } from "node:crypto";
-import { copyFileSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { copyFileSync, mkdirSync, readFileSync, renameSync, rmSync, writeFileSync } from "node:fs";
 import { basename, extname, join } from "node:path";
 import { brotliCompressSync, constants, gzipSync } from "node:zlib";
 
@@ -48,6 +48,8 @@ function store(name) {
 
 for (const name of paths.keys())
     store(name);
-writeFileSync(join(folder, "files.txt"), lines.join("\n") + "\n");
 copyFileSync(web_sources, join(folder, "web_sources.txt"));
 copyFileSync(missing, join(folder, "missing.txt"));
+// Last, and whole at once: a host that runs already begins to serve the page when this list is there.
+writeFileSync(join(folder, "files.new"), lines.join("\n") + "\n");
+renameSync(join(folder, "files.new"), join(folder, "files.txt"));

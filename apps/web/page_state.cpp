@@ -179,6 +179,9 @@ json state_of(const viewer::Facts& facts, const client::Participant& participant
             {"is_not_live", facts.is_of_another_time()},
             {"is_slow", !overlay.warning.empty() && overlay.warning == viewer::slow_text(facts)},
             {"is_of_camera", is_of_camera(overlay.notice, participant)},
+            // The skew of the cameras that are drawn together; null: fewer than two.
+            {"skew_ms", facts.skew_ms ? json(*facts.skew_ms) : json()},
+            {"unpaired", facts.unpaired},
             {"drawn_per_second", facts.drawn_per_second},
             {"renderer", facts.way.renderer},
             {"depth_step", facts.way.depth_step},

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "capture/synthetic_camera.h"
 
+#include <map>
+#include <mutex>
+
 #include "base/lasting_error.h"
 #include "base/time.h"
 #include "capture/playback.h"
 #include "synthetic/frame_cache.h"
+#include "synthetic/growing_loop.h"
+#include "synthetic/played_part.h"
 
 namespace theatron::capture {
 namespace {
@@ -33,6 +38,51 @@ private:
     synthetic::FrameLoop loop_;
     double fps_;
     std::size_t next_ = 0;
+};
+
+// The cameras of one room in this process share it, and with it the moment that they show.
+std::shared_ptr<synthetic::PlayedPart> shared_part(synthetic::LoopOptions options) {
+    static std::mutex mutex;
+    static std::map<std::string, std::weak_ptr<synthetic::PlayedPart>> parts;
+    options.camera = 0;
+    const std::lock_guard lock(mutex);
+    std::weak_ptr<synthetic::PlayedPart>& known = parts[synthetic::key_of(options)];
+    auto part = known.lock();
+    if (!part)
+        known = part = std::make_shared<synthetic::PlayedPart>(synthetic::frames_of(options));
+    return part;
+}
+
+// Plays what is rendered so far, without an end.
+class GrowingRecording final : public Recording {
+public:
+    GrowingRecording(const synthetic::LoopOptions& options, const Progress& progress)
+        : loop_(options, std::size_t(to_seconds(first_part) * options.frames_per_second), progress),
+          part_(shared_part(options)),
+          camera_(part_->add_camera(loop_.frames())),
+          frames_(synthetic::frames_of(options)),
+          fps_(options.frames_per_second) {}
+    // The other cameras wait for this one no more.
+    ~GrowingRecording() override { part_->note_frames(camera_, frames_); }
+
+    std::optional<Duration> offset() override { return seconds_to_duration(double(next_) / fps_); }
+    void skip() override { ++next_; }
+    bool read(Frame& out) override {
+        part_->note_frames(camera_, loop_.frames());
+        loop_.read(part_->frame_at(next_++), out);
+        return true;
+    }
+    void rewind() override { next_ = 0; }
+
+private:
+    // Long enough to see that people move.
+    static constexpr Duration first_part = std::chrono::seconds(1);
+
+    synthetic::GrowingLoop loop_;
+    std::shared_ptr<synthetic::PlayedPart> part_;
+    std::size_t camera_, frames_;
+    double fps_;
+    std::uint64_t next_ = 0;
 };
 
 Size color_size(const std::string& name, const std::string& specification) {
@@ -95,14 +145,22 @@ std::unique_ptr<Camera> open_synthetic_camera(Options& options, const Progress& 
     playback.loop = options.take_flag("loop", true);
     playback.start = options.take_int("start", 0, 0, 1'000'000);
     const bool preload = options.take_flag("preload");
+    const bool waits = take_switch(options, "wait");
     options.require_no_problem();
+    if (!waits && (preload || !playback.loop || playback.start != 0))
+        throw LastingError("In the camera '" + options.text() +
+                           "', wait=off plays what is rendered so far, again and again; leave out "
+                           "loop, start and preload.");
 
-    auto recording = std::make_unique<SyntheticRecording>(loop, progress);
     CameraInfo info;
     info.name = std::string(loop.variant == synthetic::Variant::room ? "or" : "surgeon") +
                 std::to_string(loop.camera);
-    info.calibration = recording->calibration();
+    info.calibration = synthetic::loop_calibration(loop);
     info.frames_per_second = loop.frames_per_second;
+    if (!waits)
+        return make_recorded_camera(std::move(info),
+                                    std::make_unique<GrowingRecording>(loop, progress), playback);
+    auto recording = std::make_unique<SyntheticRecording>(loop, progress);
     if (!preload)
         return make_recorded_camera(std::move(info), std::move(recording), playback);
     const std::size_t frames = recording->frames();

@@ -2,6 +2,7 @@
 // The certificates of a host's port, and what its links say of them.
 #include "base/error.h"
 #include "base/log.h"
+#include "base/outside_text.h"
 #include "host/host_identity.h"
 #include "host/host_port.h"
 
@@ -23,6 +24,10 @@ void check_access(const PortOptions& options) {
         throw Error("--proxy-certificate is that of a proxy; add --behind-proxy ADDRESS.");
     if (!options.public_name.empty() && !options.link_host.empty())
         throw Error("--public-name is also the name in the links; leave out --link-host.");
+    if (!options.link_host.empty() && !net::can_be_linked(options.link_host))
+        throw Error("--link-host '" + clean_text(options.link_host, 80) +
+                    "' is no name or address of a host; write it alone, without https:// and "
+                    "port, for example or-3.hospital.example.");
 }
 
 }  // namespace

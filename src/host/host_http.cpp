@@ -13,7 +13,9 @@ namespace {
 
 constexpr const char* plain_answer =
     "This is a Theatron host. Join it with: theatron join LINK\n"
-    "It was built without the browser client, so a browser cannot join.\n";
+    "A browser cannot join yet, because the browser client is not built: as soon as 'make build' "
+    "has\n"
+    "made it, this host serves it here.\n";
 
 constexpr const char* must_knock =
     "This link's people are let in one by one, so it shows nothing of the session; use an "

@@ -65,6 +65,11 @@ std::string load_or_make_token(const std::filesystem::path& folder, const char* 
     std::string token;
     std::istringstream(text.value_or("")) >> token;
     if (!token.empty()) {
+        // A half token is easier to guess, and nobody's link holds it.
+        if (text->find('\n') == std::string::npos)
+            throw Error("'" + path.string() +
+                        "' is cut off: its line has no end. Copy the file back, or remove it: then "
+                        "a new token is made, and links with the old one let nobody in.");
         try {
             check_token(token);
         } catch (const Error& error) {

@@ -102,6 +102,17 @@ TEST(Token, OfAnEmptyFileIsNewAndTheLogTells) {
     EXPECT_THAT(said_at_start(), HasSubstr("token file was empty"));
 }
 
+TEST(Token, OfAFileThatWasCutOffLetsNobodyIn) {
+    const theatron::testing::TemporaryFolder folder;
+    const std::string token = load_or_make_token(folder.path(), "join.token");
+    for (std::size_t left = 1; left <= token.size(); ++left) {
+        files::write_private_file(folder.path() / "join.token", token.substr(0, left));
+        EXPECT_THAT(problem_of([&] { load_or_make_token(folder.path(), "join.token"); }),
+                    HasSubstr("is cut off"))
+            << left;
+    }
+}
+
 TEST(Token, ThatOthersMayReadIsRefused) {
     const theatron::testing::TemporaryFolder folder;
     load_or_make_token(folder.path(), "join.token");

@@ -34,11 +34,8 @@ AuditLog* HostPort::open_audit() {
 }
 
 void HostPort::open_page() {
-    if (page_)
-        return;
-    page_ = options_.page.empty() ? Page() : Page(options_.page);
-    if (!page_->problem().empty())
-        log::warning("host", "page", {{"problem", page_->problem()}});
+    if (!page_)
+        page_.emplace(options_.page);
 }
 
 void HostPort::open() {
@@ -78,12 +75,13 @@ net::Server::Handler HostPort::handler() {
 }
 
 // On the door's thread.
-net::HttpAnswer HostPort::answer(const net::HttpRequest& request) const {
+net::HttpAnswer HostPort::answer(const net::HttpRequest& request) {
     if (sessions_.is_closed(net::shown_token(request)))
         return {.status = 503, .body = "This session is not open at the moment.\n"};
     const std::vector<ClosedSession> closed = sessions_.closed();
+    const std::shared_ptr<const Page> page = page_->current();
     return sessions_.look([&](const SessionSwitch::Sessions& sessions) {
-        return answer_page(request, *page_, sessions, closed);
+        return answer_page(request, *page, sessions, closed);
     });
 }
 

@@ -17,7 +17,7 @@
 #include "host/audit_log.h"
 #include "host/host_figures.h"
 #include "host/kept_certificate.h"
-#include "host/page.h"
+#include "host/late_page.h"
 #include "host/port_options.h"
 #include "host/session_switch.h"
 #include "net/server.h"
@@ -48,7 +48,7 @@ public:
     net::Link link() const;  // without a token
     std::uint16_t number() const { return server_->port(); }
     std::vector<HostFigures::Certificate> certificates() const;
-    const std::string& page_problem() const { return page_->problem(); }
+    std::string page_problem() { return page_->current()->problem(); }
     // The sessions that are not open now, but will be.
     void set_closed(std::vector<ClosedSession> closed) { sessions_.set_closed(std::move(closed)); }
     std::uint64_t turned_away() const { return turned_away_; }
@@ -62,7 +62,7 @@ private:
     friend class SessionPort;
 
     net::Server::Handler handler();
-    net::HttpAnswer answer(const net::HttpRequest& request) const;
+    net::HttpAnswer answer(const net::HttpRequest& request);
     void note_link();
     const net::Certificate& linked_certificate() const;
     void note_certificates();
@@ -77,7 +77,7 @@ private:
     std::map<std::string, std::string> told_of_certificates_;  // problems that were logged
     net::Access access_;
     std::unique_ptr<AuditLog> audit_;
-    std::optional<Page> page_;  // does not change
+    std::optional<LatePage> page_;
     mutable std::mutex mutex_;
     net::Link link_;                                      // guarded by mutex_, as is the next
     std::vector<HostFigures::Certificate> certificates_;  // as they are now

@@ -98,8 +98,12 @@ bool has_page(const std::filesystem::path& folder) {
 }
 
 std::filesystem::path page_folder_of(const std::filesystem::path& program_folder) {
-    const std::filesystem::path built = program_folder / "web";
-    return has_page(built) ? built : program_folder.parent_path() / "share/theatron/page";
+    const std::filesystem::path built = program_folder / "web",
+                                installed = program_folder.parent_path() / "share/theatron/page";
+    std::error_code none;
+    // A build makes the link before the page.
+    const bool will_be_built = std::filesystem::is_symlink(built, none) && !has_page(installed);
+    return has_page(built) || will_be_built ? built : installed;
 }
 
 std::filesystem::path usual_page_folder() {

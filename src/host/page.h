@@ -43,8 +43,8 @@ private:
 // True if Page(folder) would have files.
 bool has_page(const std::filesystem::path& folder);
 
-// The folder of the page of a program: `web` beside it where it was built, else share/theatron/page
-// where it was installed (PREFIX/bin/theatron). There need not be anything.
+// The folder of the page of a program: `web` beside it where it was or will be built, else
+// share/theatron/page where it was installed (PREFIX/bin/theatron). There need not be anything.
 std::filesystem::path page_folder_of(const std::filesystem::path& program_folder);
 
 // That of this program. Empty if its place cannot be found out.

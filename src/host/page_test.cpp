@@ -111,10 +111,11 @@ TEST_F(PageTest, LiesBesideABuiltProgramOrWhereItIsInstalled) {
     std::filesystem::create_directories(installed);
     EXPECT_EQ(page_folder_of(program), installed);
     EXPECT_FALSE(has_page(installed));
+    // A link of a build whose page is still to come.
+    std::filesystem::create_symlink(folder.path() / "nowhere", program / "web");
+    EXPECT_EQ(page_folder_of(program), program / "web");
     write("usr/share/theatron/page/files.txt", "");
     EXPECT_TRUE(has_page(installed));
-    // A link of a build whose page was never built.
-    std::filesystem::create_symlink(folder.path() / "nowhere", program / "web");
     EXPECT_EQ(page_folder_of(program), installed);
     std::filesystem::remove(program / "web");
     std::filesystem::create_directories(program / "web");

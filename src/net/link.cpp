@@ -61,6 +61,15 @@ std::string format_link(const Link& link) {
            (link.until.empty() ? "" : "&until=" + link.until);
 }
 
+bool can_be_linked(std::string_view host) {
+    constexpr std::string_view of_names =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-_";
+    constexpr std::string_view of_ipv6 = "0123456789abcdefABCDEF:.";
+    const std::string_view allowed = host.find(':') == host.npos ? of_names : of_ipv6;
+    return !host.empty() && host.find_first_not_of(allowed) == host.npos && host.front() != '.' &&
+           host.front() != '-';
+}
+
 Link parse_link(std::string_view text) {
     const auto wrong = [&](const std::string& why) {
         return Error("The link '" + without_secrets(text) + "' " + why +

@@ -26,6 +26,10 @@ std::string format_link(const Link& link);
 // Throws Error with one sentence about the problem, which does not contain the token.
 Link parse_link(std::string_view text);
 
+// True if a link can name this host: a DNS name, an IPv4 address, or an IPv6 address without
+// brackets.
+bool can_be_linked(std::string_view host);
+
 // "ADDRESS:PORT", "[IPV6]:PORT" or ":PORT"; port 0 lets the system choose.
 struct Endpoint {
     std::string address = "0.0.0.0";

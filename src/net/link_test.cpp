@@ -42,5 +42,16 @@ TEST(Link, WhatIsSaidAboutAWrongOneShowsItsHost) {
     EXPECT_LT(problem_with("http://" + std::string(100'000, 'x')).size(), 200u);
 }
 
+TEST(Link, NamesAHostThatParsesBack) {
+    for (const char* host : {"or-3.hospital.example", "OR_3", "10.1.2.3", "fd00::1", "::1"}) {
+        EXPECT_TRUE(can_be_linked(host)) << host;
+        const Link link = {host, 4400, "0123456789abcdef", std::string(64, 'a')};
+        EXPECT_EQ(parse_link(format_link(link)).host, host);
+    }
+    for (const char* host : {"", "a b", "a/b", "or-3:4400", "[::1]", "a#b", "a@b", ".a", "-a",
+                             "a\nb", "https://a", "\xc3\xa9"})
+        EXPECT_FALSE(can_be_linked(host)) << host;
+}
+
 }  // namespace
 }  // namespace theatron::net

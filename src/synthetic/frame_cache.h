@@ -1,46 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // The loop of one synthetic camera: rendered once and stored in a file, so that playback
-// only reads it.
-//
-// The file's key covers everything that changes the pictures. The file is written
-// atomically, checked when it is opened, and rendered again if it is damaged.
+// only reads it. The file is written atomically, checked when it is opened, and rendered again if
+// it is damaged.
 #pragma once
 
 #include <filesystem>
 #include <fstream>
-#include <functional>
-#include <string>
-#include <string_view>
+#include <vector>
 
 #include "base/bytes.h"
 #include "image/frame.h"
-#include "synthetic/operating_room.h"
+#include "synthetic/loop_file.h"
+#include "synthetic/loop_options.h"
 
 namespace theatron::synthetic {
-
-struct LoopOptions {
-    SceneOptions scene;
-    Variant variant = Variant::room;
-    int camera = 0, cameras = 2;
-    Size color{1280, 720};  // 0 x 0: no colour
-    // Depth at a fraction of the full size, for tests and demonstrations: 1, 2, 4 or 8.
-    int depth_divisor = 1;
-    double frames_per_second = 30;
-    bool noise = true;             // false: exact depth in millimetres, without sensor model
-    std::filesystem::path folder;  // of the cache; empty: default_cache_folder()
-};
-
-// $XDG_CACHE_HOME/theatron, or .cache/theatron in the home folder.
-std::filesystem::path default_cache_folder();
-
-// Reports the progress of long preparations: the current activity, and its share done (0 to 1).
-using Progress = std::function<void(std::string_view what, double done)>;
-
-// The camera's calibration, without rendering anything.
-Calibration loop_calibration(const LoopOptions& options);
-
-// The file of this loop. It may not exist yet.
-std::filesystem::path loop_path(const LoopOptions& options);
 
 // An opened loop. One thread at a time.
 class FrameLoop {
@@ -59,16 +32,12 @@ public:
     void read(std::size_t number, Frame& out);
 
 private:
-    struct Entry {
-        std::uint64_t at = 0;  // file offset of the depth bytes, which the colour bytes follow
-        std::uint32_t depth_bytes = 0, color_bytes = 0;
-    };
     bool open(const std::string& key);
 
     Calibration calibration_;
     std::filesystem::path path_;
     std::ifstream file_;
-    std::vector<Entry> index_;
+    std::vector<LoopEntry> index_;
     Bytes buffer_;
     bool was_cached_ = false;
 };

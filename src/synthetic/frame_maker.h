@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "base/bytes.h"
-#include "synthetic/frame_cache.h"
+#include "synthetic/loop_options.h"
 #include "video/color_codec.h"
 
 namespace theatron::synthetic {

@@ -74,6 +74,19 @@ xr::Fact cameras_fact(const std::vector<client::CameraFigures>& cameras) {
     return {say(Phrase::cameras), text.empty() ? say(Phrase::none) : text, trouble};
 }
 
+// "cameras together, 12 pictures alone".
+xr::Fact moment_fact(const Facts& facts) {
+    // Pictures of one moment are exposed within a fraction of a frame's time.
+    constexpr double together_ms = 4;
+    std::string text =
+        *facts.skew_ms < together_ms
+            ? say(Phrase::cameras_together)
+            : say(Phrase::cameras_apart, std::to_string(std::lround(*facts.skew_ms)));
+    if (facts.unpaired > 0)
+        text = say(Phrase::cameras_unpaired, text, std::to_string(facts.unpaired));
+    return {say(Phrase::one_moment), text};
+}
+
 // A live camera with a problem that its picture does not show: it was moved, or plays damage.
 void add_problems(const std::vector<client::CameraFigures>& cameras, std::vector<xr::Fact>& line) {
     for (const client::CameraFigures& one : cameras) {
@@ -185,6 +198,8 @@ std::vector<xr::Fact> line_of(const Facts& facts, const std::string& address,
         // No camera's present state beside pictures of the past.
         line.push_back(facts.past.empty() ? cameras_fact(cameras)
                                           : xr::Fact{say(Phrase::cameras), facts.past, true});
+        if (facts.skew_ms && facts.past.empty())
+            line.push_back(moment_fact(facts));
         add_problems(cameras, line);
         if (facts.has_picture && !cameras.empty())
             line.push_back(age);

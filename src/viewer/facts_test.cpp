@@ -49,6 +49,18 @@ TEST(Overlay, SaysNothingAloudWhileAllIsWell) {
     EXPECT_EQ(fact(content, "Host").value, "OR 3");
 }
 
+TEST(Overlay, SaysHowFarApartTheMomentsOfTheCamerasAre) {
+    Facts facts = healthy();
+    EXPECT_EQ(fact(overlay(facts), "One moment").value, "") << "one camera";
+    facts.skew_ms = 1.5;
+    EXPECT_EQ(fact(overlay(facts), "One moment").value, "cameras together");
+    facts.skew_ms = 15.2;
+    facts.unpaired = 7;
+    EXPECT_EQ(fact(overlay(facts), "One moment").value, "cameras 15 ms apart, 7 pictures alone");
+    facts.past = "NOT LIVE: 23 s ago";
+    EXPECT_EQ(fact(overlay(facts), "One moment").value, "");
+}
+
 TEST(Overlay, IsGermanForAGerman) {
     const testing::Speaking german(Language::german);
     Facts facts = healthy();

@@ -70,7 +70,11 @@ std::vector<CameraId> LiveScene::take(client::Participant& participant) {
         } else if (person_clouds_.has(frame->camera)) {
             if (person_clouds_.upload(frame) == Status::ok)
                 updated.push_back(frame->camera);
-        } else if (upload(*frame) == Status::ok) {
+        } else {
+            same_moment_.add(frame, participant.now());
+        }
+    for (const auto& frame : same_moment_.take(participant.now()))
+        if (upload(*frame) == Status::ok) {
             newest_[frame->camera] = frame;
             updated.push_back(frame->camera);
         }
@@ -147,6 +151,7 @@ void LiveScene::take_cameras(const std::vector<client::Participant::Camera>& cam
             presence_.erase(id);
             left_out_.erase(id);
             newest_.erase(id);
+            same_moment_.remove(id);
         }
     for (const auto& camera : cameras) {
         const CameraId id = camera.description.id;
@@ -175,8 +180,10 @@ void LiveScene::take_cameras(const std::vector<client::Participant::Camera>& cam
             continue;
         const bool same_lens = !is_new && known->second.depth == camera.calibration.depth &&
                                known->second.color == camera.calibration.color;
-        if (!same_lens)
+        if (!same_lens) {
             newest_.erase(id);
+            same_moment_.remove(id);
+        }
         clouds_.set_camera(id, camera.calibration);
         made_cameras_ = made_cameras_ || !same_lens;
         calibrations_[id] = camera.calibration;

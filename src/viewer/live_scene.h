@@ -18,6 +18,7 @@
 #include "viewer/head_text.h"
 #include "viewer/meeting.h"
 #include "viewer/person_clouds.h"
+#include "viewer/same_moment.h"
 #include "viewer/shared_screens.h"
 #include "viewer/wrist_menu.h"
 
@@ -115,6 +116,8 @@ public:
     // The moment of the oldest picture of the past that is drawn, in session time; nullopt: the
     // present is drawn.
     std::optional<TimePoint> past_moment() const;
+    // The room's cameras are shown together by moment; for figures.
+    const SameMoment& same_moment() const { return same_moment_; }
     // The camera is live and its newest frame is of the present, as judged last.
     bool shows_present(CameraId camera) const;
 
@@ -199,6 +202,7 @@ private:
     std::map<CameraId, std::string> ages_;  // as judged last
     std::map<CameraId, Calibration> calibrations_;
     std::map<CameraId, Origin> origins_;  // also of cameras that see their publisher
+    SameMoment same_moment_;
     std::map<CameraId, receive::CameraFramePtr> newest_;
 };
 

@@ -526,6 +526,9 @@ Facts Viewer::facts(TimePoint now) {
         facts.age_ms = since_ms > repeated_picture_ms ? *age_at_presentation_ms_ + since_ms
                                                       : ages_ms_.percentile(0.5);
     }
+    if (const auto skew = scene_.same_moment().skew(participant_.now()))
+        facts.skew_ms = to_ms(*skew);
+    facts.unpaired = scene_.same_moment().unpaired();
     facts.drawn_per_second = drawn_.per_second(now);
     facts.drawing_rests = !headset_ && rest_.step() > 0;
     facts.way = way();

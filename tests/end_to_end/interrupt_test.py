@@ -9,6 +9,7 @@ import tempfile
 import unittest
 
 import patience
+from slow_disk import SlowDisk
 from theatron_process import PROGRAM, make_recording, wait_until
 
 
@@ -29,9 +30,9 @@ class Interrupt(unittest.TestCase):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="theatron_e2e_"))
         self.addCleanup(shutil.rmtree, self.folder)
 
-    def start(self, *words):
+    def start(self, *words, environment=None):
         process = subprocess.Popen([PROGRAM, *map(str, words)], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                                   stderr=subprocess.PIPE, text=True)
+                                   stderr=subprocess.PIPE, text=True, env=environment)
 
         def end():
             process.kill()
@@ -74,6 +75,28 @@ class Interrupt(unittest.TestCase):
         self.assertEqual(importing.returncode, 1, errors)
         self.assertIn("Stopped before the case was complete; nothing of it was kept.", errors)
         self.assertEqual(list(made.iterdir()), [])
+
+    def test_while_a_recording_is_exported(self):
+        recording, disk = self.folder / "a.mkv", SlowDisk(self.folder)
+        box = make_recording(self.folder / "box", width=640, height=480, frames=40)
+        subprocess.run([PROGRAM, "record", recording, "--camera", f"folder:{box}"], check=True, stdout=subprocess.DEVNULL,
+                       stderr=subprocess.DEVNULL)
+        for form, place, begun in (("--png", "png", "png/depth/00000.png"), ("--ply", "ply", "ply/00000.ply"),
+                                   ("--k4a", "a.mkv", "a.part.mkv")):
+            with self.subTest(form):
+                # Each write takes a while, so that the signal comes before the end.
+                disk.be("slow 100")
+                export = self.start("export", recording, form, disk.folder / place, environment=disk.environment)
+                wait_until(lambda: (disk.folder / begun).exists(), of=export)
+                export.send_signal(signal.SIGTERM)
+                _, errors = patience.finish(export)
+                self.assertEqual(export.returncode, 1, errors)
+                self.assertIn("Stopped before the end of the recording", errors)
+                self.assertEqual([path for path in disk.folder.rglob("*.part*")] + list(disk.folder.glob("*.mkv")), [])
+                disk.be("well")
+                again = subprocess.run([PROGRAM, "export", recording, form, disk.folder / place, "--overwrite"],
+                                       capture_output=True, text=True)
+                self.assertEqual(again.returncode, 0, again.stderr)
 
 
 if __name__ == "__main__":
