@@ -7,6 +7,7 @@
 #   server   unit, user, folders, devices of cameras, AppArmor profile, examples of configurations; for the prefix /usr,
 #            where the unit has its program
 #   doc      docs/
+#   python   the package for Python, where it was made (apps/python/CMakeLists.txt); only with --component python
 include(GNUInstallDirs)
 set(THEATRON_PAGE ${CMAKE_SOURCE_DIR}/build/web/apps/web/page CACHE PATH "The browser client that is installed: packed by the web preset")
 

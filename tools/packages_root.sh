@@ -96,8 +96,13 @@ host() {
 say "a host with its page, with loopback only"
 unshare --net bash -c "set -euo pipefail; $(declare -f inside host fail); $(declare -p environment folder); host"
 
+say "arrays of Python"
+inside "cd / && python3 -c 'import numpy, theatron
+depth = numpy.arange(300, dtype=numpy.uint16).reshape(15, 20)
+assert (theatron.decode_depth(theatron.encode_depth(depth)) == depth).all()'" || fail "the Python package does not work"
+
 say "purge"
-inside "apt-get purge -y -q theatron theatron-server theatron-doc" >> "$source/build/packages_root.log"
+inside "apt-get purge -y -q theatron theatron-server theatron-doc python3-theatron" >> "$source/build/packages_root.log"
 left=$(cd "$folder" && find etc usr var/lib/theatron var/cache/theatron -iname '*theatron*' -not -path 'etc/theatron*' \
     -not -path 'var/lib/dpkg/*' 2> /dev/null || true)
 [ -z "$left" ] || fail "purged, and this is left: $left"

@@ -11,7 +11,6 @@
 #include "base/log.h"
 #include "capture/folder_calibration.h"
 #include "capture/folder_files.h"
-#include "capture/playback.h"
 #include "capture/tiled_recording.h"
 #include "files/file_bytes.h"
 #include "files/png_file.h"
@@ -218,11 +217,10 @@ Size parse_tile_size(const std::string& text) {
 
 }  // namespace
 
-std::unique_ptr<Camera> open_folder_camera(Options& options, const Progress& progress) {
+FolderPictures open_folder_pictures(Options& options) {
     const double fps = options.take_number("fps", 30, 0.1, 240);
     const int invalid = options.take_int("invalid", 0, 0, 65535);
     const std::string tile = options.take("tile");
-    const PlaybackOptions playback = take_playback_options(options);
     options.require_no_problem();
     if (options.value().empty())
         throw LastingError("The camera 'folder' needs a folder, as in folder:DIR.");
@@ -234,26 +232,35 @@ std::unique_ptr<Camera> open_folder_camera(Options& options, const Progress& pro
         folder = folder.parent_path();
     auto frames =
         std::make_unique<FolderRecording>(folder_frames(folder), fps, std::uint16_t(invalid));
-    if (std::size_t(playback.start) >= frames->frames())
-        throw Error("'" + folder.string() + "' has " + std::to_string(frames->frames()) +
-                    " frames, so start=" + std::to_string(playback.start) + " is too far.");
 
-    CameraInfo info;
+    FolderPictures pictures;
+    CameraInfo& info = pictures.info;
     info.name = fs::absolute(folder).filename().string();
     info.calibration = read_calibration(folder, frames->depth_size(), frames->color_size());
     info.frames_per_second = fps;
-    const std::size_t count = frames->frames();
-    std::size_t bytes = frames->bytes();
-    std::unique_ptr<Recording> recording = std::move(frames);
+    pictures.frames = frames->frames();
+    pictures.bytes = frames->bytes();
+    pictures.recording = std::move(frames);
     if (!tile.empty()) {
-        recording = std::make_unique<TiledRecording>(std::move(recording), tile_size);
+        pictures.recording =
+            std::make_unique<TiledRecording>(std::move(pictures.recording), tile_size);
         info.calibration.depth = tiled(info.calibration.depth, tile_size);
         info.calibration.color = tiled(info.calibration.color, tile_size);
-        bytes = count * tile_size.area() * (sizeof(std::uint16_t) + sizeof(Rgb));
+        pictures.bytes = pictures.frames * tile_size.area() * (sizeof(std::uint16_t) + sizeof(Rgb));
     }
-    if (playback.preload.value_or(bytes <= usual_preload_bytes))
-        recording = std::make_unique<MemoryRecording>(*recording, count, progress);
-    return make_recorded_camera(std::move(info), std::move(recording), playback);
+    return pictures;
+}
+
+std::unique_ptr<Camera> open_folder_camera(Options& options, const Progress& progress) {
+    const PlaybackOptions playback = take_playback_options(options);
+    FolderPictures pictures = open_folder_pictures(options);
+    if (std::size_t(playback.start) >= pictures.frames)
+        throw Error("'" + options.value() + "' has " + std::to_string(pictures.frames) +
+                    " frames, so start=" + std::to_string(playback.start) + " is too far.");
+    std::unique_ptr<Recording> recording = std::move(pictures.recording);
+    if (playback.preload.value_or(pictures.bytes <= usual_preload_bytes))
+        recording = std::make_unique<MemoryRecording>(*recording, pictures.frames, progress);
+    return make_recorded_camera(std::move(pictures.info), std::move(recording), playback);
 }
 
 }  // namespace theatron::capture

@@ -9,11 +9,11 @@
 #include "base/error.h"
 #include "base/utc.h"
 #include "capture/folder_calibration.h"
+#include "export/colored_points.h"
 #include "export/export_formats.h"
 #include "export/export_places.h"
 #include "files/file_bytes.h"
 #include "files/png_file.h"
-#include "filter/color_registration.h"
 #include "filter/undistort.h"
 #include "geometry/ply.h"
 #include "video/jpeg_native.h"
@@ -42,78 +42,6 @@ fs::path folder_of(const ExportSource& source, const fs::path& folder, std::size
     return source.one_camera ? folder
                              : folder / ("camera-" + std::to_string(source.numbers[camera]));
 }
-
-// The colour of each depth pixel.
-class ColorOfDepth {
-public:
-    // Counts pictures that it cannot decode in `undecoded`, which must outlive this object.
-    ColorOfDepth(const Calibration& calibration, std::uint64_t& undecoded)
-        : undecoded_(undecoded),
-          size_(calibration.color.size),
-          registration_(calibration),
-          out_(calibration.depth.size),
-          seen_(calibration.depth.size) {}
-
-    // False if the frame has no colour, or none that can be decoded. The result is valid until the
-    // next call.
-    bool apply(const Frame& frame) {
-        if (frame.color.empty())
-            return false;
-        if (frame.color.is_jpeg() && jpeg_.decompress(frame.color.jpeg, decoded_) != Status::ok) {
-            ++undecoded_;
-            return false;
-        }
-        const ColorImage& color = frame.color.is_jpeg() ? decoded_ : frame.color.pixels;
-        if (color.size != size_) {
-            ++undecoded_;
-            return false;
-        }
-        registration_.apply(frame.depth.view(), color.view(), out_.view(), seen_.view());
-        return true;
-    }
-    ColorView color() const { return out_.view(); }  // black where the colour camera sees nothing
-    Rgb color_at(std::size_t pixel) const { return out_.pixels[pixel]; }
-    bool seen(std::size_t pixel) const { return seen_.pixels[pixel] != 0; }
-
-private:
-    std::uint64_t& undecoded_;
-    Size size_;
-    filter::ColorRegistration registration_;
-    video::JpegDecompressor jpeg_;
-    ColorImage decoded_, out_;
-    Image<std::uint8_t> seen_;
-};
-
-class PointMaker {
-public:
-    PointMaker(const Calibration& calibration, std::uint64_t& undecoded)
-        : calibration_(calibration), rays_(make_ray_table(calibration.depth)) {
-        if (calibration.color.size != Size{})
-            colors_.emplace(calibration, undecoded);
-    }
-
-    void append(const Frame& frame, std::vector<ColoredPoint>& out) {
-        const std::size_t first = out.size();
-        append_points(frame.depth.view(), rays_, {}, calibration_, out);
-        if (!colors_ || !colors_->apply(frame))
-            return;
-        ColoredPoint* point = out.data() + first;
-        for (std::size_t i = 0; i < rays_.pixels.size(); ++i) {
-            if (frame.depth.pixels[i] == 0 || rays_.pixels[i].x == no_ray)
-                continue;
-            if (colors_->seen(i))
-                point->color = colors_->color_at(i);
-            ++point;
-        }
-    }
-
-    const Calibration& calibration() const { return calibration_; }
-
-private:
-    Calibration calibration_;
-    Image<Ray> rays_;
-    std::optional<ColorOfDepth> colors_;
-};
 
 // One camera's pictures without the distortion of its lenses.
 class Straightener {

@@ -84,23 +84,26 @@ RoomSummary summarize_room(const Recording& recording) {
     return summary;
 }
 
+std::string room_line(const capture::RecordedRoom& room, Duration time) {
+    Json people = Json::array(), objects = Json::array();
+    for (const auto& [id, object] : room.objects())
+        if (object.kind == session::ObjectKind::person)
+            people.push_back(describe(object, room.poses()));
+        else
+            objects.push_back(describe(id, object));
+    return files::json_text({{"seconds", to_seconds(time)},
+                             {"hash", session::hash_text(room.objects())},
+                             {"people", people},
+                             {"objects", objects}});
+}
+
 std::size_t export_room(const Recording& recording, const std::filesystem::path& file,
                         capture::RecordedRoom::Figures& figures) {
     std::ofstream out(file);
     capture::RecordedRoom room(recording);
     std::size_t lines = 0;
     for_each_moment(room, [&](Duration time) {
-        Json people = Json::array(), objects = Json::array();
-        for (const auto& [id, object] : room.objects())
-            if (object.kind == session::ObjectKind::person)
-                people.push_back(describe(object, room.poses()));
-            else
-                objects.push_back(describe(id, object));
-        out << files::json_text({{"seconds", to_seconds(time)},
-                                 {"hash", session::hash_text(room.objects())},
-                                 {"people", people},
-                                 {"objects", objects}})
-            << "\n";
+        out << room_line(room, time) << "\n";
         ++lines;
     });
     out.close();

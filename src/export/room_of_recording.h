@@ -19,6 +19,10 @@ struct RoomSummary {
 // Reads the whole track.
 RoomSummary summarize_room(const std::shared_ptr<const record::RecordingFile>& recording);
 
+// The room at `time`, to which it was moved, as one JSON line without its end
+// (docs/formats/room.md).
+std::string room_line(const capture::RecordedRoom& room, Duration time);
+
 // Writes one JSON line for each moment at which the room changed (docs/formats/room.md). Returns
 // the number of lines. Throws Error if the file cannot be written.
 std::size_t export_room(const std::shared_ptr<const record::RecordingFile>& recording,

@@ -89,11 +89,29 @@ CameraPublisher::CameraPublisher(std::vector<std::string> specifications, const 
       is_face_(sharing.kind == wire::CameraKind::face),
       states_(specifications_.size()) {
     std::vector<std::unique_ptr<capture::Camera>> cameras;
-    std::vector<Calibration> calibrations;
-    for (const std::string& specification : specifications_) {
+    for (const std::string& specification : specifications_)
         cameras.push_back(capture::open_camera_at(specification, places_, progress));
-        calibrations.push_back(without_person(cameras.back()->info().calibration));
-    }
+    open_all(std::move(cameras), sharing);
+}
+
+CameraPublisher::CameraPublisher(std::vector<std::unique_ptr<capture::Camera>> cameras,
+                                 const Sharing& sharing)
+    : specifications_(cameras.size()),
+      is_face_(sharing.kind == wire::CameraKind::face),
+      states_(specifications_.size()) {
+    open_all(std::move(cameras), sharing);
+}
+
+CameraPublisher::~CameraPublisher() {
+    end();
+    lanes_.clear();
+}
+
+void CameraPublisher::open_all(std::vector<std::unique_ptr<capture::Camera>> cameras,
+                               const Sharing& sharing) {
+    std::vector<Calibration> calibrations;
+    for (const auto& camera : cameras)
+        calibrations.push_back(without_person(camera->info().calibration));
     if (sharing.kind == wire::CameraKind::person)
         place_before_person(cameras, calibrations);
     std::vector<std::string> names;
@@ -112,11 +130,6 @@ CameraPublisher::CameraPublisher(std::vector<std::string> specifications, const 
         open(i, std::move(cameras[i]));
 }
 
-CameraPublisher::~CameraPublisher() {
-    end();
-    lanes_.clear();
-}
-
 void CameraPublisher::open(std::size_t camera, std::unique_ptr<capture::Camera> opened) {
     send::CameraLane::Events events;
     events.media = [this, camera](const send::EncodedMedia& encoded) { on_media(camera, encoded); };
@@ -127,12 +140,13 @@ void CameraPublisher::open(std::size_t camera, std::unique_ptr<capture::Camera> 
     // A live screen keeps its size: a window may have another one when it comes back.
     const capture::CameraInfo& info = opened->info();
     const Size size = info.calibration.color.size;
-    if (info.live && is_screen(info.calibration) && !is_face_ &&
+    if (info.live && is_screen(info.calibration) && !is_face_ && !specification.empty() &&
         specification.find(",size=") == std::string::npos)
         specification += ",size=" + std::to_string(size.width) + "x" + std::to_string(size.height);
-    options.open_again = [this, specification] {
-        return capture::open_camera_at(specification, places_);
-    };
+    if (!specification.empty())
+        options.open_again = [this, specification] {
+            return capture::open_camera_at(specification, places_);
+        };
     options.make_color = color_watch_.make_color();
     // Lanes number cameras from 0; on_media() writes the host's numbers into the headers.
     lanes_.push_back(std::make_unique<send::CameraLane>(

@@ -37,6 +37,9 @@ public:
     // depth images (own_camera.h); this takes up to `person_patience` longer.
     CameraPublisher(std::vector<std::string> specifications, const std::string& places,
                     const capture::Progress& progress, const Sharing& sharing = {});
+    // The same with cameras that are open; none of them is opened again when it fails.
+    explicit CameraPublisher(std::vector<std::unique_ptr<capture::Camera>> cameras,
+                             const Sharing& sharing = {});
     static constexpr Duration person_patience = std::chrono::seconds(3);
     ~CameraPublisher();
 
@@ -70,6 +73,7 @@ public:
     void end();
 
 private:
+    void open_all(std::vector<std::unique_ptr<capture::Camera>> cameras, const Sharing& sharing);
     void open(std::size_t camera, std::unique_ptr<capture::Camera> opened);
     void on_ended(const std::vector<CameraId>& numbers);
     void on_published(const std::vector<CameraId>& numbers);
@@ -80,7 +84,7 @@ private:
     std::size_t camera_with(CameraId number) const;
     std::optional<CameraId> number_of(std::size_t camera) const;
 
-    const std::vector<std::string> specifications_;
+    const std::vector<std::string> specifications_;  // empty: of a camera that was open
     const capture::CameraPlaces places_;
     const bool is_face_;
     std::vector<wire::OfferedCamera> offers_;

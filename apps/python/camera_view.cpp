@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "camera_view.h"
+
+namespace theatron::python {
+
+bool CameraView::decode(ByteView jpeg, ColorImage& out) const {
+    const std::lock_guard lock(mutex_);
+    if (jpeg_.decompress(jpeg, out) == Status::ok && out.size == calibration_.color.size)
+        return true;
+    ++undecoded_;
+    return false;
+}
+
+std::vector<ColoredPoint> CameraView::points(const Frame& frame, bool in_room) const {
+    std::vector<ColoredPoint> points;
+    const std::lock_guard lock(mutex_);
+    if (!points_)
+        points_.emplace(calibration_, undecoded_of_points_);
+    points_->append(frame, points);
+    if (in_room)
+        transform_points(calibration_.room_from_camera, points);
+    return points;
+}
+
+std::uint64_t CameraView::undecoded() const {
+    const std::lock_guard lock(mutex_);
+    return undecoded_;
+}
+
+}  // namespace theatron::python
