@@ -29,4 +29,7 @@ public:
 // The libraries used as yardsticks, as far as this build has them.
 std::vector<std::unique_ptr<BenchCoder>> depth_yardsticks();
 
+// The one that every build has: zstd level 1 on the raw pixels.
+std::unique_ptr<BenchCoder> zstd_yardstick();
+
 }  // namespace theatron

@@ -10,7 +10,9 @@
 
 #include "base/error.h"
 #include "base/statistics.h"
+#include "bench_coder.h"
 #include "bench_filter_yardstick.h"
+#include "bench_targets.h"
 #include "filter/chain.h"
 #include "filter/stage_rules.h"
 
@@ -157,16 +159,26 @@ Times time_stage(const StageBench& bench, std::vector<DepthPlane>& frames) {
     return {simd.ms(), reference.ms()};
 }
 
-double time_chain(const filter::ChainSettings& settings, const filter::ChainCamera& camera,
-                  const std::vector<DepthImage>& frames) {
+// The time of a chain, and that of zstd level 1 on the same frames, in turns with it.
+struct ChainTimes {
+    double ms = 0, zstd1_ms = 0;
+};
+
+ChainTimes time_chain(const filter::ChainSettings& settings, const filter::ChainCamera& camera,
+                      const std::vector<DepthImage>& frames) {
     filter::Chain chain(settings, camera);
-    FrameTimes times(frames.size());
-    for (int pass = 0; pass < (frames.size() == 1 ? 75 : 25); ++pass)
+    const std::unique_ptr<BenchCoder> zstd = zstd_yardstick();
+    Bytes encoded;
+    FrameTimes times(frames.size()), zstd_times(frames.size());
+    for (int pass = 0; pass < (frames.size() == 1 ? 75 : 25); ++pass) {
+        for (std::size_t i = 0; i < frames.size(); ++i)
+            zstd_times.add(i, elapsed_ms([&] { (void)zstd->encode(frames[i], encoded); }));
         for (std::size_t i = 0; i < frames.size(); ++i)
             times.add(i, elapsed_ms([&] {
                           chain.apply(frames[i].view(), std::chrono::milliseconds(33));
                       }));
-    return times.ms();
+    }
+    return {times.ms(), zstd_times.ms()};
 }
 
 // The time of one ring of hole filling when every vector has pixels to fill in each ring:
@@ -214,7 +226,11 @@ nlohmann::json bench_filter(const std::vector<DepthImage>& frames) {
             add_stage(preset + "/" + bench.name, "simd", times.simd);
             add_stage(preset + "/" + bench.name, "reference", times.reference);
         }
-        chains.push_back({{"variant", preset}, {"ms", time_chain(settings, camera, frames)}});
+        const ChainTimes times = time_chain(settings, camera, frames);
+        chains.push_back({{"variant", preset},
+                          {"ms", times.ms},
+                          {"zstd1_ms", times.zstd1_ms},
+                          {"of_zstd1", times.ms / times.zstd1_ms}});
         chains.push_back({{"variant", preset + "/reference"}, {"ms", reference}});
     }
 
@@ -223,6 +239,7 @@ nlohmann::json bench_filter(const std::vector<DepthImage>& frames) {
         add_stage("median3_without_validity", "opencv", *opencv);
     return {{"width", camera.size.width},
             {"height", camera.size.height},
+            {"target", target_in_use()},
             {"stages", stages},
             {"chain", chains}};
 }

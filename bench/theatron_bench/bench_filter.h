@@ -16,11 +16,13 @@ namespace theatron::bench {
 // Adds `filter` to the benchmarks.
 void add_filter_bench(CLI::App& bench);
 
-// {width, height, stages: [{name, variant, ms}], chain: [{variant, ms}]}: medians over the
-// clip's frames of the fastest of several passes, on one thread. Before the timing, the pixels
-// of every stage are compared with those of its reference. `variant` is `simd`, `reference` or
-// a library's name; in `chain` it is the name of the chain, with `/reference` for the sum of
-// its stages' references.
+// {width, height, target, stages: [{name, variant, ms}], chain: [{variant, ms, zstd1_ms,
+// of_zstd1}]}: medians over the clip's frames of the fastest of several passes, on one thread.
+// `target` is the instruction set. zstd level 1 compresses the same frames in turns with a chain;
+// `of_zstd1` is the chain's share of its time. References have neither. Before the timing, the
+// pixels of every stage are compared with those of its reference. `variant` is `simd`, `reference`
+// or a library's name; in `chain` it is the name of the chain, with `/reference` for the sum of its
+// stages' references.
 nlohmann::json bench_filter(const std::vector<DepthImage>& frames);
 
 // The accuracy of a chain on scenes with known depth. Keys: docs/filters.md. `stereo`: the scenes

@@ -25,13 +25,19 @@ struct Flags {
 };
 
 void print_times(const nlohmann::json& result) {
-    std::printf("%dx%d, one thread\n", result["width"].get<int>(), result["height"].get<int>());
+    std::printf("%dx%d, one thread, %s\n", result["width"].get<int>(), result["height"].get<int>(),
+                result["target"].get<std::string>().c_str());
     for (const auto& stage : result["stages"])
         std::printf("  %-32s %-10s %8.3f ms\n", stage["name"].get<std::string>().c_str(),
                     stage["variant"].get<std::string>().c_str(), stage["ms"].get<double>());
-    for (const auto& chain : result["chain"])
-        std::printf("  chain %-37s %8.3f ms\n", chain["variant"].get<std::string>().c_str(),
+    for (const auto& chain : result["chain"]) {
+        std::printf("  chain %-37s %8.3f ms", chain["variant"].get<std::string>().c_str(),
                     chain["ms"].get<double>());
+        if (chain.contains("of_zstd1"))
+            std::printf("  %.3f of zstd level 1 (%.3f ms)", chain["of_zstd1"].get<double>(),
+                        chain["zstd1_ms"].get<double>());
+        std::printf("\n");
+    }
 }
 
 void print_quality(const nlohmann::json& chains) {

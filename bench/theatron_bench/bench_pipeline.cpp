@@ -72,19 +72,15 @@ double yardstick_ms() {
     for (int y = 0; y < size.height; ++y)
         for (int x = 0; x < size.width; ++x)
             depth.view().row(y)[x] = std::uint16_t(1500 + x / 3 + 2 * y + int(rng() % 5));
-    for (const auto& coder : depth_yardsticks()) {
-        if (coder->name() != "zstd1_raw")
-            continue;
-        std::vector<double> times;
-        Bytes out;
-        for (int i = 0; i < 25; ++i) {
-            const TimePoint begin = steady_now();
-            (void)coder->encode(depth, out);
-            times.push_back(to_ms(steady_now() - begin));
-        }
-        return median(times);
+    const std::unique_ptr<BenchCoder> zstd = zstd_yardstick();
+    std::vector<double> times;
+    Bytes out;
+    for (int i = 0; i < 25; ++i) {
+        const TimePoint begin = steady_now();
+        (void)zstd->encode(depth, out);
+        times.push_back(to_ms(steady_now() - begin));
     }
-    return 0;
+    return median(times);
 }
 
 // Frames dropped by the host since it started, for lack of time.

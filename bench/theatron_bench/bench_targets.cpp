@@ -15,6 +15,11 @@ std::string known_targets() {
     return names;
 }
 
+std::string target_in_use() {
+    const std::string names = known_targets();
+    return names.substr(0, names.find(','));
+}
+
 void hold_to_target(const std::string& name) {
     // Highway numbers a better instruction set with a lower bit.
     std::int64_t held = 0;

@@ -12,6 +12,8 @@ inline constexpr const char* targets_variable = "THEATRON_TARGETS";
 // Names of the instruction sets that this machine and this build have, the best first, with ", "
 // between them.
 std::string known_targets();
+// The best of these: what the kernels of this process run with.
+std::string target_in_use();
 // From now on the kernels of this process use no better instruction set than this one; upper and
 // lower case are equal. Throws Error, which names those that are there, for another one. Call it
 // before the first kernel runs.

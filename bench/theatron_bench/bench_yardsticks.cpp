@@ -168,9 +168,13 @@ private:
 
 }  // namespace
 
+std::unique_ptr<BenchCoder> zstd_yardstick() {
+    return std::make_unique<ZstdRaw>();
+}
+
 std::vector<std::unique_ptr<BenchCoder>> depth_yardsticks() {
     std::vector<std::unique_ptr<BenchCoder>> coders;
-    coders.push_back(std::make_unique<ZstdRaw>());
+    coders.push_back(zstd_yardstick());
 #if THEATRON_BENCH_CHARLS
     coders.push_back(std::make_unique<JpegLs>());
 #endif

@@ -5,6 +5,8 @@
 #include <cassert>
 #include <cstring>
 
+#include "filter/set_bits.h"
+
 // Compiles this file once per instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "filter/holes.cpp"
@@ -188,8 +190,8 @@ public:
 
     // Masks pixels with an edge among their neighbours; false without neighbours.
     HWY_INLINE auto edge(Tolerance tolerance) const {
-        return beyond(tolerance, hn::Min(hn::Min(hn::Min(n0_, n1_), hn::Min(n2_, n3_)),
-                                         hn::Min(hn::Min(n4_, n5_), hn::Min(n6_, n7_))));
+        return hn::Not(within(tolerance, hn::Min(hn::Min(hn::Min(n0_, n1_), hn::Min(n2_, n3_)),
+                                                 hn::Min(hn::Min(n4_, n5_), hn::Min(n6_, n7_)))));
     }
 
     // The median, or 0 at an edge. Destroys the neighbours: call it last.
@@ -202,46 +204,76 @@ public:
         sort_pair(n2_, n4_), sort_pair(n3_, n5_);
         sort_pair(n1_, n4_), sort_pair(n3_, n6_);
         sort_pair(n1_, n2_), sort_pair(n3_, n4_), sort_pair(n5_, n6_);
-        // The lower median is the second, third or fourth for more than 2, 4 or 6 neighbours.
+        // The lower median is the second, third or fourth for more than 2, 4 or 6 neighbours: the
+        // largest of those that count, because they are sorted.
         const auto no_neighbour = hn::Set(dg, 0xffff);
-        auto median = hn::IfThenElse(hn::Eq(n2_, no_neighbour), n0_, n1_);
-        median = hn::IfThenElse(hn::Eq(n4_, no_neighbour), median, n2_);
-        median = hn::IfThenElse(hn::Eq(n6_, no_neighbour), median, n3_);
-        return hn::IfThenZeroElse(beyond(tolerance, n0_), hn::Add(median, hn::Set(dg, 1)));
+        const auto second = hn::IfThenZeroElse(hn::Eq(n2_, no_neighbour), n1_);
+        const auto third = hn::IfThenZeroElse(hn::Eq(n4_, no_neighbour), n2_);
+        const auto fourth = hn::IfThenZeroElse(hn::Eq(n6_, no_neighbour), n3_);
+        const auto median = hn::Max(hn::Max(n0_, second), hn::Max(third, fourth));
+        return hn::IfThenElseZero(within(tolerance, n0_), hn::Add(median, hn::Set(dg, 1)));
     }
 
 private:
-    HWY_INLINE hn::Mask<decltype(dg)> beyond(Tolerance tolerance, Pixels nearest_less_one) const {
+    HWY_INLINE hn::Mask<decltype(dg)> within(Tolerance tolerance, Pixels nearest_less_one) const {
         const auto nearest = hn::Add(nearest_less_one, hn::Set(dg, 1));
         const auto limit = hn::SaturatedAdd(hn::Set(dg, tolerance.constant),
                                             hn::MulHigh(nearest, hn::Set(dg, tolerance.slope)));
-        return hn::Gt(hn::Sub(furthest_, nearest), limit);
+        return hn::Eq(hn::SaturatedSub(hn::Sub(furthest_, nearest), limit), hn::Zero(dg));
     }
 
     Pixels n0_, n1_, n2_, n3_, n4_, n5_, n6_, n7_;
     Pixels furthest_;
 };
 
-// Lists the groups that contain a set bit. Branch-free, because they follow no pattern.
+// Fills the last vector with the image's first group.
+HWY_INLINE void end_list(HoleScratch::Groups& groups, HoleScratch::Group* next) {
+    groups.count = std::size_t(next - groups.places.data());
+    std::fill_n(next, groups_per_vector, HoleScratch::Group(DepthPlane::margin / 8));
+}
+
+// Lists the groups that contain a set bit. Branch-free inside a vector of bytes, because they
+// follow no pattern. A table takes the place of Highway's Compress: without AVX-512 that has no
+// instruction, and GCC copies its table to the stack for each vector.
 HWY_NOINLINE void list_groups(HoleScratch& s, HoleScratch::Bits& bits, Range image,
                               HoleScratch::Groups& groups) {
-    const hn::CappedTag<HoleScratch::Group, 16> dp;
-    const hn::Rebind<std::uint8_t, decltype(dp)> db;
-    const std::ptrdiff_t lanes = hn::Lanes(dp);
+    const hn::CappedTag<HoleScratch::Group, 8> dp;
+    const hn::Rebind<std::uint8_t, decltype(dp)> d_places;
+    const hn::CappedTag<std::uint8_t, 64> db;
+    const std::size_t lanes = hn::Lanes(db);
     const std::uint8_t* bytes = bytes_of(s, bits);
-    const std::ptrdiff_t size = 8 * (image.end - image.begin);
+    const std::size_t size = 8 * std::size_t(image.end - image.begin);
     HoleScratch::Group* next = groups.places.data();
-    auto places = hn::Iota(dp, 0);
     // Reads beyond the last row, where the margin has no set bits.
-    for (std::ptrdiff_t i = 0; i < size; i += lanes) {
-        const auto listed = hn::Ne(hn::PromoteTo(dp, hn::LoadU(db, bytes + i)), hn::Zero(dp));
-        hn::StoreU(hn::Compress(places, listed), dp, next);
-        next += hn::CountTrue(dp, listed);
-        places = hn::Add(places, hn::Set(dp, HoleScratch::Group(lanes)));
+    for (std::size_t i = 0; i < size; i += lanes) {
+        const auto listed = hn::Ne(hn::LoadU(db, bytes + i), hn::Zero(db));
+        if (hn::AllFalse(db, listed))
+            continue;
+        std::uint8_t masks[8] = {};
+        hn::StoreMaskBits(db, listed, masks);
+        for (std::size_t eight = 0; 8 * eight < lanes; ++eight) {
+            const auto first = hn::Set(dp, HoleScratch::Group(i + 8 * eight));
+            const std::uint8_t* places = set_bits_of_byte[masks[eight]].places;
+            for (std::size_t k = 0; k < 8; k += hn::Lanes(dp))
+                hn::StoreU(hn::Add(first, hn::PromoteTo(dp, hn::LoadU(d_places, places + k))), dp,
+                           next + k);
+            next += set_bits_of_byte[masks[eight]].count;
+        }
     }
-    groups.count = std::size_t(next - groups.places.data());
-    // Fills the last vector with the image's first group.
-    std::fill_n(next, groups_per_vector, HoleScratch::Group(DepthPlane::margin / 8));
+    end_list(groups, next);
+}
+
+// Lists those of the listed groups that contain a set bit.
+HWY_NOINLINE void keep_groups(const HoleScratch::Groups& listed, const std::uint8_t* bytes,
+                              HoleScratch::Groups& kept) {
+    const HoleScratch::Group* from = listed.places.data();
+    HoleScratch::Group* next = kept.places.data();
+    for (std::size_t i = 0; i < listed.count; ++i) {
+        const HoleScratch::Group group = from[i];
+        *next = group;
+        next += bytes[group] != 0 ? 1 : 0;
+    }
+    end_list(kept, next);
 }
 
 // Two-bit numbers, one per pixel, as bit planes.
@@ -299,23 +331,30 @@ void find_candidates(HoleScratch& s, int min_neighbours, Range image) {
 // Fills one ring of pixels, the candidates. Pixels at an edge are skipped for good: an edge
 // remains one when more neighbours become known. False if nothing was filled.
 bool fill_ring(DepthPlane& depth, Tolerance tolerance, HoleScratch& s) {
-    std::uint16_t* pixels = pixels_of(depth);
-    const HoleScratch::Groups& groups = s.some;
-    for (std::size_t i = 0; i < groups.count; i += groups_per_vector) {
-        RimLanes rim(pixels, depth.pitch(), &groups.places[i]);
+    std::uint16_t* const pixels = pixels_of(depth);
+    const std::ptrdiff_t pitch = depth.pitch();
+    const HoleScratch::Group* const groups = s.some.places.data();
+    const std::size_t count = s.some.count;
+    std::uint16_t* const medians = s.depth.data();
+    std::uint8_t* const has_median = s.filled.data();
+    for (std::size_t i = 0; i < count; i += groups_per_vector) {
+        RimLanes rim(pixels, pitch, groups + i);
         const auto median = rim.median_off_edge(tolerance);
-        hn::StoreU(median, dg, s.depth.data() + 8 * i);
-        hn::StoreMaskBits(dg, hn::Ne(median, hn::Zero(dg)), s.filled.data() + i);
+        hn::StoreU(median, dg, medians + 8 * i);
+        hn::StoreMaskBits(dg, hn::Ne(median, hn::Zero(dg)), has_median + i);
     }
-    std::uint8_t* known = bytes_of(s, s.known);
-    const std::uint8_t* wanted = bytes_of(s, s.candidate);
+    std::uint8_t* const known = bytes_of(s, s.known);
+    const std::uint8_t* const wanted = bytes_of(s, s.candidate);
     const hn::CappedTag<std::uint16_t, 8> eight;
     unsigned any = 0;
-    for (std::size_t i = 0; i < groups.count; ++i) {
-        const HoleScratch::Group group = groups.places[i];
-        const std::uint8_t filled = s.filled[i] & wanted[group];
-        hn::BlendedStore(hn::LoadU(eight, s.depth.data() + 8 * i), hn::LoadMaskBits(eight, &filled),
-                         eight, pixels + 8 * std::size_t(group));
+    for (std::size_t i = 0; i < count; ++i) {
+        const HoleScratch::Group group = groups[i];
+        const std::uint8_t filled = has_median[i] & wanted[group];
+        // Candidates are 0 until now, so bits are added to them.
+        std::uint16_t* const pixel = pixels + 8 * std::size_t(group);
+        const auto added =
+            hn::IfThenElseZero(hn::LoadMaskBits(eight, &filled), hn::LoadU(eight, medians + 8 * i));
+        hn::StoreU(hn::Or(hn::LoadU(eight, pixel), added), eight, pixel);
         known[group] |= filled;
         any |= filled;
     }
@@ -324,18 +363,24 @@ bool fill_ring(DepthPlane& depth, Tolerance tolerance, HoleScratch& s) {
 
 // Marks the fillable pixels that have an edge among their neighbours. False if there are none.
 HWY_NOINLINE bool mark_edges(const DepthPlane& depth, Tolerance tolerance, HoleScratch& s) {
-    for (std::size_t i = 0; i < s.all.count; i += groups_per_vector) {
-        const RimLanes rim(pixels_of(depth), depth.pitch(), &s.all.places[i]);
-        hn::StoreMaskBits(dg, rim.edge(tolerance), s.filled.data() + i);
+    const std::uint16_t* const pixels = pixels_of(depth);
+    const std::ptrdiff_t pitch = depth.pitch();
+    const HoleScratch::Group* const groups = s.all.places.data();
+    const std::size_t count = s.all.count;
+    std::uint8_t* const at_edge = s.filled.data();
+    for (std::size_t i = 0; i < count; i += groups_per_vector) {
+        const RimLanes rim(pixels, pitch, groups + i);
+        hn::StoreMaskBits(dg, rim.edge(tolerance), at_edge + i);
     }
-    std::uint8_t* edges = bytes_of(s, s.edge);
-    const std::uint8_t* may_fill = bytes_of(s, s.may_fill);
+    std::uint8_t* const edges = bytes_of(s, s.edge);
+    const std::uint8_t* const may_fill = bytes_of(s, s.may_fill);
     std::fill(s.edge.begin(), s.edge.end(), 0);
     unsigned any = 0;
-    for (std::size_t i = 0; i < s.all.count; ++i) {
-        const HoleScratch::Group group = s.all.places[i];
-        edges[group] = s.filled[i] & may_fill[group];
-        any |= edges[group];
+    for (std::size_t i = 0; i < count; ++i) {
+        const HoleScratch::Group group = groups[i];
+        const std::uint8_t marked = at_edge[i] & may_fill[group];
+        edges[group] = marked;
+        any |= marked;
     }
     return any != 0;
 }
@@ -370,7 +415,7 @@ void fill_holes(DepthPlane& depth, const HoleRule& rule, HoleScratch& s) {
     list_groups(s, s.may_fill, image, s.all);
     for (int i = 0; i < rule.iterations; ++i) {
         find_candidates(s, rule.min_neighbours, image);
-        list_groups(s, s.candidate, image, s.some);
+        keep_groups(s.all, bytes_of(s, s.candidate), s.some);
         if (!fill_ring(depth, rule.tolerance, s))
             break;
     }
@@ -382,11 +427,12 @@ void fill_holes(DepthPlane& depth, const HoleRule& rule, HoleScratch& s) {
     const std::uint8_t* edges = bytes_of(s, s.edge);
     std::uint16_t* pixels = pixels_of(depth);
     const hn::CappedTag<std::uint16_t, 8> eight;
-    list_groups(s, s.edge, image, s.some);
+    keep_groups(s.all, edges, s.some);
     for (std::size_t i = 0; i < s.some.count; ++i) {
         const HoleScratch::Group group = s.some.places[i];
-        hn::BlendedStore(hn::Zero(eight), hn::LoadMaskBits(eight, edges + group), eight,
-                         pixels + 8 * std::size_t(group));
+        std::uint16_t* const pixel = pixels + 8 * std::size_t(group);
+        const auto near_edge = hn::LoadMaskBits(eight, edges + group);
+        hn::StoreU(hn::IfThenZeroElse(near_edge, hn::LoadU(eight, pixel)), eight, pixel);
     }
 }
 

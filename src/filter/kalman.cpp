@@ -192,18 +192,18 @@ private:
             const auto size = hn::Abs(trend);
             const auto threshold = hn::BitCast(di, hn::MulHigh(hn::ShiftLeft<3>(noise), k.trend_));
             const auto moving = hn::Gt(size, threshold);
-            auto floor = hn::IfThenElse(moving, k.floor_[0], k.least_gain_);
+            auto floor = raised(k.least_gain_, moving, k.floor_[0]);
             auto beyond = threshold;
             for (int times = 2; times <= trend_steps; ++times) {
                 beyond = hn::Add(beyond, threshold);
-                floor = hn::IfThenElse(hn::Gt(size, beyond), k.floor_[times - 1], floor);
+                floor = raised(floor, hn::Gt(size, beyond), k.floor_[times - 1]);
             }
             const auto old_gain = hn::BitCast(di, hn::And(gains, k.low_byte_));
             const auto new_gain =
                 hn::Max(hn::Min(hn::Add(old_gain, k.boost_), k.most_gain_), floor);
             const auto shifted_gain = hn::ShiftLeft<7>(new_gain);
             const auto moved = moved_by(innovation, rest, shifted_gain);
-            step = k.step_of(moved, hn::IfThenElse(moving, k.moving_dead_band_, still_dead_band));
+            step = k.step_of(moved, lowered(still_dead_band, moving, k.moving_dead_band_));
             estimate = k.estimate_of(moved, step, trend);
             // gain * gain >> 9
             const auto fall = hn::MulHigh(hn::BitCast(du, shifted_gain), hn::BitCast(du, new_gain));
@@ -213,6 +213,24 @@ private:
         VI step;
         VU estimate, gain;
     };
+
+    // `to` where the mask is set, which is nowhere less (raised) or more (lowered) than `from`.
+    // Both are positive. AVX2 chooses between two vectors slowly, AVX-512 does not.
+#if HWY_TARGET <= HWY_AVX3
+    static HWY_INLINE VI raised(VI from, hn::Mask<DI> mask, VI to) {
+        return hn::IfThenElse(mask, to, from);
+    }
+    static HWY_INLINE VI lowered(VI from, hn::Mask<DI> mask, VI to) {
+        return hn::IfThenElse(mask, to, from);
+    }
+#else
+    static HWY_INLINE VI raised(VI from, hn::Mask<DI> mask, VI to) {
+        return hn::Max(from, hn::IfThenElseZero(mask, to));
+    }
+    static HWY_INLINE VI lowered(VI from, hn::Mask<DI> mask, VI to) {
+        return hn::Max(hn::IfThenZeroElse(mask, from), to);
+    }
+#endif
 
     // rest + ((innovation * gain + 128) >> 8)
     static HWY_INLINE VI moved_by(VI innovation, VI rest, VI shifted_gain) {

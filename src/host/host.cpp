@@ -224,7 +224,9 @@ void Host::Impl::start_lane(std::size_t i, const std::string& specification,
     lane.open_again = [this, specification] {
         return capture::open_camera_at(specification, places);
     };
-    lane.make_color = color_watch.make_color();
+    lane.make_color =
+        color_watch.make_color({.frames_per_second = camera->info().frames_per_second,
+                                .may_be_smaller = !is_screen(camera->info().calibration)});
     lane.moments = moments;
     lane.one_per_moment = true;
     auto started = std::make_unique<send::CameraLane>(

@@ -147,7 +147,9 @@ void CameraPublisher::open(std::size_t camera, std::unique_ptr<capture::Camera> 
         options.open_again = [this, specification] {
             return capture::open_camera_at(specification, places_);
         };
-    options.make_color = color_watch_.make_color();
+    options.make_color =
+        color_watch_.make_color({.frames_per_second = info.frames_per_second,
+                                 .may_be_smaller = !is_face_ && !is_screen(info.calibration)});
     // Lanes number cameras from 0; on_media() writes the host's numbers into the headers.
     lanes_.push_back(std::make_unique<send::CameraLane>(
         CameraId(camera), std::move(opened), std::move(events), workers_, std::move(options)));

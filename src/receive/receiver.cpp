@@ -9,6 +9,7 @@
 #include "geometry/calibration.h"
 #include "phrases/phrase.h"
 #include "video/depth_codecs.h"
+#include "video/reduced_size.h"
 #include "wire/no_codec.h"
 
 namespace theatron::receive {
@@ -293,7 +294,9 @@ Status Receiver::decode_color(Stream& stream, const wire::MediaHeader& header, B
     const auto size = video::read_color_size(stream.color_codec, payload);
     if (!size)
         return size.error();
-    if (*size != stream.size)
+    const bool may_be_reduced =
+        stream.color_is_automatic && stream.color_codec == video::ColorCodecId::jpeg;
+    if (may_be_reduced ? !video::is_reduced(*size, stream.size) : *size != stream.size)
         return Status::size_mismatch;
     const auto reference = std::exchange(stream.color_reference, std::nullopt);
     if (!header.key && reference != header.reference)

@@ -64,9 +64,10 @@ public:
         return message(h, n, payload);
     }
     void set_color_id(SettingId id) { color_id_ = id; }
+    void set_color_size(Size size) { color_size_ = size; }
     Bytes color(FrameNumber n, bool key = true) {
         ColorData data;
-        data.size = picture;
+        data.size = color_size_;
         data.pixels = ColorImage(data.size);
         data.pixels.pixels[0] = {std::uint8_t(n), 2, 3};
         const auto encoded = color_->encode(data, key);
@@ -96,6 +97,7 @@ private:
     video::ColorSetting color_setting_;
     std::unique_ptr<video::ColorEncoder> color_;
     SettingId color_id_{0x8001};
+    Size color_size_ = picture;
     FrameNumber last_color_ = 0;
 };
 
@@ -267,6 +269,30 @@ TEST_F(ReceiverTest, AutomaticColorChangesItsCodecWithAKeyFrameAndOtherColorNeve
         source->set_color_id(SettingId{0x8003});
     EXPECT_EQ(receiver.on_media(jpeg.color(7), at(7)), Status::ok);
     EXPECT_EQ(receiver.on_media(h264.color(8, true), at(8)), Status::malformed);
+}
+
+TEST_F(ReceiverTest, AutomaticJpegMayBeHalvedTwiceAndOtherColorNever) {
+    Source source("trvl", SettingId{1}, "jpeg");
+    source.set_color_id(SettingId{0x8002});
+    receiver.set_settings({{depth_stream(camera), SettingId{1}, "trvl"},
+                           {color_stream(camera), SettingId{0x8002}, "auto"}});
+    FrameNumber n = 0;
+    for (const Size size : {picture, Size{16, 12}, Size{8, 6}}) {
+        source.set_color_size(size);
+        (void)receiver.on_media(source.depth(n), at(n));
+        EXPECT_EQ(receiver.on_media(source.color(n), at(n)), Status::ok);
+        ASSERT_EQ(frames.size(), n + 1);
+        EXPECT_EQ(frames[n]->color->size, size);
+        ++n;
+    }
+    for (const Size size : {Size{4, 3}, Size{16, 24}, Size{64, 48}, Size{15, 12}}) {
+        source.set_color_size(size);
+        EXPECT_EQ(receiver.on_media(source.color(n), at(n)), Status::size_mismatch);
+    }
+    receiver.set_settings({{color_stream(camera), SettingId{0x8003}, "jpeg"}});
+    source.set_color_id(SettingId{0x8003});
+    source.set_color_size({16, 12});
+    EXPECT_EQ(receiver.on_media(source.color(n), at(n)), Status::size_mismatch);
 }
 
 // A decoder that answers when the test says, as a browser's.

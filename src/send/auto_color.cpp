@@ -2,6 +2,7 @@
 #include "send/auto_color.h"
 
 #include "base/error.h"
+#include "send/bounded_jpeg.h"
 
 namespace theatron::send {
 namespace {
@@ -12,7 +13,8 @@ std::unique_ptr<video::ColorEncoder> make(std::string_view setting) {
 
 class AutoEncoder final : public video::ColorEncoder {
 public:
-    explicit AutoEncoder(std::shared_ptr<const AutoColor> is_h264) : is_h264_(std::move(is_h264)) {}
+    AutoEncoder(std::shared_ptr<const AutoColor> is_h264, const JpegLimits& limits)
+        : is_h264_(std::move(is_h264)), jpeg_(limits) {}
 
     Result<video::EncodedColor> encode(const ColorData& color, bool key) override {
         if (*is_h264_ && !h264_failed_) {
@@ -30,23 +32,24 @@ public:
             h264_failed_ = true;
         }
         h264_.reset();
-        auto encoded = jpeg_->encode(color, key);
-        if (encoded)
-            encoded->codec = video::ColorCodecId::jpeg;
-        return encoded;
+        const Result<ByteView> encoded = jpeg_.encode(color);
+        if (!encoded)
+            return encoded.error();
+        return video::EncodedColor{*encoded, true, video::ColorCodecId::jpeg};
     }
 
 private:
     const std::shared_ptr<const AutoColor> is_h264_;
-    const std::unique_ptr<video::ColorEncoder> jpeg_ = make(auto_jpeg);
+    BoundedJpeg jpeg_;
     std::unique_ptr<video::ColorEncoder> h264_;
     bool h264_failed_ = false;
 };
 
 }  // namespace
 
-std::unique_ptr<video::ColorEncoder> make_auto_encoder(std::shared_ptr<const AutoColor> is_h264) {
-    return std::make_unique<AutoEncoder>(std::move(is_h264));
+std::unique_ptr<video::ColorEncoder> make_auto_encoder(std::shared_ptr<const AutoColor> is_h264,
+                                                       const JpegLimits& limits) {
+    return std::make_unique<AutoEncoder>(std::move(is_h264), limits);
 }
 
 }  // namespace theatron::send

@@ -20,9 +20,9 @@ ColorWatch::ColorWatch()
       reason_(choice_.reason()) {}
 
 std::function<std::unique_ptr<video::ColorEncoder>(const video::ColorSetting&)>
-ColorWatch::make_color() const {
-    return [is_h264 = is_h264()](const video::ColorSetting& setting) {
-        return setting.text == video::auto_color ? make_auto_encoder(is_h264)
+ColorWatch::make_color(const JpegLimits& limits) const {
+    return [is_h264 = is_h264(), limits](const video::ColorSetting& setting) {
+        return setting.text == video::auto_color ? make_auto_encoder(is_h264, limits)
                                                  : video::make_color_encoder(setting);
     };
 }

@@ -23,9 +23,10 @@ public:
 
     // For the encoders; from any thread.
     std::shared_ptr<const AutoColor> is_h264() const { return is_h264_; }
-    // For CameraLane::Options: encoders of automatic colour follow the choice, others are as usual.
-    std::function<std::unique_ptr<video::ColorEncoder>(const video::ColorSetting&)> make_color()
-        const;
+    // For CameraLane::Options of a camera with these limits: encoders of automatic colour follow
+    // the choice, others are as usual.
+    std::function<std::unique_ptr<video::ColorEncoder>(const video::ColorSetting&)> make_color(
+        const JpegLimits& limits) const;
 
     // From one thread, at any rate: measures and decides once a second. A change is logged.
     void on_tick(const std::vector<const CameraLane*>& lanes, TimePoint now);
