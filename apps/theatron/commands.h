@@ -34,5 +34,6 @@ void add_background_command(CLI::App& app);
 void add_case_command(CLI::App& app);
 void add_target_command(CLI::App& app);
 void add_register_command(CLI::App& app);
+void add_photon_command(CLI::App& app);
 
 }  // namespace theatron::app

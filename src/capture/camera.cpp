@@ -17,6 +17,7 @@
 #include "capture/placed_camera.h"
 #include "capture/recording_camera.h"
 #include "capture/source_camera.h"
+#include "capture/strip_camera.h"
 #include "capture/synthetic_camera.h"
 #include "capture/video_camera.h"
 #include "capture/watched_camera.h"
@@ -42,6 +43,7 @@ constexpr Kind kinds[] = {
     {"v4l2", v4l2_camera_help, open_v4l2_camera},
     {"rtsp", rtsp_camera_help, open_rtsp_camera},
     {"face", face_camera_help, open_face_camera},
+    {"strip", strip_camera_help, open_strip_camera},
 };
 
 // Opens a camera. Exceptions of the standard library become an Error with a sentence, too.

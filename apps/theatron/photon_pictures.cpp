@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "photon_pictures.h"
+
+#include "base/error.h"
+#include "base/log.h"
+#include "base/steady_clock.h"
+#include "capture/camera.h"
+#include "cli/progress.h"
+#include "client/participant.h"
+#include "join_pictures.h"
+#include "link_argument.h"
+#include "video/jpeg_decoder.h"
+#include "viewer/offscreen_view_native.h"
+#include "viewer/renderer_text.h"
+
+namespace theatron::app {
+namespace {
+
+constexpr Duration picture_wait = 100ms;
+
+client::Participant::Options photon_options(const PhotonRead& wanted) {
+    client::Participant::Options join;
+    join.link = parse_link_argument(wanted.sources.front());
+    join.name = "photon";
+    join.depth_codec = wanted.depth_codec;
+    join.color_codec = wanted.color_codec;
+    join.remark = [](const std::string& text) { log::say(text); };
+    join.keeps_room = true;
+    return join;
+}
+
+class SessionPictures final : public PhotonPictures {
+public:
+    explicit SessionPictures(const PhotonRead& wanted)
+        : view_(viewer::parse_view(wanted.view)),
+          size_(parse_size(wanted.size)),
+          renderer_(wanted.renderer),
+          participant_(photon_options(wanted)) {
+        viewer::check_renderer_choice(renderer_);
+    }
+
+    const ColorImage* next() override {
+        const bool is_new = participant_.wait_for_frame(picture_wait);
+        scene_.take(participant_);
+        const auto status = participant_.status();
+        using Phase = client::Participant::Phase;
+        if (status.phase == Phase::refused || status.phase == Phase::ended)
+            throw Error(status.problem.empty() ? "The session has ended." : status.problem);
+        if (!is_new || !scene_.can_draw(view_))
+            return nullptr;
+        picture_ = scene_.picture(
+            {view_, size_, viewer::renderer_for(renderer_, scene_.cameras()), {}, {}});
+        return &picture_;
+    }
+
+private:
+    const viewer::ViewChoice view_;
+    const Size size_;
+    const std::string renderer_;
+    viewer::OffscreenView scene_{viewer::RoomChoice{}};
+    client::Participant participant_;
+    ColorImage picture_;
+};
+
+class CameraPictures final : public PhotonPictures {
+public:
+    explicit CameraPictures(const std::string& camera)
+        : camera_(capture::open_camera(camera, cli::show_progress())) {
+        if (camera_->info().calibration.color.size == Size{})
+            throw Error("The camera '" + camera + "' has no colour, so no strip can be read.");
+    }
+
+    const ColorImage* next() override {
+        const capture::Capture got = camera_->next(picture_wait);
+        using Kind = capture::Capture::Kind;
+        if (got.kind == Kind::failed)
+            throw Error(got.problem);
+        if (got.kind == Kind::end)
+            throw Error(
+                "The recording has ended; a recording has no age. Measure films with "
+                "'theatron photon film'.");
+        if (got.kind == Kind::nothing)
+            return nullptr;
+        frame_ = got.frame;
+        const ColorData& color = frame_->color;
+        if (!color.is_jpeg())
+            return color.pixels.empty() ? nullptr : &color.pixels;
+        return decoder_.decode(color.jpeg, decoded_) == Status::ok ? &decoded_ : nullptr;
+    }
+
+private:
+    std::unique_ptr<capture::Camera> camera_;
+    FramePtr frame_;
+    video::BaselineJpegDecoder decoder_;
+    ColorImage decoded_;
+};
+
+}  // namespace
+
+std::unique_ptr<PhotonPictures> session_pictures(const PhotonRead& wanted) {
+    return std::make_unique<SessionPictures>(wanted);
+}
+
+std::unique_ptr<PhotonPictures> camera_pictures(const std::string& camera) {
+    return std::make_unique<CameraPictures>(camera);
+}
+
+}  // namespace theatron::app
