@@ -80,6 +80,8 @@ class Recordings(PythonCase):
             found = next(iterator)
             self.assertEqual(found.number, wanted.number)
             np.testing.assert_array_equal(found.depth, wanted.depth)
+        iterator.seek(frames[3].seconds - 0.001)
+        self.assertEqual(next(iterator).number, frames[3].number)
         iterator.seek(frames[-1].seconds + 1)
         self.assertRaises(StopIteration, next, iterator)
         part = recording.frames(start=frames[3].seconds, stop=frames[6].seconds)
