@@ -3,12 +3,13 @@
 
 namespace theatron::python {
 
-bool CameraView::decode(ByteView jpeg, ColorImage& out) const {
+std::shared_ptr<ColorImage> CameraView::decode(ByteView jpeg) const {
+    std::shared_ptr<ColorImage> picture = pictures_.take();
     const std::lock_guard lock(mutex_);
-    if (jpeg_.decompress(jpeg, out) == Status::ok && out.size == calibration_.color.size)
-        return true;
+    if (jpeg_.decompress(jpeg, *picture) == Status::ok && picture->size == calibration_.color.size)
+        return picture;
     ++undecoded_;
-    return false;
+    return nullptr;
 }
 
 std::vector<ColoredPoint> CameraView::points(const Frame& frame, bool in_room) const {

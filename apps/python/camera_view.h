@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/bytes.h"
+#include "base/pool.h"
 #include "export/colored_points.h"
 #include "geometry/calibration.h"
 #include "image/frame.h"
@@ -25,8 +26,9 @@ public:
     const std::string& name() const { return name_; }
     const Calibration& calibration() const { return calibration_; }
 
-    // False if the picture is damaged or has another size than the calibration; it counts then.
-    bool decode(ByteView jpeg, ColorImage& out) const;
+    // The picture in memory that is used again; null, and it counts, if it is damaged or has
+    // another size than the calibration.
+    std::shared_ptr<ColorImage> decode(ByteView jpeg) const;
 
     // One point for each measured pixel, row by row: in the depth camera's frame, or `in_room`.
     std::vector<ColoredPoint> points(const Frame& frame, bool in_room) const;
@@ -39,6 +41,7 @@ private:
     const std::string name_;
     const Calibration calibration_;
 
+    mutable Pool<ColorImage> pictures_;
     mutable std::mutex mutex_;  // guards all below
     mutable video::JpegDecompressor jpeg_;
     mutable std::optional<exporting::PointMaker> points_;

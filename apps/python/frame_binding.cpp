@@ -7,6 +7,7 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "frame_object.h"
+#include "shown_text.h"
 
 namespace theatron::python {
 namespace {
@@ -35,13 +36,12 @@ py::object color_of(FrameObject& self) {
     if (!frame->color.is_jpeg())
         return array_of(frame->color.pixels.view(), frame, self.taken.is_own);
     if (!self.is_decoded) {
-        auto image = std::make_shared<ColorImage>();
-        bool is_whole = false;
+        std::shared_ptr<ColorImage> image;
         {
             const py::gil_scoped_release released;
-            is_whole = self.taken.camera->decode(frame->color.jpeg, *image);
+            image = self.taken.camera->decode(frame->color.jpeg);
         }
-        self.decoded = is_whole ? std::move(image) : nullptr;
+        self.decoded = std::move(image);
         self.is_decoded = true;
     }
     if (!self.decoded)
@@ -129,8 +129,8 @@ void bind_frames(py::module_& module) {
              "The same points, and their colours: uint8 of shape (n, 3).")
         .def_property_readonly("camera",
                                [](const FrameObject& self) { return self.taken.camera->number(); })
-        .def_property_readonly("name",
-                               [](const FrameObject& self) { return self.taken.camera->name(); })
+        .def_property_readonly(
+            "name", [](const FrameObject& self) { return shown_text(self.taken.camera->name()); })
         .def_property_readonly(
             "calibration", [](const FrameObject& self) { return self.taken.camera->calibration(); })
         .def_property_readonly("number",

@@ -8,6 +8,7 @@
 #include "bindings.h"
 #include "capture/camera.h"
 #include "frames_iterator.h"
+#include "shown_text.h"
 
 namespace theatron::python {
 namespace {
@@ -71,8 +72,10 @@ void bind_readers(py::module_& module) {
         .def_property_readonly("losses", &FramesIterator::losses,
                                "Pictures that were left out, as `theatron inspect --verify` counts "
                                "them.")
-        .def_property_readonly("problem_at_end", &FramesIterator::problem_at_end,
-                               "What is missing at the end, one sentence; empty: nothing.")
+        .def_property_readonly(
+            "problem_at_end",
+            [](const FramesIterator& self) { return shown_text(self.problem_at_end()); },
+            "What is missing at the end, one sentence; empty: nothing.")
         .def("close", &FramesIterator::close, "Closes the file or the camera.")
         .def("__enter__", [](py::object self) { return self; })
         .def("__exit__", [](FramesIterator& self, const py::args&) { self.close(); });

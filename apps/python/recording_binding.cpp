@@ -13,6 +13,7 @@
 #include "export/verify_recording.h"
 #include "frames_iterator.h"
 #include "record/remarks.h"
+#include "shown_text.h"
 
 namespace theatron::python {
 namespace {
@@ -100,13 +101,13 @@ std::vector<RecordedCameraInfo> cameras_of(const Recording& self) {
 }
 
 // The sentences of `theatron inspect`.
-std::vector<std::string> remarks_of(const Recording& self) {
-    std::vector<std::string> remarks;
+py::list remarks_of(const Recording& self) {
+    py::list remarks;
     for (const record::Segment& segment : self.content().segments())
-        for (std::string& remark : record::remarks_on(segment))
-            remarks.push_back(std::move(remark));
-    for (std::string& remark : record::remarks_on_files(self.content()))
-        remarks.push_back(std::move(remark));
+        for (const std::string& remark : record::remarks_on(segment))
+            remarks.append(shown_text(remark));
+    for (const std::string& remark : record::remarks_on_files(self.content()))
+        remarks.append(shown_text(remark));
     return remarks;
 }
 
@@ -178,15 +179,20 @@ void bind_camera_info(py::module_& module) {
     using Info = RecordedCameraInfo;
     py::class_<Info>(module, "RecordedCamera", "A camera of a recording.")
         .def_readonly("number", &Info::number)
-        .def_readonly("name", &Info::name)
+        .def_property_readonly("name", [](const Info& c) { return shown_text(c.name); })
         .def_readonly("fps", &Info::fps)
         .def_readonly("frames", &Info::frames)
-        .def_readonly("depth_codec", &Info::depth_codec)
-        .def_readonly("color_codec", &Info::color_codec)
+        .def_property_readonly("depth_codec",
+                               [](const Info& c) { return shown_text(c.depth_codec); })
+        .def_property_readonly("color_codec",
+                               [](const Info& c) {
+                                   return c.color_codec ? std::optional(shown_text(*c.color_codec))
+                                                        : std::nullopt;
+                               })
         .def_readonly("calibration", &Info::calibration)
         .def("__repr__", [](const Info& c) {
-            return "RecordedCamera(number=" + std::to_string(c.number) + ", name='" + c.name +
-                   "', frames=" + std::to_string(c.frames) + ")";
+            return shown_text("RecordedCamera(number=" + std::to_string(c.number) + ", name='" +
+                              c.name + "', frames=" + std::to_string(c.frames) + ")");
         });
 }
 
@@ -204,7 +210,8 @@ void bind_recording(py::module_& module) {
                  return std::make_shared<Recording>(file);
              }),
              py::arg("file"))
-        .def_property_readonly("file", &Recording::file)
+        .def_property_readonly("file",
+                               [](const Recording& self) { return shown_text(self.file()); })
         .def_property_readonly("cameras", &cameras_of)
         .def_property_readonly(
             "seconds", [](const Recording& self) { return to_seconds(self.content().duration()); })
@@ -225,7 +232,8 @@ void bind_recording(py::module_& module) {
             [](const Recording& self) { return std::make_unique<RoomIterator>(self.shared()); },
             "The room at each moment at which it changed, as `theatron export --room` writes it.")
         .def("verify", &verified, "Decodes every picture, as `theatron inspect --verify` does.")
-        .def("__repr__", [](const Recording& self) { return "Recording('" + self.file() + "')"; });
+        .def("__repr__",
+             [](const Recording& self) { return shown_text("Recording('" + self.file() + "')"); });
 }
 
 }  // namespace theatron::python

@@ -6,6 +6,7 @@
 #include "bindings.h"
 #include "frames_iterator.h"
 #include "joined_session.h"
+#include "shown_text.h"
 #include "waits.h"
 
 namespace theatron::python {
@@ -60,16 +61,17 @@ void bind_session(py::module_& module) {
     py::class_<CameraView, std::shared_ptr<CameraView>>(module, "SessionCamera",
                                                         "A camera of a session.")
         .def_property_readonly("number", &CameraView::number)
-        .def_property_readonly("name", &CameraView::name)
+        .def_property_readonly("name",
+                               [](const CameraView& self) { return shown_text(self.name()); })
         .def_property_readonly("calibration",
                                [](const CameraView& self) { return self.calibration(); })
         .def("__repr__", [](const CameraView& self) {
-            return "SessionCamera(number=" + std::to_string(self.number()) + ", name='" +
-                   self.name() + "')";
+            return shown_text("SessionCamera(number=" + std::to_string(self.number()) + ", name='" +
+                              self.name() + "')");
         });
     py::class_<SessionObject>(module, "Session", "A joined session.")
-        .def_property_readonly("host",
-                               [](const SessionObject& self) { return self.get().host_name(); })
+        .def_property_readonly(
+            "host", [](const SessionObject& self) { return shown_text(self.get().host_name()); })
         .def_property_readonly("cameras",
                                [](const SessionObject& self) {
                                    py::list list;

@@ -3,6 +3,10 @@
 import ast
 import importlib.util
 import json
+import pathlib
+import re
+import shutil
+import subprocess
 import unittest
 
 from python_case import EXAMPLES, ROOT, PythonCase, example, needs_package, numpy as np, theatron
@@ -88,6 +92,22 @@ class Declarations(unittest.TestCase):
                 said = getattr(theatron, node.name).__doc__.splitlines()[0]
                 for argument in (*node.args.args, *node.args.kwonlyargs):
                     self.assertIn(f"{argument.arg}: ", said)
+
+
+@needs_package
+class Licences(unittest.TestCase):
+    @unittest.skipUnless(shutil.which("readelf"), "readelf is not installed: apt-get install binutils")
+    def test_the_module_is_linked_with_nothing_under_the_gpl(self):
+        listed = subprocess.run(["readelf", "-d", theatron._theatron.__file__], capture_output=True, text=True, check=True).stdout
+        needed = re.findall(r"\(NEEDED\).*\[(.*)\]", listed)
+        self.assertIn("libc.so.6", needed)
+        for name in needed:
+            self.assertNotRegex(name, r"spqr|cholmod|suitesparse|cxsparse|ceres|x264|x265|xvid|libav|libsw")
+
+    def test_the_notices_of_what_it_contains_lie_beside_it(self):
+        notices = (pathlib.Path(theatron._theatron.__file__).parent / "licences.txt").read_text()
+        for holder in ("Wenzel Jakob", "Niels Lohmann"):
+            self.assertIn(holder, notices)
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 import csv
 import gc
 import json
+import os
 import struct
 import sys
 import threading
@@ -79,6 +80,8 @@ class Recordings(PythonCase):
             found = next(iterator)
             self.assertEqual(found.number, wanted.number)
             np.testing.assert_array_equal(found.depth, wanted.depth)
+        iterator.seek(frames[3].seconds - 0.001)
+        self.assertEqual(next(iterator).number, frames[3].number)
         iterator.seek(frames[-1].seconds + 1)
         self.assertRaises(StopIteration, next, iterator)
         part = recording.frames(start=frames[3].seconds, stop=frames[6].seconds)
@@ -132,6 +135,17 @@ class Recordings(PythonCase):
             self.assertEqual(f"theatron: {raised.exception}\n", errors)
         with self.assertRaisesRegex(theatron.Error, "camera=7 is none of them"):
             theatron.Recording(self.record()).frames(7)
+
+    def test_text_that_is_no_utf8_is_shown(self):
+        content = self.record().read_bytes()
+        self.assertIn(b"source", content)
+        (self.folder / "odd.mkv").write_bytes(content.replace(b"source", b"sour\xff\xfe"))
+        recording = theatron.Recording(self.folder / "odd.mkv")
+        for name in (recording.cameras[0].name, next(recording.frames()).name):
+            self.assertIn(name, ("sour\ufffd\ufffd", "source"))  # a head whose checksum is wrong is not read
+        with self.assertRaisesRegex(theatron.Error, "no\ufffd"):
+            theatron.Recording(os.fsdecode(b"no\xff"))
+        str(recording.remarks), str(recording.cameras), str(recording)
 
     def test_memory_stays_flat_over_100000_frames(self):
         recording = theatron.Recording(self.record())
@@ -215,7 +229,7 @@ class FoldersAndCameras(PythonCase):
             self.assertFalse(frames[0].depth.flags.writeable)
             self.assertRaisesRegex(theatron.Error, "Recording or Folder", camera.seek, 0)
         self.assertEqual(list(camera), [])
-        synthetic = next(theatron.open_camera("synthetic:seconds=1,fps=10,quality=quick"))
+        synthetic = next(theatron.open_camera("synthetic:seconds=2,fps=10,quality=quick"))
         self.assertGreater(synthetic.depth.max(), 0)
         for wrong in ("nonsense", "mkv:a.mkv", "folder:", str(self.folder)):
             self.assertRaises(theatron.Error, theatron.open_camera, wrong)
