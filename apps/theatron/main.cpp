@@ -14,6 +14,7 @@
 #include "base/standard_streams.h"
 #include "capture/mkv_reader.h"
 #include "cases/foreign_files.h"
+#include "cli/instruction_set.h"
 #include "cli/output_end.h"
 #include "commands.h"
 #include "host_config.h"
@@ -41,6 +42,7 @@ int with_output_written(int code) {
 int run(int argc, char** argv) {
     // At the file-size limit, writing then fails with an error instead of ending the process.
     std::signal(SIGXFSZ, SIG_IGN);
+    theatron::cli::hold_to_instruction_set();
     CLI::App app(
         "Theatron: open telepresence for the operating room.\n\n"
         "A host streams its RGB-D cameras; others join with the link that it prints:\n"

@@ -243,9 +243,13 @@ void add_pipeline(CLI::App& bench) {
                         r["viewer_memory_growth_mb"].get<double>());
             std::printf(
                 "  this machine could carry %.1f cameras; %s would be full first, the host's "
-                "costliest stage is %s; zstd1 of a frame %.2f ms\n",
+                "costliest stage is %s\n",
                 r["cameras_possible"].get<double>(), r["ends_first"].get<std::string>().c_str(),
-                r["costliest_stage"].get<std::string>().c_str(), r["yardstick_ms"].get<double>());
+                r["costliest_stage"].get<std::string>().c_str());
+            std::printf(
+                "  %s: %.2f ms of a core for a frame of a camera, %.2f of zstd1 (%.2f ms)\n",
+                r["target"].get<std::string>().c_str(), r["frame_cpu_ms"].get<double>(),
+                r["frame_cpu_of_zstd1"].get<double>(), r["yardstick_ms"].get<double>());
             if (const double others = r["cpu_cores_of_others"].get<double>(); others > 0.2)
                 std::printf("  other programs used %.2f cores meanwhile: measure again alone\n",
                             others);

@@ -12,7 +12,7 @@
 #include "base/statistics.h"
 #include "bench_coder.h"
 #include "bench_filter_yardstick.h"
-#include "bench_targets.h"
+#include "cli/instruction_set.h"
 #include "filter/chain.h"
 #include "filter/stage_rules.h"
 
@@ -239,7 +239,7 @@ nlohmann::json bench_filter(const std::vector<DepthImage>& frames) {
         add_stage("median3_without_validity", "opencv", *opencv);
     return {{"width", camera.size.width},
             {"height", camera.size.height},
-            {"target", target_in_use()},
+            {"target", cli::instruction_set_in_use()},
             {"stages", stages},
             {"chain", chains}};
 }

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -17,6 +18,7 @@
 #include "base/steady_clock.h"
 #include "bench_coder.h"
 #include "child_process.h"
+#include "cli/instruction_set.h"
 #include "host/host_http.h"
 #include "process_usage.h"
 
@@ -64,7 +66,14 @@ std::string costliest_stage(const nlohmann::json& host) {
     return most == total.end() ? "" : most->first;
 }
 
-// zstd level 1 on the depth of one generated frame: a measure of the machine's current speed.
+double thread_cpu_ms() {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return double(time.tv_sec) * 1e3 + double(time.tv_nsec) * 1e-6;
+}
+
+// Processor time of zstd level 1 on the depth of one generated frame: a measure of the machine's
+// current speed.
 double yardstick_ms() {
     constexpr Size size{640, 576};
     DepthImage depth(size);
@@ -76,9 +85,9 @@ double yardstick_ms() {
     std::vector<double> times;
     Bytes out;
     for (int i = 0; i < 25; ++i) {
-        const TimePoint begin = steady_now();
+        const double begin = thread_cpu_ms();
         (void)zstd->encode(depth, out);
-        times.push_back(to_ms(steady_now() - begin));
+        times.push_back(thread_cpu_ms() - begin);
     }
     return median(times);
 }
@@ -142,7 +151,7 @@ nlohmann::json capacity(const UsageSample& before, const UsageSample& after, dou
 }  // namespace
 
 nlohmann::json bench_pipeline(const PipelineBench& bench) {
-    const double yardstick = yardstick_ms();
+    const double yardstick_before = yardstick_ms();
     const TemporaryFolder folder;
     const std::string summary_file = (folder.path / "host.json").string();
     std::vector<std::string> arguments = {"host",        "--listen",
@@ -212,6 +221,10 @@ nlohmann::json bench_pipeline(const PipelineBench& bench) {
     const double carried =
         offered > 0 ? std::min(1.0, frames / bench.seconds / bench.viewers / offered) : 0;
     const nlohmann::json load = capacity(before, after, cameras * carried);
+    // Host and viewers together, for each frame of a camera that a viewer decoded.
+    const double frames_per_s = std::max(frames / bench.seconds / bench.viewers, 1.0);
+    const double frame_cpu_ms = load["cores"].get<double>() * 1000 / frames_per_s;
+    const double yardstick = (yardstick_before + yardstick_ms()) / 2;
     double viewer_growth = 0;
     for (std::size_t i = 0; i < viewers.size(); ++i)
         viewer_growth =
@@ -225,7 +238,10 @@ nlohmann::json bench_pipeline(const PipelineBench& bench) {
             {"fps_min", fps_min},
             {"frames_dropped", dropped},
             {"mbit_per_camera", mbit / cameras / bench.viewers},
+            {"target", cli::instruction_set_in_use()},
             {"cpu_cores", load["cores"]},
+            {"frame_cpu_ms", frame_cpu_ms},
+            {"frame_cpu_of_zstd1", frame_cpu_ms / yardstick},
             {"cpu_cores_here", load["cores_here"]},
             {"cpu_cores_of_others", load["others"]},
             {"cpu_shares", load["shares"]},

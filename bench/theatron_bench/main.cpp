@@ -3,15 +3,14 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <exception>
 #include <string>
 
 #include "base/error.h"
 #include "base/standard_streams.h"
 #include "bench_commands.h"
-#include "bench_targets.h"
 #include "capture/mkv_reader.h"
+#include "cli/instruction_set.h"
 #include "ffmpeg/ffmpeg.h"
 
 int main(int argc, char** argv) {
@@ -20,17 +19,13 @@ int main(int argc, char** argv) {
         theatron::sandbox::run_as_child(argc, argv, theatron::capture::foreign_readers);
         // Yardsticks call it; this program is linked with FFmpeg for further functions anyway.
         theatron::ffmpeg::load_if_there();
-        if (const char* target = std::getenv(theatron::bench::targets_variable)) {
-            theatron::bench::hold_to_target(target);
-            std::fprintf(stderr, "theatron: the kernels use no better instruction set than %s.\n",
-                         target);
-        }
+        theatron::cli::hold_to_instruction_set();
         CLI::App app("Measure codecs, filters, renderers and the whole way of a frame",
                      "theatron bench");
-        app.footer(std::string(theatron::bench::targets_variable) +
+        app.footer(std::string(theatron::cli::instruction_set_variable) +
                    "=NAME in the environment holds the vector kernels to an instruction set of "
                    "this machine: " +
-                   theatron::bench::known_targets() + ".");
+                   theatron::cli::known_instruction_sets() + ".");
         app.require_subcommand(1);
         theatron::bench::add_benchmarks(app);
         const auto known = app.get_subcommands({});
