@@ -28,5 +28,7 @@ public:
 
 // The libraries used as yardsticks, as far as this build has them.
 std::vector<std::unique_ptr<BenchCoder>> depth_yardsticks();
+// The yardstick zstd1_raw alone, which every build has.
+std::vector<std::unique_ptr<BenchCoder>> zstd_yardstick();
 
 }  // namespace theatron

@@ -168,9 +168,14 @@ private:
 
 }  // namespace
 
-std::vector<std::unique_ptr<BenchCoder>> depth_yardsticks() {
+std::vector<std::unique_ptr<BenchCoder>> zstd_yardstick() {
     std::vector<std::unique_ptr<BenchCoder>> coders;
     coders.push_back(std::make_unique<ZstdRaw>());
+    return coders;
+}
+
+std::vector<std::unique_ptr<BenchCoder>> depth_yardsticks() {
+    std::vector<std::unique_ptr<BenchCoder>> coders = zstd_yardstick();
 #if THEATRON_BENCH_CHARLS
     coders.push_back(std::make_unique<JpegLs>());
 #endif
