@@ -20,6 +20,7 @@
 #include "bench_report.h"
 #include "bench_sequence.h"
 #include "bench_slices.h"
+#include "bench_table1.h"
 #include "bench_view.h"
 #include "bench_voice.h"
 #include "bench_web.h"
@@ -520,6 +521,7 @@ void add_benchmarks(CLI::App& app) {
     add_pipeline(app);
     add_render(app);
     add_slices_bench(app);
+    add_table1_bench(app);
     add_voice_bench(app);
     add_web_bench(app);
     add_view(app);

@@ -184,7 +184,8 @@ private:
 
 nlohmann::json bench_depth_sequence(const std::string& sequence_name,
                                     const std::vector<DepthImage>& frames,
-                                    const std::vector<std::string>& codecs) {
+                                    const std::vector<std::string>& codecs,
+                                    DepthYardsticks yardsticks) {
     if (frames.empty())
         throw Error("The sequence '" + sequence_name + "' has no depth images.");
     const Size size = frames.front().size;
@@ -203,8 +204,11 @@ nlohmann::json bench_depth_sequence(const std::string& sequence_name,
             throw Error(missing);
         coders.push_back(std::make_unique<StreamCoder>(parsed.setting));
     }
-    for (auto& yardstick : depth_yardsticks())
-        coders.push_back(std::move(yardstick));
+    if (yardsticks == DepthYardsticks::zstd)
+        coders.push_back(zstd_yardstick());
+    else
+        for (auto& yardstick : depth_yardsticks())
+            coders.push_back(std::move(yardstick));
 
     nlohmann::json rows = nlohmann::json::array();
     for (const auto& coder : coders)

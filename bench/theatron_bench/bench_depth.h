@@ -10,10 +10,12 @@
 
 namespace theatron {
 
+enum class DepthYardsticks { all, zstd };
+
 // Encodes and decodes `frames`, all of one size, with each of `codecs` (settings such as
 // "zstd:delta=1"), on one thread. Every decoded frame is compared with its original before
 // anything is timed. Libraries are added as yardsticks: zstd1_raw (zstd level 1 on the raw
-// pixels) always, JPEG-LS and FFV1 if this build has them.
+// pixels) always, with `all` JPEG-LS and FFV1 if this build has them.
 //
 // Returns {sequence, width, height, frames, codecs: [{name, lossless,
 // max_error_mm, rmse_mm, bytes_first, bytes_mean, ratio, encode_ms, decode_ms}]}. Means and
@@ -24,6 +26,7 @@ namespace theatron {
 // lossless codec that changed a pixel.
 nlohmann::json bench_depth_sequence(const std::string& sequence_name,
                                     const std::vector<DepthImage>& frames,
-                                    const std::vector<std::string>& codecs);
+                                    const std::vector<std::string>& codecs,
+                                    DepthYardsticks yardsticks = DepthYardsticks::all);
 
 }  // namespace theatron

@@ -203,14 +203,15 @@ double time_hole_iteration(const filter::ChainCamera& camera) {
 
 }  // namespace
 
-nlohmann::json bench_filter(const std::vector<DepthImage>& frames) {
+nlohmann::json bench_filter(const std::vector<DepthImage>& frames,
+                            const std::vector<std::string>& names) {
     const filter::ChainCamera camera{.size = frames.front().size};
     nlohmann::json stages = nlohmann::json::array(), chains = nlohmann::json::array();
     const auto add_stage = [&](const std::string& name, const std::string& variant, double ms) {
         stages.push_back({{"name", name}, {"variant", variant}, {"ms", ms}});
     };
 
-    for (const std::string preset : {"paper", "default", "default+speckles", "stereo"}) {
+    for (const std::string& preset : names) {
         const filter::ChainSettings settings = filter::parse_chain(preset).settings;
         std::vector<DepthPlane> planes;
         for (const DepthImage& frame : frames) {

@@ -22,8 +22,10 @@ void add_filter_bench(CLI::App& bench);
 // `of_zstd1` is the chain's share of its time. References have neither. Before the timing, the
 // pixels of every stage are compared with those of its reference. `variant` is `simd`, `reference`
 // or a library's name; in `chain` it is the name of the chain, with `/reference` for the sum of its
-// stages' references.
-nlohmann::json bench_filter(const std::vector<DepthImage>& frames);
+// stages' references. `names`: presets, with further filters or without.
+nlohmann::json bench_filter(const std::vector<DepthImage>& frames,
+                            const std::vector<std::string>& names = {"paper", "default",
+                                                                     "default+speckles", "stereo"});
 
 // The accuracy of a chain on scenes with known depth. Keys: docs/filters.md. `stereo`: the scenes
 // are seen by a stereo camera instead of a time-of-flight camera.

@@ -2,9 +2,7 @@
 #include "bench_render.h"
 
 #include <algorithm>
-#include <chrono>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <optional>
 
 #include "base/error.h"
@@ -16,8 +14,6 @@
 #include "render/offscreen_context_native.h"
 #include "render/render_target.h"
 #include "render/room_picture.h"
-#include "room/people.h"
-#include "room/virtual_room.h"
 
 namespace theatron::bench {
 namespace {
@@ -27,22 +23,6 @@ using render::CloudSet;
 using render::Picture;
 
 constexpr Rgb black{};
-
-// The time until the GPU has finished `work`, in milliseconds.
-template <class Work>
-double timed_ms(const Work& work) {
-    glFinish();
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    glFinish();
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-        .count();
-}
-
-void upload(CloudSet& scene, int id, const RenderBenchCamera& camera) {
-    if (scene.upload(CameraId(id), camera.depth.view(), camera.color.view()) != Status::ok)
-        throw Error("A camera's images do not have the size of its calibration.");
-}
 
 // The colour of a point in the camera's own picture, if it is visible there.
 std::optional<Rgb> color_of(const RenderBenchCamera& camera, Vec3 point) {
@@ -115,51 +95,25 @@ nlohmann::json bench_rooms(const RenderBench& bench, const CameraView& view,
                            const render::RenderTarget& target, CloudSet& clouds) {
     struct Case {
         const char* name;
-        std::optional<render::SceneQuality> quality;
-        room::VirtualRoom room;
-        render::SceneFrame frame;
+        std::optional<FurnishedRoom> room;
         std::vector<double> frame_ms, build_ms;
     };
     Case cases[3];
     cases[0].name = "clouds alone";
     cases[1].name = "room low";
-    cases[1].quality = render::SceneQuality::low;
+    cases[1].room.emplace(render::SceneQuality::low, view);
     cases[2].name = "room high";
-    cases[2].quality = render::SceneQuality::high;
+    cases[2].room.emplace(render::SceneQuality::high, view);
     render::ScenePasses passes;
-    const room::People avatars;
-    // They face the eye.
-    const Pose turned{rotation_about({1, 0, 0}, std::numbers::pi), {}};
-    std::vector<room::RoomPerson> people(2);
-    for (int i = 0; i < 2; ++i) {
-        Pose head = view.room_from_eye * turned;
-        head.translation = view.room_from_eye * Vec3{i ? 0.5 : -0.5, 0.1, 1.4};
-        people[std::size_t(i)].id = ParticipantId{std::uint32_t(i + 1)};
-        people[std::size_t(i)].head = head;
-        head.translation = view.room_from_eye * Vec3{i ? 0.2 : -0.2, 0.3, 1.2};
-        people[std::size_t(i)].right_hand = head;
-    }
     for (int round = 0; round <= bench.repetitions; ++round)
         for (Case& c : cases) {
-            // The whole furniture, as if no camera saw any of it.
-            const auto fill = [&] {
-                c.frame.objects.clear();
-                c.frame.texts.clear();
-                c.frame.quality = *c.quality;
-                c.room.build(c.frame.quality);
-                c.room.add_to(c.frame, view);
-                avatars.add_to(c.frame, people, view);
-            };
-            if (c.quality && round <= 3) {
-                c.room = {};
-                c.room.set_cameras({});
-                c.build_ms.push_back(timed_ms(fill));
+            if (c.room && round <= 3) {
+                c.room->forget();
+                c.build_ms.push_back(gpu_ms([&] { (void)c.room->fill(); }));
             }
-            const double ms = timed_ms([&] {
+            const double ms = gpu_ms([&] {
                 target.clear(black);
-                if (c.quality)
-                    fill();
-                render::draw({c.quality ? &c.frame : nullptr,
+                render::draw({c.room ? &c.room->fill() : nullptr,
                               {{&clouds, "mesh"}},
                               {{view, target.target()}}},
                              &passes);
@@ -216,11 +170,11 @@ nlohmann::json bench_render(const RenderBench& bench) {
         // compiles programs and allocates buffers and is not counted.
         for (int round = 0; round <= bench.repetitions; ++round)
             for (std::size_t r = 0; r < renderers.size(); ++r) {
-                const double up = timed_ms([&] {
+                const double up = gpu_ms([&] {
                     for (int i = 0; i < count; ++i)
                         upload(scene, i, bench.cameras[std::size_t(i)]);
                 });
-                const double frame = timed_ms([&] {
+                const double frame = gpu_ms([&] {
                     target.clear(black);
                     scene.draw(view, target.target(), renderers[r]);
                 });

@@ -6,17 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "geometry/calibration.h"
-#include "image/image.h"
+#include "bench_clouds.h"
 
 namespace theatron::bench {
-
-// The input of one camera: calibration and pictures.
-struct RenderBenchCamera {
-    Calibration calibration;
-    DepthImage depth;
-    ColorImage color;
-};
 
 // `count` cameras around a small generated scene, on half a circle, with the sizes of an Azure
 // Kinect: 640x576 depth, 1280x720 colour.

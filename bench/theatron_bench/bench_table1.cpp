@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench_table1.h"
+
+#include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "bench_report.h"
+#include "cli/camera_option.h"
+#include "cli/progress.h"
+#include "table1_measure.h"
+#include "table1_output.h"
+#include "table1_page.h"
+
+namespace theatron::bench {
+namespace {
+
+struct Flags {
+    Table1Options options;
+    bool quick = false;
+    std::string json, csv, page;
+};
+
+std::ofstream opened(const std::string& file) {
+    std::ofstream out(file);
+    if (!out)
+        throw Error("Cannot write " + file + ".");
+    return out;
+}
+
+void write(std::ofstream& out, const std::string& text, const std::string& file) {
+    out << text;
+    if (!out.flush())
+        throw Error("Cannot write " + file + ".");
+}
+
+std::vector<std::string> generated_room(bool quick) {
+    const std::string room = std::string("synthetic:room,seconds=2,") +
+                             (quick ? "quality=quick,color=depth," : "") + "camera=";
+    return {room + "0", room + "1"};
+}
+
+void run(Flags flags) {
+    Table1Options& options = flags.options;
+    if (options.cameras.size() > 2)
+        throw Error("The table has rows of one and of two cameras: give --camera at most twice.");
+    if (options.cameras.empty())
+        options.cameras = generated_room(flags.quick);
+    if (flags.quick)
+        make_quick(options);
+    // A file that cannot be written is told now, not after minutes.
+    std::ofstream csv, page;
+    if (!flags.json.empty() && flags.json != "-")
+        (void)opened(flags.json);
+    if (!flags.csv.empty())
+        csv = opened(flags.csv);
+    if (!flags.page.empty())
+        page = opened(flags.page);
+    const Table1Measured measured = measure_table1(options, cli::show_progress());
+    const std::vector<Table1Row> rows = table1_rows(measured);
+    if (csv.is_open())
+        write(csv, table1_csv(rows), flags.csv);
+    if (page.is_open())
+        write(page, table1_page(measured, rows), flags.page);
+    report(table1_json(measured, rows), flags.json,
+           [&] { std::fputs(table1_text(measured, rows).c_str(), stdout); });
+}
+
+}  // namespace
+
+void add_table1_bench(CLI::App& bench) {
+    const auto flags = std::make_shared<Flags>();
+    CLI::App* command = bench.add_subcommand(
+        "table1", "Table 1 of Fischer et al. 2022, row by row, beside this machine's figures");
+    command->footer(
+        "Without --camera, two cameras of the generated operating room; making their pictures "
+        "takes "
+        "a minute the first time. All of it takes less than ten minutes on two cores.\n"
+        "Example: theatron bench table1 --page table1.html --json table1.json\n"
+        "Example: theatron bench table1 --camera recording:FILE --camera recording:FILE,camera=1");
+    cli::add_camera_option(*command, flags->options.cameras,
+                           "A camera or recording, kind:value,key=value; once more for the second "
+                           "one of the rows with two cameras");
+    command->add_option("--frames", flags->options.frames, "Most pictures of each")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 10000));
+    command->add_option("--runs", flags->options.runs, "Repetitions, for the spread")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 100));
+    command->add_flag("--quick", flags->quick,
+                      "One run of small inputs: whether all works, in a minute; says little of "
+                      "times");
+    command->add_option("--csv", flags->csv, "Write the rows to this file as CSV");
+    command->add_option("--page", flags->page,
+                        "Write a page with plots to this file, HTML that needs no other file");
+    command->add_option("--json", flags->json,
+                        "Write the result to this file; - prints it instead of the table");
+    command->callback([flags] { run(*flags); });
+}
+
+}  // namespace theatron::bench
