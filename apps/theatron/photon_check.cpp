@@ -22,8 +22,9 @@ namespace {
 // A film of a phone, with its usual rate, for as long as it takes to see a hundred pictures or two.
 struct FilmRate {
     double per_second, seconds;
+    unsigned first_seed;  // the clocks of no two films begin alike
 };
-constexpr FilmRate film_rates[] = {{239.76, 3}, {59.94, 5}, {29.97, 10}};
+constexpr FilmRate film_rates[] = {{239.76, 3, 1}, {59.94, 5, 1001}, {29.97, 10, 2001}};
 constexpr double least_delay_ms = 20, most_delay_ms = 200;
 
 struct FilmErrors {
@@ -56,7 +57,7 @@ photon::SimulatedSetup setup_of(const FilmRate& rate, int film, int films) {
     setup.noise = 2 + 3 * (film % 3);
     setup.slant = film % 2;
     setup.size = {480, 270};
-    setup.seed = unsigned(film) + 1;
+    setup.seed = rate.first_seed + unsigned(film);
     return setup;
 }
 

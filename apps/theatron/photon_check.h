@@ -5,7 +5,7 @@
 namespace theatron::app {
 
 struct PhotonCheck {
-    int films = 12;  // for each rate
+    int films = 6;  // for each rate
     bool json = false;
 };
 

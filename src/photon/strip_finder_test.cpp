@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "photon/dark_regions.h"
@@ -24,8 +25,10 @@ void put_strip(GreyImage& grey, StripTime time, const Quad& place, int black = 2
     const PlaneMap map(place, {0, 0}, {strip_width, strip_height});
     const StripCells cells = cells_of(time);
     constexpr int shares = 4;
-    for (int y = 0; y < grey.size.height; ++y)
-        for (int x = 0; x < grey.size.width; ++x) {
+    const auto [left, right] = std::minmax({place[0].x, place[1].x, place[2].x, place[3].x});
+    const auto [top, bottom] = std::minmax({place[0].y, place[1].y, place[2].y, place[3].y});
+    for (int y = int(top); y < std::min(int(bottom) + 1, grey.size.height); ++y)
+        for (int x = int(left); x < std::min(int(right) + 1, grey.size.width); ++x) {
             int sum = 0;
             for (int i = 0; i < shares * shares; ++i) {
                 const Point at = map.to_plane(
