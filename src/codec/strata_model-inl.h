@@ -102,6 +102,20 @@ HWY_INLINE V16 linear_prediction(const Step& s, int lane, const Window& w, V16 a
     return hn::Add(at, hn::BitCast(D16(), hn::ShiftRight<3>(sum)));
 }
 
+// Exchanges the lanes of two vectors where the mask is set. AVX2 chooses between two vectors
+// slowly; SSE 4 and AVX-512 do not.
+HWY_INLINE void exchange(hn::Mask<D16> where, V16& a, V16& b) {
+#if HWY_TARGET == HWY_AVX2
+    const V16 difference = hn::IfThenElseZero(where, hn::Xor(a, b));
+    a = hn::Xor(a, difference);
+    b = hn::Xor(b, difference);
+#else
+    const V16 first = hn::IfThenElse(where, b, a);
+    b = hn::IfThenElse(where, a, b);
+    a = first;
+#endif
+}
+
 // The candidate with the least error on the neighbours, or the mean of the best two.
 HWY_INLINE V16 choose(const V16 (&candidate)[4], const Step& s, const Window& w, Traces& traces,
                       int lane) {
@@ -114,15 +128,15 @@ HWY_INLINE V16 choose(const V16 (&candidate)[4], const Step& s, const Window& w,
     const auto second_of_23 = less(error[3], error[2]);
     const V16 best_01 = hn::Min(error[0], error[1]), worse_01 = hn::Max(error[0], error[1]);
     const V16 best_23 = hn::Min(error[2], error[3]), worse_23 = hn::Max(error[2], error[3]);
-    const V16 pick_01 = hn::IfThenElse(second_of_01, candidate[1], candidate[0]);
-    const V16 other_01 = hn::IfThenElse(second_of_01, candidate[0], candidate[1]);
-    const V16 pick_23 = hn::IfThenElse(second_of_23, candidate[3], candidate[2]);
-    const V16 other_23 = hn::IfThenElse(second_of_23, candidate[2], candidate[3]);
+    // The better one of each pair, and the other; then the best one of all, and that of the other
+    // pair.
+    V16 pick = candidate[0], other_01 = candidate[1], loser = candidate[2], other_23 = candidate[3];
+    exchange(second_of_01, pick, other_01);
+    exchange(second_of_23, loser, other_23);
 
     const auto later = less(best_23, best_01);
     const V16 least = hn::Min(best_01, best_23);
-    const V16 pick = hn::IfThenElse(later, pick_23, pick_01);
-    const V16 loser = hn::IfThenElse(later, pick_01, pick_23);
+    exchange(later, pick, loser);
     const V16 partner = hn::IfThenElse(later, other_23, other_01);
     const V16 loser_error = hn::Max(best_01, best_23);
     const V16 partner_error = hn::IfThenElse(later, worse_23, worse_01);
