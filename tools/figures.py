@@ -293,6 +293,12 @@ def patterned(program, table, row):
     return {column: [drawn[f"psnr_patterned_{key}"]] for column, key in zip(table.columns[1:], keys)}
 
 
+@Figure("docs/table1.md", "table1 sizes", "theatron bench table1 --runs 1", slow=True)
+def table1_sizes(program, table, row):
+    measured = {r["name"]: r for r in program.bench("table1", "--runs", 1)["rows"]}[row[0]]
+    return {"the paper's method here": [measured["same"]["median"]], "Theatron's own choice": [measured["best"]["median"]]}
+
+
 # ---- pictures with an empty border
 
 @functools.cache

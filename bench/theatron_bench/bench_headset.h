@@ -4,7 +4,9 @@
 
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "bench_clouds.h"
@@ -20,7 +22,7 @@ inline constexpr Size vive_pro_eye{1440, 1600};
 inline constexpr double vive_pro_eye_degrees = 98;
 
 struct HeadsetTiming {
-    int pictures = 15;   // at most; two at least
+    int pictures = 15;   // at most; at least one
     double seconds = 4;  // after this time no further one is begun
     bool operator==(const HeadsetTiming&) const = default;
 };
@@ -35,8 +37,8 @@ public:
     std::string renderer_name() const { return context_.renderer_name(); }
 
     // The median time of a picture of both eyes that shows the first `count` cameras, whose images
-    // are all uploaded for each picture: wall clock around glFinish. The first picture, which
-    // compiles programs, is checked for a cloud and not counted. Throws Error for an unknown
+    // are all uploaded for each picture: wall clock around glFinish. The first picture of its kind,
+    // which compiles programs, is checked for a cloud and not counted. Throws Error for an unknown
     // renderer, an empty cloud, and errors of the driver.
     double picture_ms(int count, const std::string& renderer, render::SceneQuality quality,
                       const HeadsetTiming& timing);
@@ -53,6 +55,7 @@ private:
     std::shared_ptr<render::CloudPrograms> programs_;
     std::map<int, render::CloudSet> clouds_;  // by the number of cameras
     std::map<render::SceneQuality, FurnishedRoom> rooms_;
+    std::set<std::tuple<int, std::string, render::SceneQuality>> drawn_;  // kinds of picture
     render::ScenePasses passes_;
 };
 

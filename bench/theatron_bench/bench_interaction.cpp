@@ -224,6 +224,10 @@ nlohmann::json bench_interaction(const InteractionBench& bench) {
         pongs = status.pongs;
     }
     host_cpu = usage_of(host.pid()).cpu_seconds - host_cpu;
+    // The first call asks the decoders' threads for the figures of this moment, and returns older
+    // ones.
+    (void)viewer->figures();
+    std::this_thread::sleep_for(50ms);
     const auto figures = viewer->figures();
     const std::lock_guard lock(ages.mutex);
     if (ages.ms.empty() || round_trips.empty() || figures.empty())

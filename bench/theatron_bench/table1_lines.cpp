@@ -37,7 +37,8 @@ const Sentences headset_picture = {
 const Sentences one_machine = {
     "All programs ran on one machine over its loopback; the paper used two PCs in a LAN.",
     "Here from a call of one participant's client to the changed room of the other one, without "
-    "input device and drawing; the paper's figure includes the ticks of Unreal Engine."};
+    "input device and drawing; how much of the paper's figure is its engine's picture rate is not "
+    "known."};
 
 // A codec's times and size in the paper; 0: not given.
 struct PaperCodec {

@@ -274,7 +274,7 @@ void make_quick(Table1Options& options) {
     options.frames = std::min(options.frames, 4);
     options.runs = 1;
     options.eye = {160, 176};
-    options.headset = {2, 0};
+    options.headset = {1, 0};
     options.session_seconds = 2;
 }
 

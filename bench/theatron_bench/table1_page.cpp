@@ -69,17 +69,17 @@ std::string in_short(const Table1Measured& measured, const std::vector<Table1Row
     if (const auto rate = three(rows, "rate.full"))
         text += item("A camera with 30 pictures a second needs " +
                      formatted("%.1f", rate->best_value * bytes_per_kb * 8e-6) + " Mbit/s here (" +
-                     rate->best + " kB/s); the paper reports " + rate->paper + " kB/s.");
+                     rate->best + " kB/s), without loss of depth; the paper reports " +
+                     rate->paper + " kB/s, with loss.");
     if (const auto filter = three(rows, "filter.chain"))
         text += item("Filtering a picture takes " + filter->best +
                      " ms on one thread of this processor; the paper reports " + filter->paper +
                      " ms on a GPU.");
     if (const auto picture = three(rows, "vr.2.mesh.low")) {
         if (is_software_renderer(measured.gpu))
-            text += item("There was no GPU: pictures for a headset were drawn by the processor (" +
-                         measured.gpu +
-                         "). Their times compare ways of drawing, and say nothing "
-                         "about a headset.");
+            text += item("There was no GPU: " + measured.gpu +
+                         " drew the pictures for a headset with the processor. Their times compare "
+                         "ways of drawing, and say nothing about a headset.");
         else
             text += item("A picture for both eyes with two cameras takes " + picture->same +
                          " ms as a mesh and " + picture->best + " ms blended on " + measured.gpu +
@@ -87,9 +87,10 @@ std::string in_short(const Table1Measured& measured, const std::vector<Table1Row
                          " ms. A headset with 90 pictures a second leaves 11.1 ms.");
     }
     if (const auto action = three(rows, "delay.interaction"))
-        text += item("An action reaches the other participant after " + action->best +
-                     " ms here, on one machine; the paper reports " + action->paper +
-                     " ms between two PCs.");
+        text += item(
+            "An action reaches the other participant after " + action->best +
+            " ms here, on one machine, without a network, input device and drawing; the paper's " +
+            action->paper + " ms are between two PCs in a LAN.");
     text += item(
         "The paper's machine, camera and scene were other ones. A figure here beside a "
         "figure there is no proof that one program is faster; the notes say, row by row, "

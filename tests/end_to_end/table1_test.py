@@ -39,8 +39,8 @@ class Table1(unittest.TestCase):
             for way in ("same", "best"):
                 self.assertGreater(rows[name][way]["median"], 0, name)
         self.assertIn("camera", rows["delay.photon"]["same"]["reason"])
-        # A size is that of lossless coding of these pictures.
-        self.assertLess(rows["depth.trvl.cropped.size"]["best"]["median"], rows["depth.trvl.full.size"]["best"]["median"])
+        kilobytes = sum(rows[name]["same"]["median"] for name in ("color.jpeg.full.size", "depth.trvl.full.size"))
+        self.assertAlmostEqual(rows["rate.full"]["same"]["median"], 30 * kilobytes, delta=0.001 * kilobytes)
         for name in ("vr.1.splat.low", "vr.2.mesh.high"):
             self.assertEqual(rows[name]["same"].get("reason") is None, found["here"]["gl_renderer"] is not None, name)
         lines = list(csv.DictReader(files["csv"].read_text().splitlines()))
