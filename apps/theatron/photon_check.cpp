@@ -25,7 +25,7 @@ struct FilmRate {
     unsigned first_seed;  // the clocks of no two films begin alike
 };
 constexpr FilmRate film_rates[] = {{239.76, 3, 1}, {59.94, 5, 1001}, {29.97, 10, 2001}};
-constexpr double least_delay_ms = 20, most_delay_ms = 200;
+constexpr double first_delay_ms = 20, last_delay_ms = 200;
 
 struct FilmErrors {
     std::vector<double> ms;  // with their signs
@@ -50,7 +50,7 @@ photon::FilmLatency measured(const photon::SimulatedFilm& film) {
 photon::SimulatedSetup setup_of(const FilmRate& rate, int film, int films) {
     const double share = films > 1 ? double(film) / (films - 1) : 0.5;
     photon::SimulatedSetup setup;
-    setup.delay_ms = least_delay_ms + share * (most_delay_ms - least_delay_ms);
+    setup.delay_ms = first_delay_ms + share * (last_delay_ms - first_delay_ms);
     setup.film_fps = rate.per_second;
     setup.seconds = rate.seconds;
     setup.blur_px = 0.5 + 0.5 * (film % 4);

@@ -72,7 +72,9 @@ private:
         frame.times = {};
         frame.times.captured = taken;
         frame.depth.resize(board_depth);
-        std::fill(frame.depth.pixels.begin(), frame.depth.pixels.end(), board_distance_mm);
+        // No sensor gives the same depth image twice: one that does so stands still.
+        std::fill(frame.depth.pixels.begin(), frame.depth.pixels.end(),
+                  std::uint16_t(board_distance_mm + frame.number % 2));
         frame.color.jpeg.clear();
         frame.color.size = board_color;
         frame.color.pixels.resize(board_color);

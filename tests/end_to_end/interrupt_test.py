@@ -78,7 +78,7 @@ class Interrupt(unittest.TestCase):
 
     def test_while_a_recording_is_exported(self):
         recording, disk = self.folder / "a.mkv", SlowDisk(self.folder)
-        box = make_recording(self.folder / "box", width=640, height=480, frames=40)
+        box = make_recording(self.folder / "box", width=640, height=576, frames=40, color=False)
         subprocess.run([PROGRAM, "record", recording, "--camera", f"folder:{box}"], check=True, stdout=subprocess.DEVNULL,
                        stderr=subprocess.DEVNULL)
         for form, place, begun in (("--png", "png", "png/depth/00000.png"), ("--ply", "ply", "ply/00000.ply"),
