@@ -26,15 +26,16 @@ void SameMoment::remove(CameraId camera) {
 }
 
 void SameMoment::note_arrival(CameraId camera, TimePoint moment, TimePoint now) {
-    const auto known = std::ranges::find(moments_, moment, &Moment::moment);
+    const auto known = std::find_if(moments_.begin(), moments_.end(),
+                                    [&](const Moment& other) { return other.moment == moment; });
     if (known != moments_.end()) {
         known->arrivals.emplace(camera, now);
         return;
     }
     if (!moments_.empty() && moment < moments_.front().moment)
         return;
-    const auto later =
-        std::ranges::find_if(moments_, [&](const Moment& other) { return other.moment > moment; });
+    const auto later = std::find_if(moments_.begin(), moments_.end(),
+                                    [&](const Moment& other) { return other.moment > moment; });
     moments_.insert(later, {moment, now, {{camera, now}}});
     if (moments_.size() > open_moments)
         close_moment();
@@ -72,14 +73,14 @@ bool SameMoment::is_waited_for(const Camera& camera, TimePoint now) const {
     if (lateness.empty())
         return true;
     const auto middle = lateness.begin() + std::ptrdiff_t(lateness.size() / 2);
-    std::ranges::nth_element(lateness, middle);
+    std::nth_element(lateness.begin(), middle, lateness.end());
     return *middle <= usual_lateness;
 }
 
 bool SameMoment::has_or_had(const Camera& camera, TimePoint moment) const {
     return (camera.shown && camera.shown->moment >= moment) ||
-           std::ranges::any_of(camera.waiting,
-                               [&](const Arrived& a) { return a.frame->moment >= moment; });
+           std::any_of(camera.waiting.begin(), camera.waiting.end(),
+                       [&](const Arrived& a) { return a.frame->moment >= moment; });
 }
 
 std::vector<receive::CameraFramePtr> SameMoment::take(TimePoint now) {
@@ -90,18 +91,21 @@ std::vector<receive::CameraFramePtr> SameMoment::take(TimePoint now) {
             waited_for.push_back(&camera);
     // Decided for all before any is shown, so that the order of the cameras does not matter.
     std::map<CameraId, std::size_t> shown;  // the number of its frames that wait no more
-    for (auto& [id, camera] : cameras_)
+    for (auto& [id, of_id] : cameras_) {
+        const Camera& camera = of_id;  // a lambda cannot capture `of_id` everywhere
         for (std::size_t i = 0; i < camera.waiting.size(); ++i) {
-            const auto& [frame, at] = camera.waiting[i];
-            const bool is_whole = std::ranges::all_of(waited_for, [&](const Camera* other) {
-                return other == &camera || has_or_had(*other, frame->moment);
-            });
-            const bool waits_in_vain = !is_whole && now - at >= patience;
-            if (frame->past || is_whole || waits_in_vain || !is_waited_for(camera, now))
+            const Arrived& arrived = camera.waiting[i];
+            const bool is_whole =
+                std::all_of(waited_for.begin(), waited_for.end(), [&](const Camera* other) {
+                    return other == &camera || has_or_had(*other, arrived.frame->moment);
+                });
+            const bool waits_in_vain = !is_whole && now - arrived.at >= patience;
+            if (arrived.frame->past || is_whole || waits_in_vain || !is_waited_for(camera, now))
                 shown[id] = i + 1;
             if (waits_in_vain && is_waited_for(camera, now))
                 ++unpaired_;
         }
+    }
     for (const auto& [id, count] : shown) {
         Camera& camera = cameras_.at(id);
         camera.shown = camera.waiting[count - 1].frame;
