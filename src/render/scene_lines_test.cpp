@@ -18,7 +18,7 @@
 namespace theatron::render {
 namespace {
 
-constexpr Rgb orange{230, 159, 0}, blue{0, 114, 178};
+constexpr Rgb orange{230, 159, 0}, line_blue{0, 114, 178};
 constexpr Size wide{640, 360};
 
 // As in WCAG 2.1, which demands 3 to 1 of signs.
@@ -87,7 +87,7 @@ TEST_F(SceneLinesTest, ALineHasItsLeastWidthFarAwayAndItsOwnWhereItIsNear) {
 TEST_F(SceneLinesTest, AnOutlineStandsOutFromTheLineAndFromAnyGround) {
     // The colours of people.
     for (const Rgb color : {Rgb{230, 159, 0}, Rgb{86, 180, 233}, Rgb{0, 158, 115},
-                            Rgb{240, 228, 66}, Rgb{204, 121, 167}, Rgb{213, 94, 0}, blue}) {
+                            Rgb{240, 228, 66}, Rgb{204, 121, 167}, Rgb{213, 94, 0}, line_blue}) {
         EXPECT_GT(contrast(color, outline_color(color)), 4) << int(color.r);
         for (int grey = 0; grey < 256; grey += 15) {
             const Rgb ground{std::uint8_t(grey), std::uint8_t(grey), std::uint8_t(grey)};
@@ -96,10 +96,10 @@ TEST_F(SceneLinesTest, AnOutlineStandsOutFromTheLineAndFromAnyGround) {
         }
     }
     SceneFrame frame;
-    frame.lines = {line(blue)};
+    frame.lines = {line(line_blue)};
     const ColorImage picture = drawn(frame, view_from(2));
-    EXPECT_GE(thickness(picture, outline_color(blue)), 2);
-    EXPECT_NEAR(thickness(picture, blue), 4, 1);
+    EXPECT_GE(thickness(picture, outline_color(line_blue)), 2);
+    EXPECT_NEAR(thickness(picture, line_blue), 4, 1);
 }
 
 TEST_F(SceneLinesTest, APiecewiseLineHasNoGapsAndNoOutlineAcross) {
