@@ -21,10 +21,10 @@ trap end_builder EXIT
 [ -e demo/case ] || "$program" case synth demo/case --dicom demo/ct
 if ! command -v em++ > /dev/null; then
     echo "demo: em++ is missing, so the demo has no browser client"
-elif ! { cmake --preset web && ninja -C build/web -n page | grep -q 'no work to do'; } > "$log" 2>&1; then
+elif ! ninja -C build/web -n page 2> /dev/null | grep -q 'no work to do'; then
     echo "demo: the browser client is built while you look; its link opens in a browser in some minutes"
     # A process group of its own: Ctrl-C ends the demo, and the demo's end the building.
-    setsid nice -n 15 cmake --build --preset web --target page > "$log" 2>&1 &
+    setsid nice -n 15 sh -c 'cmake --preset web && cmake --build --preset web --target page' > "$log" 2>&1 &
     builder=$!
 fi
 "$program" demo "$@"

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <functional>
 #include <string>
 #include <utility>
@@ -19,6 +20,17 @@ inline std::function<std::string(std::string)> number_check(std::function<bool(d
                    ? std::string()
                    : "'" + text + "' " + otherwise;
     };
+}
+
+// For CLI::Option::check(): a number from `least` to `most`.
+inline std::function<std::string(std::string)> number_from_to(double least, double most) {
+    const auto text = [](double value) {
+        char digits[32] = {};
+        std::snprintf(digits, sizeof digits, "%g", value);
+        return std::string(digits);
+    };
+    return number_check([=](double value) { return value >= least && value <= most; },
+                        "is not a number from " + text(least) + " to " + text(most));
 }
 
 }  // namespace theatron::cli

@@ -15,8 +15,15 @@ std::shared_ptr<ColorImage> CameraView::decode(ByteView jpeg) const {
 std::vector<ColoredPoint> CameraView::points(const Frame& frame, bool in_room) const {
     std::vector<ColoredPoint> points;
     const std::lock_guard lock(mutex_);
-    if (!points_)
-        points_.emplace(calibration_, undecoded_of_points_);
+    // A host that is too busy sends smaller pictures.
+    const ColorImage& pixels = frame.color.pixels;
+    const Size color = pixels.empty() ? calibration_.color.size : pixels.size;
+    if (!points_ || points_->calibration().color.size != color) {
+        Calibration calibration = calibration_;
+        if (calibration.color.size.area() > 0)
+            calibration.color = scaled(calibration.color, color);
+        points_.emplace(calibration, undecoded_of_points_);
+    }
     points_->append(frame, points);
     if (in_room)
         transform_points(calibration_.room_from_camera, points);

@@ -18,6 +18,10 @@ class FramesIterator {
 public:
     // `stop`: frames from this time on are not given, in seconds.
     FramesIterator(std::unique_ptr<FrameReader> reader, double start, std::optional<double> stop);
+    // Needs Python's lock.
+    ~FramesIterator() { close(); }
+    FramesIterator(const FramesIterator&) = delete;
+    FramesIterator& operator=(const FramesIterator&) = delete;
 
     // Needs Python's lock, which is released while it waits and decodes. Throws StopIteration
     // (pybind11::stop_iteration) at the end.

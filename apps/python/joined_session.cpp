@@ -36,16 +36,19 @@ client::Participant::Options options_of(const JoinedSession::Options& given) {
 
 class SessionReader final : public FrameReader {
 public:
-    explicit SessionReader(std::shared_ptr<JoinedSession> session) : session_(std::move(session)) {}
+    explicit SessionReader(std::weak_ptr<JoinedSession> session) : session_(std::move(session)) {}
 
-    Answer next(TakenFrame& out) override { return session_->next(out); }
+    Answer next(TakenFrame& out) override {
+        const std::shared_ptr<JoinedSession> session = session_.lock();
+        return session ? session->next(out) : Answer::end;
+    }
     void seek(Duration) override {
         throw Error("A session is live; record it with 'theatron record', and open the recording.");
     }
     capture::PictureLosses losses() const override { return {}; }
 
 private:
-    const std::shared_ptr<JoinedSession> session_;
+    const std::weak_ptr<JoinedSession> session_;
 };
 
 }  // namespace
@@ -136,7 +139,7 @@ TakenFrame JoinedSession::taken(const receive::CameraFrame& frame) {
             .utc = utc_now() - (participant_.now() - frame.times.captured)};
 }
 
-std::unique_ptr<FrameReader> read_session(std::shared_ptr<JoinedSession> session) {
+std::unique_ptr<FrameReader> read_session(std::weak_ptr<JoinedSession> session) {
     return std::make_unique<SessionReader>(std::move(session));
 }
 

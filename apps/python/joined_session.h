@@ -25,6 +25,12 @@ public:
 
     // Waits at most a tenth of a second. True once it has joined. Throws Error if it is refused.
     bool is_joined();
+    // An operator must let it in, which may take long.
+    bool is_at_door() const {
+        return participant_.status().phase == client::Participant::Phase::waiting;
+    }
+    // Why it is not joined, as far as it is known; one sentence or empty.
+    std::string problem() const { return participant_.status().problem; }
 
     std::string host_name() const { return participant_.status().host_name; }
     std::vector<std::shared_ptr<const CameraView>> cameras();
@@ -48,7 +54,7 @@ private:
     FramePool pool_;
 };
 
-// The frames of a session, which it keeps.
-std::unique_ptr<FrameReader> read_session(std::shared_ptr<JoinedSession> session);
+// The frames of a session, until nobody has it any more.
+std::unique_ptr<FrameReader> read_session(std::weak_ptr<JoinedSession> session);
 
 }  // namespace theatron::python

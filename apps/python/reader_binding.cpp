@@ -3,6 +3,8 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <charconv>
+
 #include "base/error.h"
 #include "base/options.h"
 #include "bindings.h"
@@ -20,8 +22,11 @@ constexpr const char* kinds_of_the_program[] = {"mkv", "video", "x11", "v4l2", "
 
 std::unique_ptr<FramesIterator> open_folder(const std::filesystem::path& folder, double fps,
                                             int invalid, double start, std::optional<double> stop) {
-    const std::string text = "folder:" + folder.string() + ",fps=" + std::to_string(fps) +
-                             ",invalid=" + std::to_string(invalid);
+    // Without std::to_string, whose six digits turn 29.97003 into another rate.
+    char rate[32] = {};
+    std::to_chars(rate, rate + sizeof rate - 1, fps);
+    const std::string text = "folder:" + std::filesystem::absolute(folder).string() +
+                             ",fps=" + rate + ",invalid=" + std::to_string(invalid);
     std::unique_ptr<FrameReader> reader;
     {
         const py::gil_scoped_release released;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "cli/number_check.h"
 #include "cli/progress.h"
 #include "cli/stop_signal.h"
 #include "commands.h"
@@ -358,9 +359,9 @@ void add_export_command(CLI::App& app) {
         ->check(CLI::Range(0, 62));
     constexpr double longest = 1e6;
     command->add_option("--from", flags->from, "Only frames from this second of the recording on")
-        ->check(CLI::Range(0.0, longest));
+        ->check(cli::number_from_to(0.0, longest));
     command->add_option("--to", flags->to, "Only frames before this second of the recording")
-        ->check(CLI::Range(0.001, longest));
+        ->check(cli::number_from_to(0.001, longest));
     command
         ->add_option("--every", flags->every,
                      "Only the first of these frames and then each of this count")

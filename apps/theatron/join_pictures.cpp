@@ -52,7 +52,7 @@ OffscreenPicture::OffscreenPicture(ViewPicture wanted)
 }
 
 void OffscreenPicture::take(client::Participant& participant, RoomLines& room) {
-    scene_.take(participant);
+    (void)scene_.take(participant);
     if (scene_.can_draw(wanted_.view) && !first_head_) {
         first_head_ = scene_.view(wanted_.view, wanted_.size).room_from_eye * eye_from_head;
         if (!room.head())

@@ -2,6 +2,7 @@
 // theatron photon
 #include <memory>
 
+#include "cli/number_check.h"
 #include "cli/seconds_option.h"
 #include "commands.h"
 #include "join_pictures.h"
@@ -88,7 +89,7 @@ void add_film(CLI::App& photon) {
                      "Refreshes a second of the scene's screen, which a film with fewer frames "
                      "cannot tell")
         ->capture_default_str()
-        ->check(CLI::Range(20.0, 1000.0));
+        ->check(cli::number_from_to(20.0, 1000.0));
     command->add_option("--plot", wanted->plot, "Draw all latencies into this SVG file");
     command->add_flag("--overwrite", wanted->overwrite, "Replace a plot that is there");
     command->add_flag("--json", wanted->json, "Print the figures as one JSON line");

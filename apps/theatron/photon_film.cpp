@@ -13,6 +13,7 @@
 #include "base/steady_clock.h"
 #include "capture/readable_file.h"
 #include "capture/video_recording.h"
+#include "export/export_places.h"
 #include "files/file_bytes.h"
 #include "files/json_text.h"
 #include "photon/film_strips.h"
@@ -131,9 +132,7 @@ void check_film_plot(const PhotonFilm& wanted) {
         return;
     if (std::filesystem::path(wanted.plot).extension() != ".svg")
         throw Error("The plot '" + wanted.plot + "' does not end in .svg.");
-    if (std::error_code ignored; !wanted.overwrite && std::filesystem::exists(wanted.plot, ignored))
-        throw Error("'" + wanted.plot +
-                    "' exists already; name another file, or give --overwrite.");
+    exporting::require_free(wanted.plot, wanted.overwrite);
     files::require_writable(wanted.plot);
 }
 

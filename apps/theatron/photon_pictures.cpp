@@ -17,6 +17,8 @@ namespace theatron::app {
 namespace {
 
 constexpr Duration picture_wait = 100ms;
+// A frame that waits for that of another camera is shown this much late at most.
+constexpr Duration partner_wait = 2ms;
 
 client::Participant::Options photon_options(const PhotonRead& wanted) {
     client::Participant::Options join;
@@ -40,8 +42,8 @@ public:
     }
 
     const ColorImage* next() override {
-        const bool is_new = participant_.wait_for_frame(picture_wait);
-        scene_.take(participant_);
+        (void)participant_.wait_for_frame(scene_.waits() ? partner_wait : picture_wait);
+        const bool is_new = scene_.take(participant_);
         const auto status = participant_.status();
         using Phase = client::Participant::Phase;
         if (status.phase == Phase::refused || status.phase == Phase::ended)

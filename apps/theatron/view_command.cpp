@@ -22,9 +22,12 @@ namespace fs = std::filesystem;
 class OwnFolder {
 public:
     OwnFolder() {
-        std::string name = (fs::temp_directory_path() / "theatron-view-XXXXXX").string();
-        if (!mkdtemp(name.data()))
-            throw Error("No folder can be made in '" + fs::temp_directory_path().string() +
+        std::error_code problem;
+        const fs::path folder = fs::temp_directory_path(problem);
+        std::string name = (folder / "theatron-view-XXXXXX").string();
+        if (problem || !mkdtemp(name.data()))
+            throw Error("No folder can be made in '" +
+                        (problem ? std::string(std::getenv("TMPDIR")) : folder.string()) +
                         "'; TMPDIR names another place.");
         path_ = name;
     }

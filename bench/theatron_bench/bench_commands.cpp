@@ -27,6 +27,7 @@
 #include "capture/crop.h"
 #include "capture/tiled_recording.h"
 #include "cli/camera_option.h"
+#include "cli/number_check.h"
 #include "cli/progress.h"
 #include "codec/depth_codec.h"
 #include "codec/rows.h"
@@ -284,7 +285,7 @@ void add_interaction(CLI::App& bench) {
         ->check(CLI::Range(1, 64));
     command->add_option("--seconds", b.seconds, "Measured time")
         ->capture_default_str()
-        ->check(CLI::Range(2.0, 86400.0));
+        ->check(cli::number_from_to(2.0, 86400.0));
     command->add_option("--warmup", b.warmup_seconds, "Time before that")->capture_default_str();
     command->add_option("--target-latency", b.target_latency_ms, "Of the viewer's pictures, ms")
         ->capture_default_str()
@@ -296,7 +297,7 @@ void add_interaction(CLI::App& bench) {
         ->needs("--host-namespace");
     command->add_option("--link-delay", b.link_delay_ms, "Of the link between them, one way, ms")
         ->capture_default_str()
-        ->check(CLI::Range(0.0, 10000.0));
+        ->check(cli::number_from_to(0.0, 10000.0));
     command->add_option("--cases", b.cases, "A folder; the viewer fetches its first case");
     command
         ->add_option("--crowd", b.crowd,
@@ -405,14 +406,14 @@ void add_view(CLI::App& bench) {
         ->add_option("--exposure", flags->scene.exposure_stops,
                      "How far the cameras' exposures differ, in stops")
         ->capture_default_str()
-        ->check(CLI::Range(0.0, 1.0));
+        ->check(cli::number_from_to(0.0, 1.0));
     command
         ->add_option("--filter", flags->filter,
                      "Of all cameras: off, paper, default, stereo or a line")
         ->capture_default_str();
     command->add_option("--detail", flags->scene.detail, "Of the generated room, 0.3 to 1")
         ->capture_default_str()
-        ->check(CLI::Range(0.3, 1.0));
+        ->check(cli::number_from_to(0.3, 1.0));
     command->add_option("--pictures", flags->pictures, "Write the pictures to this folder");
     command->add_option("--json", flags->json,
                         "Write the result to this file; - prints it instead of the table");

@@ -2,13 +2,14 @@
 #include "bench_table1.h"
 
 #include <cstdio>
-#include <fstream>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "base/error.h"
 #include "bench_report.h"
 #include "cli/camera_option.h"
 #include "cli/progress.h"
+#include "files/file_bytes.h"
 #include "table1_measure.h"
 #include "table1_output.h"
 #include "table1_page.h"
@@ -22,17 +23,9 @@ struct Flags {
     std::string json, csv, page;
 };
 
-std::ofstream opened(const std::string& file) {
-    std::ofstream out(file);
-    if (!out)
-        throw Error("Cannot write " + file + ".");
-    return out;
-}
-
-void write(std::ofstream& out, const std::string& text, const std::string& file) {
-    out << text;
-    if (!out.flush())
-        throw Error("Cannot write " + file + ".");
+void write(const std::string& file, const std::string& text) {
+    if (!file.empty())
+        files::write_file(file, std::as_bytes(std::span(text)));
 }
 
 std::vector<std::string> generated_room(bool quick) {
@@ -50,19 +43,13 @@ void run(Flags flags) {
     if (flags.quick)
         make_quick(options);
     // A file that cannot be written is told now, not after minutes.
-    std::ofstream csv, page;
-    if (!flags.json.empty() && flags.json != "-")
-        (void)opened(flags.json);
-    if (!flags.csv.empty())
-        csv = opened(flags.csv);
-    if (!flags.page.empty())
-        page = opened(flags.page);
+    for (const std::string& file : {flags.json, flags.csv, flags.page})
+        if (!file.empty() && file != "-")
+            files::require_writable(file);
     const Table1Measured measured = measure_table1(options, cli::show_progress());
     const std::vector<Table1Row> rows = table1_rows(measured);
-    if (csv.is_open())
-        write(csv, table1_csv(rows), flags.csv);
-    if (page.is_open())
-        write(page, table1_page(measured, rows), flags.page);
+    write(flags.csv, table1_csv(rows));
+    write(flags.page, table1_page(measured, rows));
     report(table1_json(measured, rows), flags.json,
            [&] { std::fputs(table1_text(measured, rows).c_str(), stdout); });
 }

@@ -20,6 +20,7 @@
 #include "bench_report.h"
 #include "child_process.h"
 #include "cli/camera_option.h"
+#include "cli/number_check.h"
 #include "client/participant.h"
 #include "files/file_bytes.h"
 #include "process_usage.h"
@@ -276,7 +277,7 @@ void add_voice_bench(CLI::App& bench) {
     cli::add_camera_option(*command, flags->bench.cameras);
     command->add_option("--seconds", flags->bench.seconds, "Measured time")
         ->capture_default_str()
-        ->check(CLI::Range(2.0, 3600.0));
+        ->check(cli::number_from_to(2.0, 3600.0));
     command->add_option("--voice-frame", flags->bench.frame_ms, "Milliseconds of a packet")
         ->capture_default_str()
         ->check(CLI::IsMember({10, 20}));

@@ -16,6 +16,7 @@
 #include "browser_page.h"
 #include "child_process.h"
 #include "cli/camera_option.h"
+#include "cli/number_check.h"
 #include "client/participant.h"
 
 namespace theatron::bench {
@@ -214,7 +215,7 @@ void add_web_bench(CLI::App& bench) {
     cli::add_camera_option(*command, flags->bench.cameras);
     command->add_option("--seconds", flags->bench.seconds, "Measured time of each run")
         ->capture_default_str()
-        ->check(CLI::Range(1.0, 3600.0));
+        ->check(cli::number_from_to(1.0, 3600.0));
     command->add_option("--runs", flags->bench.runs, "Each with an empty cache")
         ->capture_default_str()
         ->check(CLI::Range(1, 100));

@@ -95,7 +95,4 @@ struct Table1Row {
 // by its line.
 std::vector<Table1Row> table1_rows(const Table1Measured& measured);
 
-// A driver that draws with the processor.
-bool is_software_renderer(std::string_view gl_renderer);
-
 }  // namespace theatron::bench

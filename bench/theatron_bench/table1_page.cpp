@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "render/gl_driver.h"
 #include "svg_drawing.h"
 #include "table1_output.h"
 
@@ -76,7 +77,7 @@ std::string in_short(const Table1Measured& measured, const std::vector<Table1Row
                      " ms on one thread of this processor; the paper reports " + filter->paper +
                      " ms on a GPU.");
     if (const auto picture = three(rows, "vr.2.mesh.low")) {
-        if (is_software_renderer(measured.gpu))
+        if (render::is_software(measured.gpu))
             text += item("There was no GPU: " + measured.gpu +
                          " drew the pictures for a headset with the processor. Their times compare "
                          "ways of drawing, and say nothing about a headset.");

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "base/statistics.h"
+#include "render/gl_driver.h"
 #include "table1.h"
 #include "table1_inputs.h"
 
@@ -68,7 +69,7 @@ std::vector<std::string> differences(const Table1Measured& measured, const Table
         result.push_back("Another processor: the paper's is an Intel i7-7800X.");
     if (line.device == Table1Device::gpu) {
         result.push_back("Another GPU: the paper's is a GeForce RTX 2070.");
-        if (is_software_renderer(measured.gpu))
+        if (render::is_software(measured.gpu))
             result.push_back(measured.gpu +
                              " draws with the processor: the time says nothing about a headset, "
                              "only how the ways of drawing compare with each other.");
@@ -78,13 +79,6 @@ std::vector<std::string> differences(const Table1Measured& measured, const Table
 }
 
 }  // namespace
-
-bool is_software_renderer(std::string_view gl_renderer) {
-    for (const std::string_view name : {"llvmpipe", "softpipe", "SwiftShader"})
-        if (gl_renderer.find(name) != std::string_view::npos)
-            return true;
-    return false;
-}
 
 std::vector<Table1Row> table1_rows(const Table1Measured& measured) {
     std::vector<Table1Row> rows;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "capture/synthetic_camera.h"
 
+#include <algorithm>
 #include <map>
 #include <mutex>
 
@@ -19,7 +20,6 @@ public:
     SyntheticRecording(const synthetic::LoopOptions& options, const Progress& progress)
         : loop_(options, progress), fps_(options.frames_per_second) {}
 
-    const Calibration& calibration() const { return loop_.calibration(); }
     std::size_t frames() const { return loop_.frames(); }
 
     std::optional<Duration> offset() override {
@@ -61,18 +61,23 @@ public:
           part_(shared_part(options)),
           camera_(part_->add_camera(loop_.frames())),
           frames_(synthetic::frames_of(options)),
-          fps_(options.frames_per_second) {}
+          fps_(options.frames_per_second),
+          next_(part_->newest()),
+          begin_(next_) {}
     // The other cameras wait for this one no more.
     ~GrowingRecording() override { part_->note_frames(camera_, frames_); }
 
-    std::optional<Duration> offset() override { return seconds_to_duration(double(next_) / fps_); }
+    std::optional<Duration> offset() override {
+        return seconds_to_duration(double(next_ - begin_) / fps_);
+    }
     void skip() override { ++next_; }
     bool read(Frame& out) override {
         part_->note_frames(camera_, loop_.frames());
-        loop_.read(part_->frame_at(next_++), out);
+        // A turn that began before this camera came may go beyond its frames.
+        loop_.read(std::min(part_->frame_at(next_++), loop_.frames() - 1), out);
         return true;
     }
-    void rewind() override { next_ = 0; }
+    void rewind() override { next_ = begin_; }
 
 private:
     // Long enough to see that people move.
@@ -82,7 +87,7 @@ private:
     std::shared_ptr<synthetic::PlayedPart> part_;
     std::size_t camera_, frames_;
     double fps_;
-    std::uint64_t next_ = 0;
+    std::uint64_t next_, begin_;
 };
 
 Size color_size(const std::string& name, const std::string& specification) {

@@ -23,6 +23,14 @@ using File = std::unique_ptr<std::FILE, Closer>;
     throw Error("Cannot " + std::string(what) + " '" + path.string() + "': " + why + ".");
 }
 
+// False for folders, too.
+bool is_device_or_pipe(const std::filesystem::path& path) {
+    std::error_code ignored;
+    const auto status = std::filesystem::status(path, ignored);
+    return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
+           !std::filesystem::is_directory(status);
+}
+
 }  // namespace
 
 Bytes read_file(const std::filesystem::path& path, std::size_t max_bytes) {
@@ -48,8 +56,10 @@ Bytes read_file(const std::filesystem::path& path, std::size_t max_bytes) {
 }
 
 void write_file(const std::filesystem::path& path, ByteView bytes) {
+    const bool in_place = is_device_or_pipe(path);
     std::filesystem::path draft = path;
-    draft += ".part";
+    if (!in_place)
+        draft += ".part";
     File file(std::fopen(draft.c_str(), "wb"));
     if (!file)
         refuse("write", path, std::strerror(errno));
@@ -57,9 +67,10 @@ void write_file(const std::filesystem::path& path, ByteView bytes) {
         bytes.empty() || std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
     // A full disk may only be reported by fclose().
     const bool closed = std::fclose(file.release()) == 0;
-    if (!written || !closed || std::rename(draft.c_str(), path.c_str()) != 0) {
+    if (!written || !closed || (!in_place && std::rename(draft.c_str(), path.c_str()) != 0)) {
         const int reason = errno;
-        std::remove(draft.c_str());
+        if (!in_place)
+            std::remove(draft.c_str());
         refuse("write", path, std::strerror(reason));
     }
 }
@@ -69,10 +80,8 @@ void require_writable(const std::filesystem::path& path) {
     if (std::filesystem::is_directory(path, ignored))
         refuse("write", path, "it is a folder");
     const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-    // Devices are written as they are.
-    const bool is_device =
-        std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored);
-    if (access(is_device ? path.c_str() : folder.c_str(), is_device ? W_OK : W_OK | X_OK) != 0)
+    const bool in_place = is_device_or_pipe(path);
+    if (access(in_place ? path.c_str() : folder.c_str(), in_place ? W_OK : W_OK | X_OK) != 0)
         refuse("write", path, std::strerror(errno));
 }
 

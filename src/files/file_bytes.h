@@ -12,7 +12,8 @@ namespace theatron::files {
 // Reads a regular file of at most `max_bytes` bytes.
 Bytes read_file(const std::filesystem::path& path, std::size_t max_bytes = std::size_t(1) << 30);
 
-// Writes a draft beside `path` and renames it, so that readers never see a partial file.
+// Writes a draft beside `path` and renames it, so that readers never see a partial file. A device
+// or a pipe is written as it is.
 void write_file(const std::filesystem::path& path, ByteView bytes);
 
 // Throws Error if write_file() could not write there. Call it before long work.

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 #include <zlib.h>
 
 #include <random>
+#include <span>
 
 #include "base/error.h"
 #include "files/file_bytes.h"
@@ -41,6 +45,23 @@ std::string sentence(Action action) {
         return error.what();
     }
     return {};
+}
+
+TEST(WriteFile, WritesIntoAPipeAndLeavesIt) {
+    const theatron::testing::TemporaryFolder folder;
+    const auto pipe = folder.path() / "pipe";
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    const int reader = open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+    ASSERT_GE(reader, 0);
+    const std::string text = "figures";
+    require_writable(pipe);
+    write_file(pipe, std::as_bytes(std::span(text)));
+    char got[16] = {};
+    EXPECT_EQ(read(reader, got, sizeof got), ssize_t(text.size()));
+    EXPECT_EQ(got, text);
+    close(reader);
+    EXPECT_TRUE(std::filesystem::is_fifo(pipe));
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "pipe.part"));
 }
 
 TEST(Png, DepthComesBackBitByBit) {

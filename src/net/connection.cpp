@@ -165,6 +165,13 @@ void Connection::look() {
                    std::to_string(Outbox::give_up_after / std::chrono::seconds(1))));
 }
 
+void Connection::make_room() {
+    guarded([&] {
+        finish(say(Phrase::took_nothing,
+                   std::to_string(outbox_.held(now_()).still / std::chrono::seconds(1))));
+    });
+}
+
 void Connection::close(const std::string& why) {
     if (finished_ || !closing_.empty())
         return;

@@ -88,6 +88,10 @@ public:
     SendingFigures take_figures() { return outbox_.take_figures(now_()); }
     // To be called a few times a second: closes the connection if the peer takes nothing.
     void look();
+    // After look().
+    HeldPictures held() const { return outbox_.held(now_()); }
+    // The peer took nothing, and others need the memory.
+    void make_room();
 
     // Sends the control messages that are queued, then closes as soon as the peer has closed too,
     // or after a short time, in which the peer can read what was sent last. Meanwhile a few of its

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "net/link.h"
 
+#include <arpa/inet.h>
+
 #include <algorithm>
 #include <charconv>
 
@@ -64,9 +66,14 @@ std::string format_link(const Link& link) {
 bool can_be_linked(std::string_view host) {
     constexpr std::string_view of_names =
         "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-_";
-    constexpr std::string_view of_ipv6 = "0123456789abcdefABCDEF:.";
-    const std::string_view allowed = host.find(':') == host.npos ? of_names : of_ipv6;
-    return !host.empty() && host.find_first_not_of(allowed) == host.npos && host.front() != '.' &&
+    constexpr std::size_t dns_name_characters = 253;  // at most; RFC 1035
+    if (host.find(':') != host.npos) {
+        in6_addr address{};
+        return host.find('\0') == host.npos &&
+               inet_pton(AF_INET6, std::string(host).c_str(), &address) == 1;
+    }
+    return !host.empty() && host.size() <= dns_name_characters &&
+           host.find_first_not_of(of_names) == host.npos && host.front() != '.' &&
            host.front() != '-';
 }
 

@@ -48,8 +48,10 @@ TEST(Link, NamesAHostThatParsesBack) {
         const Link link = {host, 4400, "0123456789abcdef", std::string(64, 'a')};
         EXPECT_EQ(parse_link(format_link(link)).host, host);
     }
-    for (const char* host : {"", "a b", "a/b", "or-3:4400", "[::1]", "a#b", "a@b", ".a", "-a",
-                             "a\nb", "https://a", "\xc3\xa9"})
+    for (const std::string& host : {std::string(400, 'a'), std::string("::1\0", 4)})
+        EXPECT_FALSE(can_be_linked(host)) << host;
+    for (const char* host : {"", ":", "1:2", "1.2.3.4:99", "a b", "a/b", "or-3:4400", "[::1]",
+                             "a#b", "a@b", ".a", "-a", "a\nb", "https://a", "\xc3\xa9"})
         EXPECT_FALSE(can_be_linked(host)) << host;
 }
 

@@ -289,6 +289,21 @@ bool Outbox::stands_still(TimePoint now) {
     return now - *still_since_ >= give_up_after;
 }
 
+HeldPictures Outbox::held(TimePoint now) const {
+    HeldPictures held;
+    const auto add = [&](const std::shared_ptr<const Bytes>& bytes) {
+        held.bytes += bytes->size() / std::size_t(bytes.use_count());
+    };
+    if (sending_)
+        add(sending_);
+    for (const auto& [stream, lane] : lanes_)
+        for (const Media& media : lane.waiting)
+            add(media.bytes);
+    held.still = still_since_ ? now - *still_since_ : Duration(0);
+    held.records = keeps_everything_;
+    return held;
+}
+
 SendingFigures Outbox::take_figures(TimePoint now) {
     SendingFigures figures;
     figures.bytes_per_second = flight_.bytes_per_second(now);

@@ -27,6 +27,7 @@
 #include "base/ids.h"
 #include "base/time.h"
 #include "net/flight.h"
+#include "net/held_pictures.h"
 #include "wire/envelope.h"
 
 namespace theatron::net {
@@ -128,6 +129,9 @@ public:
     // True if the peer has taken nothing for give_up_after although something waits for it. Call it
     // a few times a second.
     bool stands_still(TimePoint now);
+    // Pictures that wait, and the time since the peer took something: see HeldPictures. Call it
+    // after stands_still().
+    HeldPictures held(TimePoint now) const;
 
     // True if a frame of the stream waits and has not begun to leave: another frame would only
     // wait behind it. False for a peer for which everything is kept.

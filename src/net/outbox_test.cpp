@@ -248,6 +248,25 @@ TEST(Outbox, APeerThatTakesNothingIsGivenUpAfterATime) {
     EXPECT_FALSE(outbox.stands_still(sent + Outbox::give_up_after));
 }
 
+TEST(Outbox, HoldsItsShareOfPicturesAndTellsHowLongItStoodStill) {
+    Outbox first, second;
+    const TimePoint begin = from_us(1'000'000);
+    EXPECT_EQ(first.held(begin).bytes, 0u);
+    Media media = frame(1, 0, true, 0, 100'000);
+    const std::size_t size = media.bytes->size();
+    first.push_media(media);
+    second.push_media(std::move(media));
+    EXPECT_EQ(first.held(begin).bytes, size / 2);
+    Bytes envelope;
+    ASSERT_TRUE(first.next(envelope, begin));  // a part of it
+    EXPECT_EQ(first.held(begin).bytes, size / 2);
+    second = Outbox();
+    EXPECT_EQ(first.held(begin).bytes, size);
+    EXPECT_FALSE(first.stands_still(begin));
+    EXPECT_EQ(first.held(begin + 5s).still, Duration(5s));
+    EXPECT_FALSE(first.held(begin).records);
+}
+
 TEST(Outbox, APeerThatTakesNothingIsToldFromOneThatIsSlow) {
     Outbox outbox;
     const TimePoint begin = from_us(1'000'000);

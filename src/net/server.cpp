@@ -35,6 +35,7 @@ struct Server::Impl {
 
     Door::Events door_events();
     void tick();
+    void bound_memory();
     void enter(Door::Visitor visitor);
 };
 
@@ -65,11 +66,23 @@ void Server::Impl::tick() {
             // look() may close and erase a connection.
             for (const auto& [peer, connection] : std::map(peers))
                 connection->look();
+            bound_memory();
             if (handler.tick)
                 handler.tick();
         });
         tick();
     });
+}
+
+void Server::Impl::bound_memory() {
+    std::vector<std::shared_ptr<Connection>> connections;
+    std::vector<HeldPictures> held;
+    for (const auto& [peer, connection] : peers) {
+        connections.push_back(connection);
+        held.push_back(connection->held());
+    }
+    for (const std::size_t i : must_go(held))
+        connections[i]->make_room();
 }
 
 void Server::Impl::enter(Door::Visitor visitor) {

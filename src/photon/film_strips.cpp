@@ -11,10 +11,6 @@ constexpr std::size_t most_tracks = 64;
 // A strip is seen in one of ten frames at least.
 constexpr int least_share = 10;
 
-Point middle_of(const Quad& quad) {
-    return (quad[0] + quad[1] + quad[2] + quad[3]) * 0.25;
-}
-
 }  // namespace
 
 // A strip moves less than half its width from one frame to the next.

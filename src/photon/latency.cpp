@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "base/statistics.h"
 #include "photon/scene_clock.h"
 
 namespace theatron::photon {
@@ -34,7 +35,7 @@ double frame_period_ms(std::span<const FilmFrame> frames) {
     std::vector<double> periods;
     for (std::size_t i = 1; i < frames.size(); ++i)
         periods.push_back(frames[i].film_ms - frames[i - 1].film_ms);
-    return quantile(std::move(periods), 0.5);
+    return median(std::move(periods));
 }
 
 // All readings of the display, but for those that are far from all others: mixtures whose check
@@ -50,11 +51,11 @@ std::vector<Shown> shown_in(std::span<const FilmFrame> frames, std::size_t displ
             shown.push_back({frame.film_ms, now, time + strip_rounding_ms});
             ages.push_back(now - shown.back().time_ms);
         }
-    const double median = quantile(ages, 0.5);
-    const double reach = 10 * (quantile(ages, 0.9) - quantile(ages, 0.1)) + 200;
+    const double middle = median(ages);
+    const double reach = 10 * (percentile(ages, 0.9) - percentile(ages, 0.1)) + 200;
     const std::size_t all = shown.size();
     std::erase_if(shown, [&](const Shown& one) {
-        return std::abs(one.clock_ms - one.time_ms - median) > reach;
+        return std::abs(one.clock_ms - one.time_ms - middle) > reach;
     });
     left_out += int(all - shown.size());
     return shown;
@@ -91,8 +92,8 @@ void bound_mean(std::span<const Begin> begins, const SceneClock& clock, FilmLate
         }
         means.push_back(sum / double(begins.size()) + offset - clock.offset_ms);
     }
-    result.from_ms = quantile(means, 0.025);
-    result.to_ms = quantile(means, 0.975);
+    result.from_ms = percentile(means, 0.025);
+    result.to_ms = percentile(means, 0.975);
 }
 
 }  // namespace
@@ -103,9 +104,9 @@ Spread spread_of(std::vector<double> values) {
         return spread;
     for (const double value : values)
         spread.mean += value / double(values.size());
-    spread.median = quantile(values, 0.5);
-    spread.p5 = quantile(values, 0.05);
-    spread.p95 = quantile(values, 0.95);
+    spread.median = median(values);
+    spread.p5 = percentile(values, 0.05);
+    spread.p95 = percentile(values, 0.95);
     const auto [least, most] = std::minmax_element(values.begin(), values.end());
     spread.least = *least;
     spread.most = *most;
@@ -125,7 +126,7 @@ FilmLatency latency_of(std::span<const FilmFrame> frames, double refresh_hz) {
                          " frames; film them sharper, larger, and with a shorter exposure";
         return result;
     }
-    const double usual = quantile(ahead, 0.5);
+    const double usual = median(ahead);
     result.scene = usual >= 0 ? 0 : 1;
     const std::vector<Sighting> scene = sightings_of(frames, result.scene);
     const SceneClock clock = scene_clock_of(scene, refresh_hz);

@@ -28,6 +28,10 @@ double length(Point a);
 // Corners in a picture, clockwise as seen with y down, no three of them on a line.
 using Quad = std::array<Point, 4>;
 
+inline Point middle_of(const Quad& quad) {
+    return (quad[0] + quad[1] + quad[2] + quad[3]) * 0.25;
+}
+
 // False for corners that are not finite, not convex and clockwise, or nearly on a line.
 bool is_proper(const Quad& quad);
 

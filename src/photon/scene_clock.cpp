@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/statistics.h"
+
 namespace theatron::photon {
 namespace {
 
@@ -28,7 +30,7 @@ double rough_speed(std::span<const Sighting> sightings) {
         speeds.push_back(difference_ms(sightings[j].time, sightings[i].time) /
                          (sightings[j].film_ms - sightings[i].film_ms));
     }
-    return quantile(std::move(speeds), 0.5);
+    return median(std::move(speeds));
 }
 
 // A sighting on a straight line: film time since the first, strip time since `zero`.
@@ -66,7 +68,7 @@ void bound_offset(std::span<const Placed> points, double refresh_ms, SceneClock&
         if (points[i].strip_ms > points[i - 1].strip_ms)
             steps.push_back(points[i].strip_ms - points[i - 1].strip_ms);
     // Half of a refresh is no step of the screen but of the rounding to milliseconds.
-    const double step = std::min(quantile(steps, 0.05), refresh_ms);
+    const double step = std::min(percentile(steps, 0.05), refresh_ms);
     for (std::size_t i = 0; i < points.size(); ++i) {
         const double offset = points[i].strip_ms - clock.speed * points[i].film_ms;
         least.push_back(offset);
@@ -77,8 +79,8 @@ void bound_offset(std::span<const Placed> points, double refresh_ms, SceneClock&
             most.push_back(offset + step);
     }
     // Single frames have a wrong time in the file.
-    clock.least_offset_ms = quantile(std::move(least), 0.97);
-    clock.most_offset_ms = quantile(std::move(most), 0.03);
+    clock.least_offset_ms = percentile(std::move(least), 0.97);
+    clock.most_offset_ms = percentile(std::move(most), 0.03);
     clock.least_offset_ms += strip_rounding_ms;
     clock.most_offset_ms += strip_rounding_ms;
     clock.offset_ms = (clock.least_offset_ms + clock.most_offset_ms) / 2;
@@ -87,14 +89,6 @@ void bound_offset(std::span<const Placed> points, double refresh_ms, SceneClock&
 }
 
 }  // namespace
-
-double quantile(std::vector<double> values, double share) {
-    if (values.empty())
-        return 0;
-    const auto at = values.begin() + std::ptrdiff_t(share * double(values.size() - 1) + 0.5);
-    std::nth_element(values.begin(), at, values.end());
-    return *at;
-}
 
 double SceneClock::unwrapped(StripTime time, double near_ms) const {
     return near_ms + wrapped_difference(double(difference_ms(time, zero)), near_ms);
@@ -128,7 +122,7 @@ SceneClock scene_clock_of(std::span<const Sighting> sightings, double refresh_hz
         clock.problem = "it is too short: film at least a second";
         return clock;
     }
-    offset = quantile(residuals, 0.5);
+    offset = median(residuals);
     const double refresh_ms = 1000 / refresh_hz;
     const double tight = 4 * refresh_ms + 20;
     fit(points, offset, speed, tight + 0.05 * length_ms);

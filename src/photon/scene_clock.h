@@ -35,7 +35,4 @@ struct SceneClock {
 // latency_of().
 SceneClock scene_clock_of(std::span<const Sighting> sightings, double refresh_hz);
 
-// The share `share` (0 to 1) of the values is at most this; 0 without values.
-double quantile(std::vector<double> values, double share);
-
 }  // namespace theatron::photon

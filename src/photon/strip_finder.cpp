@@ -12,10 +12,6 @@ constexpr std::size_t most_regions = 200;
 // Blur rounds the corners, which costs a small strip most.
 constexpr double least_hull_share = 0.85;
 
-Point middle_of(const Quad& quad) {
-    return (quad[0] + quad[1] + quad[2] + quad[3]) * 0.25;
-}
-
 bool are_same_place(const Quad& a, const Quad& b) {
     const double height = std::min(length(a[3] - a[0]), length(b[3] - b[0]));
     return length(middle_of(a) - middle_of(b)) < height / 2;
@@ -88,8 +84,7 @@ std::vector<StripReading> StripFinder::find(GreyView grey) {
         if (const auto frame = refined(grey, known.frame))
             if (const auto reading = read_strip(grey, *frame))
                 add_new(*reading, found);
-    if (found.size() < std::max<std::size_t>(known_.size(), 2) ||
-        ++since_search_ >= search_interval) {
+    if (found.size() < std::max(known_.size(), expected_) || ++since_search_ >= search_interval) {
         since_search_ = 0;
         for (const StripReading& reading : find_strips(grey))
             add_new(reading, found);

@@ -16,6 +16,9 @@ std::vector<StripReading> find_strips(GreyView grey);
 // little, and in the whole picture where that is not enough.
 class StripFinder {
 public:
+    // Fewer strips than `expected` are looked for in the whole of each picture.
+    explicit StripFinder(std::size_t expected = 2) : expected_(expected) {}
+
     std::vector<StripReading> find(GreyView grey);
 
 private:
@@ -23,6 +26,7 @@ private:
         Quad frame;
         int missed = 0;  // pictures in a row that did not show it
     };
+    const std::size_t expected_;
     std::vector<Known> known_;
     int since_search_ = 0;  // pictures
 };

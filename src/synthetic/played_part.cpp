@@ -30,8 +30,14 @@ PlayedPart::Turn PlayedPart::next_turn(std::uint64_t begin) const {
     return {begin, frames, std::max<std::size_t>(1, 2 * (frames - 1))};
 }
 
+std::uint64_t PlayedPart::newest() {
+    const std::lock_guard lock(mutex_);
+    return newest_;
+}
+
 std::size_t PlayedPart::frame_at(std::uint64_t number) {
     const std::lock_guard lock(mutex_);
+    newest_ = std::max(newest_, number);
     if (turns_.empty())
         turns_.push_back(next_turn(0));
     while (number >= turns_.back().begin + turns_.back().pictures)

@@ -24,6 +24,8 @@ public:
     // The frame of the loop that every camera shows as its picture `number`, which counts from 0
     // and may be asked for again or a little late. Every camera that was added before has it.
     std::size_t frame_at(std::uint64_t number);
+    // The number of the newest picture that was asked for, with which a further camera begins.
+    std::uint64_t newest();
 
 private:
     // Pictures from `begin` on: one turn forwards and backwards, or the loop once if it is whole.
@@ -37,6 +39,7 @@ private:
     std::mutex mutex_;  // guards the members below
     std::vector<std::size_t> frames_;
     std::deque<Turn> turns_;  // the newest last
+    std::uint64_t newest_ = 0;
 };
 
 }  // namespace theatron::synthetic

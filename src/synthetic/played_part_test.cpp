@@ -64,6 +64,15 @@ TEST(PlayedPart, NeverJumpsByMoreThanOneFrameWhileItGrows) {
     }
 }
 
+TEST(PlayedPart, ALateCameraHasItsFramesFromTheNextTurnOn) {
+    PlayedPart part(100);
+    part.add_camera(10);
+    (void)frames_from(part, 0, 25);  // a turn is 18 pictures
+    EXPECT_EQ(part.newest(), 24u);
+    part.add_camera(3);
+    EXPECT_THAT(frames_from(part, 36, 5), ElementsAre(0, 1, 2, 1, 0));
+}
+
 TEST(PlayedPart, APictureFarBehindIsTheFirst) {
     PlayedPart part(10);
     part.add_camera(3);

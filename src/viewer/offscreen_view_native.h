@@ -17,11 +17,13 @@ public:
     explicit OffscreenView(RoomChoice room = {}, std::vector<SeenPerson> people = {})
         : scene_(room, std::move(people)) {}
 
-    // Takes over new cameras and frames. Throws as LiveScene does.
-    void take(client::Participant& participant) {
-        (void)scene_.take(participant);
-        (void)scene_.take_meeting(participant);
+    // Takes over new cameras and frames; true if they change the picture. Throws as LiveScene does.
+    bool take(client::Participant& participant) {
+        const bool is_new = !scene_.take(participant).empty();
+        return scene_.take_meeting(participant) || is_new;
     }
+    // Frames wait for those of other cameras: take() must be called again soon.
+    bool waits() const { return scene_.same_moment().waits(); }
     // Needs can_draw(); throws Error if the view is impossible. In a meeting without cameras it is
     // that of the place where this participant begins.
     render::CameraView view(const ViewChoice& view, Size size) const;

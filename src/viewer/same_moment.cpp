@@ -93,6 +93,8 @@ std::vector<receive::CameraFramePtr> SameMoment::take(TimePoint now) {
     std::map<CameraId, std::size_t> shown;  // the number of its frames that wait no more
     for (auto& [id, of_id] : cameras_) {
         const Camera& camera = of_id;  // a lambda cannot capture `of_id` everywhere
+        const bool is_awaited =
+            std::find(waited_for.begin(), waited_for.end(), &camera) != waited_for.end();
         for (std::size_t i = 0; i < camera.waiting.size(); ++i) {
             const Arrived& arrived = camera.waiting[i];
             const bool is_whole =
@@ -100,9 +102,9 @@ std::vector<receive::CameraFramePtr> SameMoment::take(TimePoint now) {
                     return other == &camera || has_or_had(*other, arrived.frame->moment);
                 });
             const bool waits_in_vain = !is_whole && now - arrived.at >= patience;
-            if (arrived.frame->past || is_whole || waits_in_vain || !is_waited_for(camera, now))
+            if (arrived.frame->past || is_whole || waits_in_vain || !is_awaited)
                 shown[id] = i + 1;
-            if (waits_in_vain && is_waited_for(camera, now))
+            if (waits_in_vain && is_awaited)
                 ++unpaired_;
         }
     }
@@ -114,6 +116,11 @@ std::vector<receive::CameraFramePtr> SameMoment::take(TimePoint now) {
         frames.push_back(camera.shown);
     }
     return frames;
+}
+
+bool SameMoment::waits() const {
+    return std::any_of(cameras_.begin(), cameras_.end(),
+                       [](const auto& camera) { return !camera.second.waiting.empty(); });
 }
 
 std::optional<Duration> SameMoment::skew(TimePoint now) const {

@@ -27,6 +27,8 @@ public:
     // The frames to show from now on, at most one of a camera, each newer than the one of its
     // camera that was shown before.
     std::vector<receive::CameraFramePtr> take(TimePoint now);
+    // Frames wait for those of other cameras: take() must be called again soon.
+    bool waits() const;
 
     // The time between the first and the last exposure of the live frames that are shown; nullopt
     // with fewer than two cameras.

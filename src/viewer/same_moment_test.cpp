@@ -49,8 +49,10 @@ TEST(SameMoment, FramesOfOneMomentAreShownTogether) {
     for (int camera : {0, 1})
         shown.add(frame(camera, 0), zero);
     EXPECT_THAT(names(shown.take(zero)), ElementsAre("0:0", "1:0"));
+    EXPECT_FALSE(shown.waits());
     shown.add(frame(0, 1), zero + period);
     EXPECT_THAT(shown.take(zero + period), IsEmpty());
+    EXPECT_TRUE(shown.waits());
     shown.add(frame(1, 1), zero + period + milliseconds(3));
     EXPECT_THAT(names(shown.take(zero + period + milliseconds(3))), ElementsAre("0:1", "1:1"));
     EXPECT_EQ(shown.unpaired(), 0u);

@@ -159,8 +159,9 @@ public:
     bool shows_sound() const;
     // `before` with this person's newest choices.
     client::Settings settings(client::Settings before) const;
-    // True while a fading camera or a moving person changes the picture by itself.
-    bool is_animated() const { return fading_ || moving_; }
+    // True while a fading camera, a moving person or a frame that waits for that of another camera
+    // changes the picture by itself.
+    bool is_animated() const { return fading_ || moving_ || scene_.same_moment().waits(); }
     // The person's eye in the room (x right, y down, z forward) as the others know it.
     const Pose& told_eye() const { return sent_pose_; }
     // The first moment that the scene could be drawn; TimePoint{} before.

@@ -4,6 +4,7 @@ import signal
 import subprocess
 import sys
 import os
+import threading
 import unittest
 
 import patience
@@ -54,6 +55,43 @@ class Session(PythonCase):
                     camera.send(scene.depth())
                 session.send(signal.SIGTERM)
                 self.assertEqual(list(frames), [])  # the session ends, and so does the loop
+
+    def test_closing_a_session_ends_its_loops(self):
+        with host(self.folder / "state") as session:
+            joined = theatron.join(session.greeting["link"])
+            frames = joined.frames()
+            loop = threading.Thread(target=lambda: list(frames), daemon=True)
+            loop.start()
+            joined.close()
+            patience.wait_until(lambda: not loop.is_alive(), "the loop has ended", of=session)
+
+    def test_the_frames_keep_their_session(self):
+        with host(self.folder / "state", options=("--filter", "off")) as session, \
+                theatron.send_camera(session.greeting["publish_link"], self.calibration(), camera="arrays") as camera:
+            import scene
+            frames = theatron.join(session.greeting["link"]).frames()
+            patience.wait_until(lambda: camera.is_wanted, "somebody sees it", of=session)
+            sending = threading.Event()
+
+            def send():
+                while not sending.wait(0.02):
+                    camera.send(scene.depth(), scene.color())
+            sender = threading.Thread(target=send)
+            sender.start()
+            try:
+                np.testing.assert_array_equal(next(frames).depth, scene.depth())
+            finally:
+                sending.set()
+                sender.join()
+
+    def test_a_host_that_does_not_answer_is_told(self):
+        with host(self.folder / "state") as session:
+            link = session.greeting["link"]
+        with self.assertRaises(theatron.Error):
+            theatron.join(link, wait=0.5)
+        for wait in (0, -1, float("nan")):
+            with self.assertRaisesRegex(ValueError, "wait"):
+                theatron.join(link, wait=wait)
 
     def test_wrong_links_and_refusals_are_sentences(self):
         with self.assertRaisesRegex(theatron.Error, "link"):

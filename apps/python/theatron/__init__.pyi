@@ -340,13 +340,15 @@ class Session:
         """The newest frames of all cameras, as they come; those in between are left out where the loop is slower. Ends with the
         session. Frame.camera is SessionCamera.number, and Frame.utc follows this machine's clock."""
     def close(self) -> None:
-        """Leaves the session. `with` does the same."""
+        """Leaves the session, and ends the loops over its frames. `with` does the same."""
     def __enter__(self) -> Session: ...
     def __exit__(self, *exception: object) -> None: ...
 
-def join(link: str, *, name: str = "python", depth_codec: str = "strata", color_codec: str = "jpeg:quality=85") -> Session:
+def join(link: str, *, name: str = "python", depth_codec: str = "strata", color_codec: str = "jpeg:quality=85",
+         wait: float = 15.0) -> Session:
     """Joins a session with the link that its host printed, and waits until the host lets this program in. Raises Error if the link
-    is wrong or the host refuses."""
+    is wrong, the host refuses, or it does not answer within `wait` seconds; time in which somebody must let the program in does
+    not count."""
 
 class CameraSender:
     """A camera in a session, whose frames are arrays."""
