@@ -44,6 +44,7 @@ nlohmann::json camera_json(const publish::CameraPublisher::Figures& camera) {
             {"share_ended", camera.has_ended},
             {"problem", wire::english(camera.lane.camera.problem)},
             {"filter", camera.lane.filter},
+            {"filter_device", camera.lane.filter_device},
             {"fps", camera.lane.frames_per_second},
             {"frames", camera.lane.frames},
             {"dropped_newest", camera.lane.dropped_newest},

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "base/options.h"
 #include "filter/step_fields.h"
@@ -64,8 +65,26 @@ void add_to_preset(std::vector<Step>& steps, const Step& step) {
         steps.insert(removes_far(step) ? steps.begin() : steps.end(), step);
 }
 
+std::optional<Device> device_of(std::string_view name) {
+    if (name == "cpu")
+        return Device::processor;
+    if (name == "cuda")
+        return Device::cuda;
+    if (name == "auto")
+        return Device::quickest;
+    return std::nullopt;
+}
+
 class Reader {
 public:
+    void set_device(std::string_view name) {
+        if (const auto device = device_of(name))
+            parsed_.settings.device = *device;
+        else
+            note("There is no device '" + std::string(name.substr(0, 40)) +
+                 "' for filters; there are cpu, cuda and auto.");
+    }
+
     void take_preset(std::string_view name) {
         parsed_.settings.steps = preset(name);
         behind_preset_ = true;
@@ -202,6 +221,13 @@ ParsedChain parse_chain(std::string_view text) {
     Reader reader;
     if (text.empty())
         return reader.finish();
+    // A name of a background's file may have the character, too.
+    const auto at = text.rfind('@');
+    if (at != std::string_view::npos &&
+        (device_of(text.substr(at + 1)) || text.find("file=") == std::string_view::npos)) {
+        reader.set_device(text.substr(at + 1));
+        text = text.substr(0, at);
+    }
     bool first = true;
     while (true) {
         const auto plus = text.find('+');
@@ -230,9 +256,13 @@ ParsedChain parse_chain_json(std::string_view text) {
             reader.take_preset(value.get_ref<const std::string&>());
         else if (key == "preset")
             reader.note("The preset is one of off, paper, default and stereo.");
+        else if (key == "device" && value.is_string())
+            reader.set_device(value.get_ref<const std::string&>());
+        else if (key == "device")
+            reader.note("The device is one of cpu, cuda and auto.");
         else if (key != "filters")
             reader.note("The file has no use for '" + shown(key) +
-                        "'; there are preset and filters.");
+                        "'; there are preset, filters and device.");
         else if (!value.is_array())
             reader.note("The filters are a list, as [{\"filter\": \"holes\"}].");
     }

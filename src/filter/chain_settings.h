@@ -80,15 +80,23 @@ using Step = std::variant<RangeParams, BackgroundParams, FlyingPixelParams, Spec
 
 inline constexpr std::size_t max_steps = 16;
 
+// The device on which filters run. All give the same pictures.
+enum class Device {
+    processor,
+    cuda,      // an NVIDIA GPU; the processor where none can be used
+    quickest,  // the one that takes less time for the camera's first frame
+};
+
 struct ChainSettings {
     std::vector<Step> steps;      // in order; empty: depth is not filtered
     std::string background_file;  // of the filter `background`; the caller reads it
+    Device device = Device::processor;
 
     bool off() const { return steps.empty(); }
     bool needs_background() const;
 
     // The canonical line for these filters, with all parameters that differ from their
-    // defaults, without the background file; empty if off. parse_chain() accepts it.
+    // defaults, without the background file and the device; empty if off. parse_chain() accepts it.
     std::string spelling() const;
 
     bool operator==(const ChainSettings&) const = default;
@@ -102,7 +110,8 @@ struct ParsedChain {
 
 // Parses a preset's name (`off`, `paper`, `default`, `stereo`) or a line like spelling()'s. Filters
 // may follow a preset: `default+background:file=room.background` is the preset with background
-// subtraction, which runs first wherever it is written.
+// subtraction, which runs first wherever it is written. At the end `@cpu`, `@cuda` or `@auto` may
+// choose the device.
 ParsedChain parse_chain(std::string_view text);
 
 // Parses the content of a JSON file.

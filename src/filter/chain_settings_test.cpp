@@ -55,6 +55,23 @@ TEST(ChainSettings, StepsBehindAPresetChangeIt) {
     EXPECT_THAT(settings.spelling(), testing::StartsWith("background+"));
 }
 
+TEST(ChainSettings, ADeviceMayBeChosenAtTheEnd) {
+    EXPECT_EQ(good(parse_chain("default")).device, Device::processor);
+    EXPECT_EQ(good(parse_chain("default@cpu")).device, Device::processor);
+    EXPECT_EQ(good(parse_chain("default+range:max_mm=2000@cuda")).device, Device::cuda);
+    EXPECT_EQ(good(parse_chain("paper@auto")).device, Device::quickest);
+    EXPECT_EQ(good(parse_chain("paper@auto")).spelling(), good(parse_chain("paper")).spelling());
+    EXPECT_EQ(good(parse_chain_json(R"({"preset": "paper", "device": "cuda"})")).device,
+              Device::cuda);
+    EXPECT_EQ(good(parse_chain("default+background:file=me@or3.background")).background_file,
+              "me@or3.background");
+    const ChainSettings both = good(parse_chain("background:file=me@or3.background@cuda"));
+    EXPECT_EQ(both.background_file, "me@or3.background");
+    EXPECT_EQ(both.device, Device::cuda);
+    for (const char* text : {"default@gpu", "default@", "@cuda@x"})
+        EXPECT_THAT(parse_chain(text).problem, HasSubstr("there are cpu, cuda and auto")) << text;
+}
+
 TEST(ChainSettings, AFileSaysTheSame) {
     const ChainSettings settings = good(parse_chain_json(R"({
         // The camera above the table.
@@ -85,6 +102,8 @@ TEST(ChainSettings, WhatIsWrongInAFileIsSaidInOneSentence) {
     const auto problem = [](const char* text) { return parse_chain_json(text).problem; };
     EXPECT_THAT(problem("{"), HasSubstr("not a JSON object"));
     EXPECT_THAT(problem("[]"), HasSubstr("not a JSON object"));
+    EXPECT_THAT(problem(R"({"device": "gpu"})"), HasSubstr("there are cpu, cuda and auto"));
+    EXPECT_THAT(problem(R"({"device": 1})"), HasSubstr("one of cpu, cuda and auto"));
     EXPECT_THAT(problem(R"({"preset": 3})"), HasSubstr("one of off, paper, default and stereo"));
     EXPECT_THAT(problem(R"({"filter": "holes"})"), HasSubstr("no use for 'filter'"));
     EXPECT_THAT(problem(R"({"filters": {}})"), HasSubstr("list"));

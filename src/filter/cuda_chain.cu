@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cuda_runtime.h>
 
+#include <cstring>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,8 @@ public:
     ~CudaLauncher() {
         for (void* memory : memories_)
             cudaFree(memory);
+        for (void* memory : pinned_)
+            cudaFreeHost(memory);
         if (stream_ != nullptr)
             cudaStreamDestroy(stream_);
     }
@@ -60,6 +63,14 @@ public:
         memories_.push_back(memory);
         keep(cudaMemsetAsync(memory, 0, count * sizeof(T), stream_));
         return static_cast<T*>(memory);
+    }
+    // Memory of the processor that the device copies from and to by itself; null if exhausted.
+    std::uint16_t* allocate_pinned(std::size_t count) {
+        void* memory = nullptr;
+        keep(cudaMallocHost(&memory, bytes(std::ptrdiff_t(count))));
+        if (memory != nullptr)
+            pinned_.push_back(memory);
+        return static_cast<std::uint16_t*>(memory);
     }
     void clear(std::uint16_t* pixels, std::size_t count) {
         if (ok())
@@ -108,27 +119,51 @@ private:
 
     cudaStream_t stream_ = nullptr;
     cudaError_t error_ = cudaSuccess;
-    std::vector<void*> memories_;
+    std::vector<void*> memories_, pinned_;
 };
 
 class GpuChain final : public CudaChain {
 public:
     GpuChain(const ChainSettings& settings, const ChainCamera& camera)
-        : chain_(settings, camera, launcher_) {
+        : size_(camera.size),
+          in_(launcher_.allocate_pinned(camera.size.area())),
+          out_(launcher_.allocate_pinned(camera.size.area())),
+          chain_(settings, camera, launcher_) {
         // The caller may destroy the background after the constructor returns.
         launcher_.wait();
     }
 
-    bool apply(DepthView in, MutableDepthView out, Duration since_last_frame) override {
+    std::optional<DepthView> apply(DepthView in, Duration since_last_frame) override {
+        if (!launcher_.ok())
+            return std::nullopt;
         const FrameGap::Meaning gap = gap_.next(since_last_frame);
-        chain_.apply(in, out, gap.forgets, gap.missed);
+        for (int y = 0; y < size_.height; ++y)
+            std::memcpy(in_ + std::ptrdiff_t(y) * size_.width, in.row(y),
+                        std::size_t(size_.width) * sizeof(*in_));
+        chain_.apply(DepthView(in_, size_, size_.width), MutableDepthView(out_, size_, size_.width),
+                     gap.forgets, gap.missed);
         launcher_.wait();
-        return launcher_.ok();
+        if (!launcher_.ok())
+            return std::nullopt;
+        return DepthView(out_, size_, size_.width);
     }
+    std::string device() const override { return device_; }
     cudaError_t error() const { return launcher_.error(); }
 
 private:
+    static std::string name_of_device() {
+        cudaDeviceProp properties{};
+        int device = 0;
+        if (cudaGetDevice(&device) != cudaSuccess ||
+            cudaGetDeviceProperties(&properties, device) != cudaSuccess)
+            return "a CUDA device";
+        return properties.name;
+    }
+
+    const std::string device_ = name_of_device();
+    const Size size_;
     CudaLauncher launcher_;
+    std::uint16_t *const in_, *const out_;  // of a whole frame, in rows
     ParallelChain<CudaLauncher> chain_;
     FrameGap gap_;
 };

@@ -113,7 +113,10 @@ TEST(CudaChain, TheDeviceEqualsTheChain) {
                 GTEST_SKIP() << problem;
             expect_equal_frames(settings, camera,
                                 [&](DepthView in, MutableDepthView out, Duration since) {
-                                    return chain->apply(in, out, since);
+                                    const auto filtered = chain->apply(in, since);
+                                    for (int y = 0; filtered && y < out.size.height; ++y)
+                                        std::copy_n(filtered->row(y), out.size.width, out.row(y));
+                                    return filtered.has_value();
                                 });
         }
 }

@@ -75,6 +75,7 @@ nlohmann::json camera_json(const HostFigures::Camera& camera) {
             {"age_ms", f.age_seconds * 1000},
             {"sync_offset_ms", f.sync_offset_seconds * 1000},
             {"filter", f.filter},
+            {"filter_device", f.filter_device},
             {"encoders", encoders},
             {"dropped_newest", f.dropped_newest},
             {"dropped_slow_receiver", camera.dropped_slow},
@@ -314,6 +315,10 @@ std::string to_prometheus(const PortFigures& figures_of_all) {
     per_camera("camera_stale", "gauge", "1 while the camera gives no good pictures.",
                [](const Camera& c) {
                    return c.lane.camera.condition == wire::CameraCondition::live ? 0.0 : 1.0;
+               });
+    per_camera("filter_on_gpu", "gauge", "1 while a GPU filters the camera's depth.",
+               [](const Camera& c) {
+                   return c.lane.filter_device.empty() || c.lane.filter_device == "cpu" ? 0.0 : 1.0;
                });
     out.family("camera_troubles_total", "counter", "How often a camera became stale, by kind.");
     each_camera([&](const std::string& of, const Camera& c) {

@@ -4,6 +4,7 @@
 #include <cassert>
 
 #include "base/fault.h"
+#include "base/log.h"
 #include "base/outside_text.h"
 #include "geometry/screen.h"
 
@@ -341,6 +342,7 @@ void CameraLane::take_orders() {
         crop_ = orders_.crop;
         chain_.reset();
         filtered_at_ = {};
+        meter_.on_filter_device({});
         meter_.on_filter(spelling_of(filter_, crop_));
     }
     keys_.merge(orders_.keys);
@@ -358,7 +360,7 @@ void CameraLane::filter_frame() {
         camera.size = frame.depth.size;
         camera.depth_unit_mm = info_.calibration.depth_unit_mm;
         camera.background = background_.get();
-        chain_ = std::make_unique<filter::Chain>(filter_, camera);
+        chain_ = std::make_unique<filter::DeviceChain>(filter_, camera, [this] { return now(); });
     }
     const TimePoint begin = now();
     const TimePoint captured = frame.times.captured;
@@ -369,6 +371,14 @@ void CameraLane::filter_frame() {
     filtered_captured_ = captured;
     filtered_at_ = now();
     meter_.on_stage(Stage::filter, filtered_at_ - begin);
+    if (chain_)
+        tell_filter_device();
+}
+
+void CameraLane::tell_filter_device() {
+    meter_.on_filter_device(chain_->device());
+    if (const std::string remark = chain_->take_remark(); !remark.empty())
+        log::warning("filter", remark, {{"camera", info_.name}});
 }
 
 void CameraLane::prepare_frame(TimePoint begin, LaneEncoders::For meant) {

@@ -21,7 +21,7 @@
 #include "capture/camera.h"
 #include "capture/crop.h"
 #include "codec/strata_region.h"
-#include "filter/chain.h"
+#include "filter/device_chain.h"
 #include "send/capture_thread.h"
 #include "send/lane_encoders.h"
 #include "send/lane_figures.h"
@@ -153,6 +153,7 @@ private:
     std::optional<LaneEncoders::For> repeats(TimePoint begin);
     void take_orders();
     void filter_frame();
+    void tell_filter_device();
     void prepare_frame(TimePoint begin, LaneEncoders::For meant);
     void encode_frame();
     void encode_depth();
@@ -203,7 +204,7 @@ private:
     FrameNumber next_number_ = 0;
     bool last_has_number_ = false;
     TimePoint repeated_;  // when a frame was encoded again
-    std::unique_ptr<filter::Chain> chain_;
+    std::unique_ptr<filter::DeviceChain> chain_;
     filter::ChainSettings filter_;
     std::shared_ptr<const filter::Background> background_;
     std::optional<capture::Crop> crop_;

@@ -75,6 +75,12 @@ void LaneMeter::on_filter(const std::string& spelling) {
     counts_.filter = spelling;
 }
 
+void LaneMeter::on_filter_device(const std::string& device) {
+    const std::lock_guard lock(mutex_);
+    if (counts_.filter_device != device)
+        counts_.filter_device = device;
+}
+
 std::string LaneMeter::filter() const {
     const std::lock_guard lock(mutex_);
     return counts_.filter;

@@ -61,7 +61,8 @@ struct LaneFigures {
     double age_seconds = 0;          // since the newest frame was captured
     double sync_offset_seconds = 0;  // of the newest frame to its moment
     capture::WatchedCamera::Status camera;
-    std::string filter;  // which ran, empty: none
+    std::string filter;         // which ran, empty: none
+    std::string filter_device;  // "cpu" or the GPU's name; empty before the first filtered frame
     std::vector<EncoderFigures> encoders;
 };
 
@@ -76,6 +77,7 @@ public:
     void on_stage(Stage stage, Duration took);
     void on_bytes(bool depth, std::size_t bytes);
     void on_filter(const std::string& spelling);
+    void on_filter_device(const std::string& device);
     std::string filter() const;
     std::uint64_t dropped(DropReason reason) const;
 

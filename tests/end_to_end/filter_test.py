@@ -30,6 +30,17 @@ class Filters(unittest.TestCase):
             self.assertEqual(code, 0, errors)
             self.assertEqual([camera["filter"] for camera in json.loads(out)["cameras"]], ["", "holes+kalman"])
 
+    def test_without_a_gpu_the_processor_filters_and_the_host_says_so_once(self):
+        with host(self.state, self.camera, options=("--filter", "default@cuda")) as h, \
+                Process("join", h.greeting["link"], "--every", "0.1") as viewer:
+            viewer.wait_for(lambda f: f["cameras"] and f["cameras"][0]["filter"] and f["cameras"][0]["frames"] > 20)
+            camera = json.loads(run("status", h.greeting["link"], "--json")[1])["cameras"][0]
+            remarks = [line for line in h.errors if "The filters run on the processor, with the same result." in line]
+            if camera["filter_device"] == "cpu":
+                self.assertEqual(len(remarks), 1, h.errors)
+            else:
+                self.assertEqual(remarks, [])
+
     def test_a_file_may_change_while_the_host_runs(self):
         file = self.folder / "left.json"
         file.write_text('{"filters": [{"filter": "range", "max_mm": 900}]}')
@@ -71,6 +82,7 @@ class Filters(unittest.TestCase):
 
     def test_wrong_filters_are_refused_in_one_sentence(self):
         for options, expected in ((("--filter", "best"), "no filter 'best'"),
+                                  (("--filter", "default@gpu"), "no device 'gpu'"),
                                   (("--filter", "3=default"), "no camera 3"),
                                   (("--filter", "nowhere.json"), "nowhere.json"),
                                   (("--filter", "background:file=nowhere.background"), "nowhere.background")):
