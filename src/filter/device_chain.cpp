@@ -7,7 +7,7 @@
 namespace theatron::filter {
 namespace {
 
-// Of the frames by which the devices are compared: enough for the quickest of them to be typical.
+// The devices are compared by these frames: enough for the quickest of them to be typical.
 constexpr int measured_frames = 5;
 constexpr Duration usual_gap = std::chrono::milliseconds(33);
 

@@ -33,8 +33,8 @@ public:
     // The device that filters now: "cpu", or the GPU's name.
     std::string device() const { return gpu_ ? gpu_->device() : "cpu"; }
 
-    // What a person should hear since the last call, one sentence: which device was found to be
-    // quicker, or why the processor filters in place of a GPU. Empty: nothing.
+    // One sentence for people about what happened since the last call: which device was found to
+    // be quicker, or why the processor filters in place of a GPU. Empty: nothing.
     std::string take_remark() { return std::exchange(remark_, {}); }
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which peers must go because pictures that wait for them take too much memory. Each peer that
+// Chooses the peers that must go because pictures that wait for them take too much memory. Each peer that
 // reads nothing holds the picture of which a part has left, and nobody else needs that one any
 // more: with large pictures, many such peers would take the memory of all. Pure.
 #pragma once
@@ -12,12 +12,12 @@
 
 namespace theatron::net {
 
-// Of pictures that wait for all peers of a port together.
+// Pictures that wait for all peers of a port together take at most this.
 inline constexpr std::size_t max_held_bytes = std::size_t(256) << 20;
 // A peer that took something more lately stays.
 inline constexpr Duration least_still = std::chrono::seconds(2);
 
-// What waits for a peer.
+// The pictures that wait for a peer.
 struct HeldPictures {
     std::size_t bytes = 0;  // its share of those that several peers hold
     Duration still{};       // since it took something
