@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Chooses the peers that must go because pictures that wait for them take too much memory. Each peer that
-// reads nothing holds the picture of which a part has left, and nobody else needs that one any
-// more: with large pictures, many such peers would take the memory of all. Pure.
+// Chooses the peers that must go because pictures that wait for them take too much memory. Each
+// peer that reads nothing holds the picture of which a part has left, and nobody else needs that
+// one any more: with large pictures, many such peers would take the memory of all. Pure.
 #pragma once
 
 #include <cstddef>
