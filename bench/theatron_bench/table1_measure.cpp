@@ -2,7 +2,6 @@
 #include "table1_measure.h"
 
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <thread>
@@ -14,20 +13,13 @@
 #include "bench_filter.h"
 #include "bench_interaction.h"
 #include "camera_frames.h"
+#include "processor_name.h"
 #include "table1_inputs.h"
 #include "video/color_codec.h"
 #include "video/depth_codecs.h"
 
 namespace theatron::bench {
 namespace {
-
-std::string processor_name() {
-    std::ifstream info("/proc/cpuinfo");
-    for (std::string line; std::getline(info, line);)
-        if (line.starts_with("model name"))
-            return line.substr(line.find(':') + 2);
-    return "processor of unknown name";
-}
 
 class Measuring {
 public:
