@@ -13,13 +13,18 @@
 #include "bench_filter.h"
 #include "bench_interaction.h"
 #include "camera_frames.h"
+#include "child_process.h"
 #include "processor_name.h"
 #include "table1_inputs.h"
+#include "temporary_folder.h"
 #include "video/color_codec.h"
 #include "video/depth_codecs.h"
 
 namespace theatron::bench {
 namespace {
+
+// Small, so that a software renderer keeps up with the camera.
+constexpr const char* photon_picture = "640x360";
 
 class Measuring {
 public:
@@ -33,6 +38,7 @@ public:
         out_.frames = int(cameras_.front().depth.size());
         measure_others();
         describe_inputs();
+        describe_strip();
     }
 
     Table1Measured run() {
@@ -50,8 +56,11 @@ public:
             part(0.40, "pictures for a headset", "vr", [&] { headset(); });
             part(0.70, "a session", "session/same", [&] { session("same", "trvl"); });
             part(0.85, "a session", "session/best", [&] { session("best", "strata"); });
+            part(0.95, "the age of a drawn picture", "photon/inside", [&] { motion_to_photon(); });
         }
-        motion_to_photon();
+        out_.reasons["photon/filmed"] =
+            "It needs a film that shows the scene's screen and the participant's display: "
+            "theatron photon film.";
         return std::move(out_);
     }
 
@@ -95,6 +104,14 @@ private:
             (options_.cameras.size() == 1 ? " camera" : " cameras") +
             ", two participants that act, one that moves; " +
             formatted_seconds(options_.session_seconds);
+    }
+
+    void describe_strip() {
+        out_.inputs[Table1Input::strip] =
+            std::string(
+                "a strip that shows the time, of a camera without delay, 30 pictures a "
+                "second; drawn as ") +
+            photon_picture;
     }
 
     static std::string formatted_seconds(double seconds) {
@@ -241,11 +258,29 @@ private:
         add_median("answer_ms", r["grabs"]["there_and_back_ms"]);
     }
 
-    // The one place for this figure: it needs a camera that sees the movement and the screen.
+    // Motion to photon needs a film of both screens. Without one, the age of a strip in the drawn
+    // picture is measured, between a host and a participant as they are in the program.
     void motion_to_photon() {
-        out_.reasons["photon"] =
-            "It needs a camera that sees both a movement and the screen that shows it, which this "
-            "command does not have.";
+        const TemporaryFolder folder;
+        const std::string state = folder.path.string();
+        ChildProcess host({"host", "--listen", "127.0.0.1:0", "--json", "--state",
+                           (folder.path / "host").string(), "--camera", "strip:delay=0"},
+                          state);
+        const auto greeting = nlohmann::json::parse(host.read_line(), nullptr, false);
+        if (!greeting.is_object())
+            throw Error("The host of the strip did not start; its message is above.");
+        ChildProcess reader({"photon", "read", greeting["link"], "--size", photon_picture,
+                             "--seconds", std::to_string(options_.session_seconds), "--json"},
+                            state);
+        const auto read = nlohmann::json::parse(reader.read_line(), nullptr, false);
+        if (reader.wait().exit_code != 0 || !read.is_object())
+            throw Error("The strip was not read in the drawn pictures; the reason is above.");
+        add("photon/inside", read["age_ms"]["median"]);
+        out_.stages.clear();
+        for (const auto& stage : read["stages"])
+            out_.stages.push_back({stage["until"], stage["what"], stage["mean_ms"]});
+        host.interrupt();
+        (void)host.wait();
     }
 
     const Table1Options& options_;
