@@ -25,6 +25,8 @@ namespace {
 
 // Small, so that a software renderer keeps up with the camera.
 constexpr const char* photon_picture = "640x360";
+// The first pictures of a session are late, and software renderers draw few.
+constexpr double begin_s = 2;
 
 class Measuring {
 public:
@@ -269,12 +271,15 @@ private:
         const auto greeting = nlohmann::json::parse(host.read_line(), nullptr, false);
         if (!greeting.is_object())
             throw Error("The host of the strip did not start; its message is above.");
-        ChildProcess reader({"photon", "read", greeting["link"], "--size", photon_picture,
-                             "--seconds", std::to_string(options_.session_seconds), "--json"},
-                            state);
+        ChildProcess reader(
+            {"photon", "read", greeting["link"], "--size", photon_picture, "--seconds",
+             std::to_string(options_.session_seconds + begin_s), "--json"},
+            state);
         const auto read = nlohmann::json::parse(reader.read_line(), nullptr, false);
         if (reader.wait().exit_code != 0 || !read.is_object())
-            throw Error("The strip was not read in the drawn pictures; the reason is above.");
+            throw Error(
+                "The strip was not read in the drawn pictures; the lines before the table have the "
+                "reason.");
         add("photon/inside", read["age_ms"]["median"]);
         out_.stages.clear();
         for (const auto& stage : read["stages"])
