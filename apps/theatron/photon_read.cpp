@@ -87,9 +87,12 @@ private:
     photon::GreyImage grey_;
 };
 
+// A figure needs as many; a slow machine is given more time for them.
+constexpr int least_pictures = 5;
+
 // Throws Error if the ages are none.
 void check_ages(const StripAges& ages) {
-    constexpr std::size_t least = 5;
+    constexpr auto least = std::size_t(least_pictures);
     if (ages.pictures == 0)
         throw Error("No picture came, so no strip was read.");
     if (std::size_t(ages.pictures) < least)
@@ -209,7 +212,8 @@ void read_live(const PhotonRead& wanted) {
             if (!wanted.save.empty())
                 last = *picture;
             tell_age(ages, now, next_line);
-            if (now - first >= warm_up + seconds_to_duration(wanted.seconds))
+            const Duration read = now - first - warm_up - seconds_to_duration(wanted.seconds);
+            if (read >= Duration{} && (ages.pictures >= least_pictures || read > longest_start))
                 break;
         } else if (first == TimePoint{}
                        ? now - began > longest_start

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "render/gl_driver.h"
 #include "svg_drawing.h"
 #include "table1_output.h"
 
@@ -96,7 +97,11 @@ std::string in_short(const Table1Measured& measured, const std::vector<Table1Row
         text += item("The whole system with a synthetic camera, without display: a picture is " +
                      figure_text(inside->best.spread->median) +
                      " ms old when it is drawn. The paper filmed 120 to 150 ms; less the 75 ms of "
-                     "its camera these are 45 to 75 ms, with a display in them.");
+                     "its camera these are 45 to 75 ms, with a display in them." +
+                     (render::is_software(measured.gpu)
+                          ? std::string(" Here the processor draws in place of a GPU: see the "
+                                        "stages below.")
+                          : std::string()));
     text += item(
         "The paper's machine, camera and scene were other ones. A figure here beside a "
         "figure there is no proof that one program is faster; the notes say, row by row, "

@@ -79,7 +79,7 @@ class Photon(unittest.TestCase):
 
     def test_the_strip_is_read_in_the_picture_of_a_session(self):
         with host(self.folder / "state", "strip:delay=200") as h:
-            figures = photon("read", h.greeting["link"], "--seconds", "3", "--json", "--plot", self.folder / "stages.svg")
+            figures = photon("read", h.greeting["link"], "--seconds", "3", "--size", "640x360", "--json", "--plot", self.folder / "stages.svg")
         self.assertGreaterEqual(youngest(figures), 199.4)
         stages = {stage["until"]: stage["mean_ms"] for stage in figures["stages"]}
         self.assertEqual(list(stages)[-3:], ["decoded", "uploaded", "presented"])
