@@ -88,11 +88,11 @@ private:
 };
 
 // A figure needs as many; a slow machine is given more time for them.
-constexpr int least_pictures = 5;
+constexpr int figure_pictures = 5;
 
 // Throws Error if the ages are none.
 void check_ages(const StripAges& ages) {
-    constexpr auto least = std::size_t(least_pictures);
+    constexpr auto least = std::size_t(figure_pictures);
     if (ages.pictures == 0)
         throw Error("No picture came, so no strip was read.");
     if (std::size_t(ages.pictures) < least)
@@ -213,7 +213,7 @@ void read_live(const PhotonRead& wanted) {
                 last = *picture;
             tell_age(ages, now, next_line);
             const Duration read = now - first - warm_up - seconds_to_duration(wanted.seconds);
-            if (read >= Duration{} && (ages.pictures >= least_pictures || read > longest_start))
+            if (read >= Duration{} && (ages.pictures >= figure_pictures || read > longest_start))
                 break;
         } else if (first == TimePoint{}
                        ? now - began > longest_start
