@@ -43,7 +43,7 @@ void add_read(CLI::App& photon) {
         "The strip must be shown on this computer, by 'theatron photon show' or the camera "
         "'strip':\nits age is then known from one clock.\n"
         "\nExamples:\n"
-        "  theatron photon read LINK\n"
+        "  theatron photon read LINK --plot stages.svg\n"
         "  theatron photon read x11:Theatron --seconds 30\n"
         "  theatron photon read v4l2:/dev/video0\n"
         "  theatron photon read picture.png");
@@ -68,6 +68,8 @@ void add_read(CLI::App& photon) {
                      "Of a session: how the host sends colour")
         ->capture_default_str();
     command->add_option("--save", wanted->save, "Write the last picture into this PNG file");
+    command->add_option("--plot", wanted->plot,
+                        "Of a session: draw the stages of the age into this SVG file");
     command->add_flag("--json", wanted->json, "Print the figures as one JSON line");
     command->callback([wanted] { run_photon_read(*wanted); });
 }

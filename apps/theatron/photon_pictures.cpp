@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "photon_pictures.h"
 
+#include <optional>
+
 #include "base/error.h"
 #include "base/log.h"
 #include "base/steady_clock.h"
@@ -50,18 +52,32 @@ public:
             throw Error(status.problem.empty() ? "The session has ended." : status.problem);
         if (!is_new || !scene_.can_draw(view_))
             return nullptr;
+        const TimePoint uploaded = steady_now();
         picture_ = scene_.picture(
             {view_, size_, viewer::renderer_for(renderer_, scene_.cameras()), {}, {}});
+        keep_times(uploaded, steady_now(), status.clock_known);
         return &picture_;
     }
+    const FrameTimes* times() const override { return times_ ? &*times_ : nullptr; }
 
 private:
+    void keep_times(TimePoint uploaded, TimePoint presented, bool clock_known) {
+        times_.reset();
+        const receive::CameraFramePtr frame = scene_.newest(view_.camera);
+        if (!clock_known || !frame)
+            return;
+        times_ = frame->times;
+        times_->uploaded = participant_.session_time(uploaded);
+        times_->presented = participant_.session_time(presented);
+    }
+
     const viewer::ViewChoice view_;
     const Size size_;
     const std::string renderer_;
     viewer::OffscreenView scene_{viewer::RoomChoice{}};
     client::Participant participant_;
     ColorImage picture_;
+    std::optional<FrameTimes> times_;
 };
 
 class CameraPictures final : public PhotonPictures {

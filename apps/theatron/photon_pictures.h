@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "image/frame.h"
 #include "image/image.h"
 #include "photon_read.h"
 
@@ -15,6 +16,9 @@ public:
     // The next picture, valid until the next call; null if none came within 100 ms. Throws Error
     // with one sentence when no more can come.
     virtual const ColorImage* next() = 0;
+    // The points in time of the last picture's frame, in session time; null where they are not
+    // known, as for a camera.
+    virtual const FrameTimes* times() const { return nullptr; }
 };
 
 // The view of a participant of a session, drawn anew with each frame that arrives. Throws Error

@@ -17,6 +17,7 @@
 #include "files/png_file.h"
 #include "join_pictures.h"
 #include "photon/latency.h"
+#include "photon/stages.h"
 #include "photon/strip_finder.h"
 #include "photon_figures.h"
 #include "photon_pictures.h"
@@ -86,11 +87,18 @@ private:
     photon::GreyImage grey_;
 };
 
+// A figure needs as many; a slow machine is given more time for them.
+constexpr int figure_pictures = 5;
+
 // Throws Error if the ages are none.
 void check_ages(const StripAges& ages) {
-    constexpr std::size_t least = 5;
+    constexpr auto least = std::size_t(figure_pictures);
     if (ages.pictures == 0)
         throw Error("No picture came, so no strip was read.");
+    if (std::size_t(ages.pictures) < least)
+        throw Error("Only " + std::to_string(ages.pictures) +
+                    " pictures came, fewer than a figure needs; read for longer (--seconds), or "
+                    "draw smaller ones (--size).");
     if (ages.ms.size() < least) {
         const std::string of = " of " + std::to_string(ages.pictures) + " pictures";
         if (ages.several > ages.without && ages.several > ages.unread)
@@ -115,7 +123,23 @@ void check_ages(const StripAges& ages) {
             "'theatron photon show' on this one, or film both screens.");
 }
 
-void print_ages(const PhotonRead& wanted, const StripAges& ages) {
+nlohmann::json stages_json(const photon::StageSum& stages) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const photon::Stage& stage : stages.means())
+        list.push_back(
+            {{"until", stage.id}, {"what", stage.name}, {"mean_ms", tenths(stage.mean_ms)}});
+    return list;
+}
+
+void print_stages(const photon::StageSum& stages) {
+    for (const photon::Stage& stage : stages.means()) {
+        char number[40];
+        std::snprintf(number, sizeof number, "  %6.1f ms  ", stage.mean_ms);
+        output::print(number + stage.name + "\n");
+    }
+}
+
+void print_ages(const PhotonRead& wanted, const StripAges& ages, const photon::StageSum& stages) {
     const photon::Spread spread = photon::spread_of(ages.ms);
     if (wanted.json) {
         output::result(files::json_text({{"source", is_session_link(wanted.sources.front())
@@ -126,7 +150,8 @@ void print_ages(const PhotonRead& wanted, const StripAges& ages) {
                                          {"read", ages.ms.size()},
                                          {"unread", ages.unread},
                                          {"without_strip", ages.without},
-                                         {"several_strips", ages.several}}) +
+                                         {"several_strips", ages.several},
+                                         {"stages", stages_json(stages)}}) +
                        "\n");
         return;
     }
@@ -137,6 +162,19 @@ void print_ages(const PhotonRead& wanted, const StripAges& ages) {
                   spread.mean, spread.median, spread.p5, spread.p95, spread.most, ages.ms.size(),
                   ages.pictures);
     output::print(text);
+    print_stages(stages);
+}
+
+// Throws Error if there is nothing to draw.
+void write_stages(const PhotonRead& wanted, const photon::StageSum& stages) {
+    if (wanted.plot.empty())
+        return;
+    if (stages.pictures() == 0)
+        throw Error("The pictures have no stages; only those of a session's cameras do.");
+    files::write_file(wanted.plot, as_bytes(photon::stages_svg(
+                                       stages.means(),
+                                       "Mean age of the drawn picture, stage by stage, without "
+                                       "display")));
 }
 
 void tell_age(const StripAges& ages, TimePoint now, TimePoint& next) {
@@ -152,10 +190,13 @@ void tell_age(const StripAges& ages, TimePoint now, TimePoint& next) {
 void read_live(const PhotonRead& wanted) {
     constexpr Duration longest_start = std::chrono::seconds(30);
     check_picture_file(wanted.save);
+    if (!wanted.plot.empty())
+        files::require_writable(wanted.plot);
     const auto pictures = is_session_link(wanted.sources.front())
                               ? session_pictures(wanted)
                               : camera_pictures(wanted.sources.front());
     StripAges ages;
+    photon::StageSum stages;
     ColorImage last;
     const TimePoint began = steady_now();
     TimePoint first{}, next_line{};
@@ -167,12 +208,16 @@ void read_live(const PhotonRead& wanted) {
             constexpr Duration warm_up = std::chrono::seconds(1);
             if (first == TimePoint{})
                 first = now;
-            if (now - first >= warm_up)
+            if (now - first >= warm_up) {
+                if (const FrameTimes* const times = pictures->times())
+                    stages.add(*times);
                 ages.add(*picture, now);
+            }
             if (!wanted.save.empty())
                 last = *picture;
             tell_age(ages, now, next_line);
-            if (now - first >= warm_up + seconds_to_duration(wanted.seconds))
+            const Duration read = now - first - warm_up - seconds_to_duration(wanted.seconds);
+            if (read >= Duration{} && (ages.pictures >= figure_pictures || read > longest_start))
                 break;
         } else if (first == TimePoint{}
                        ? now - began > longest_start
@@ -184,7 +229,8 @@ void read_live(const PhotonRead& wanted) {
     if (!last.empty())
         files::write_png(wanted.save, last.view());
     check_ages(ages);
-    print_ages(wanted, ages);
+    print_ages(wanted, ages, stages);
+    write_stages(wanted, stages);
 }
 
 }  // namespace

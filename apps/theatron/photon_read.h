@@ -14,6 +14,7 @@ struct PhotonRead {
     std::string view = "camera:0", size = "1280x720", renderer = "auto";
     std::string depth_codec = "strata", color_codec = best_color();
     std::string save;  // the last picture, as a PNG file; empty: none
+    std::string plot;  // the stages of the age, as an SVG file; empty: none
     double seconds = 10;
     bool json = false;
 };

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "bench_color.h"
 #include "bench_commands.h"
+#include "bench_compare.h"
 #include "bench_depth.h"
 #include "bench_filter.h"
 #include "bench_interaction.h"
@@ -526,6 +527,7 @@ void add_benchmarks(CLI::App& app) {
     add_voice_bench(app);
     add_web_bench(app);
     add_view(app);
+    add_compare_bench(app);
     add_registration(app);
 }
 

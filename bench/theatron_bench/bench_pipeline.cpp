@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench_pipeline.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <ctime>
 #include <filesystem>
@@ -21,20 +19,10 @@
 #include "cli/instruction_set.h"
 #include "host/host_http.h"
 #include "process_usage.h"
+#include "temporary_folder.h"
 
 namespace theatron::bench {
 namespace {
-
-// A folder for the host's identity and report, removed at the end.
-struct TemporaryFolder {
-    std::filesystem::path path =
-        std::filesystem::temp_directory_path() / ("theatron_bench_" + std::to_string(getpid()));
-    TemporaryFolder() { std::filesystem::create_directories(path); }
-    ~TemporaryFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path, ignored);
-    }
-};
 
 // For each stage, the figures of the slowest camera.
 nlohmann::json slowest_stages(const nlohmann::json& host) {

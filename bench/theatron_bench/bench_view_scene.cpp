@@ -46,19 +46,14 @@ bool is_patterned(Material material) {
            material == Material::brick;
 }
 
-struct Eye {
-    Vec3 from, to;
-    double fov_degrees;
-};
-
 Vec3 on_circle(double degrees, double radius, double height) {
     const double a = radians_of(degrees);
     return {radius * std::cos(a), height, radius * std::sin(a)};
 }
 
 // Viewpoints between cameras: the first four cameras are at -42, 46, 137 and -132 degrees.
-std::vector<Eye> held_places() {
-    std::vector<Eye> eyes;
+std::vector<ViewBenchEye> held_places() {
+    std::vector<ViewBenchEye> eyes;
     for (const double degrees : {2.0, 91.0, 182.0, -87.0})
         eyes.push_back({on_circle(degrees, 1.8, 1.95), situs, field_of_view});
     for (const double degrees : {-42.0, 46.0, 137.0, -132.0}) {
@@ -70,8 +65,8 @@ std::vector<Eye> held_places() {
 
 // Viewpoints near the papers on the table, so that a pixel of the picture is smaller than one of
 // the cameras'.
-std::vector<Eye> close_places() {
-    std::vector<Eye> eyes;
+std::vector<ViewBenchEye> close_places() {
+    std::vector<ViewBenchEye> eyes;
     for (const double degrees : {-35.0, -10.0, 15.0, 40.0})
         eyes.push_back({on_circle(degrees, 1.3, 1.9), {0.35, 0.98, 0.0}, 26});
     return eyes;
@@ -222,9 +217,11 @@ Sight sight_of(const ViewBenchCamera& camera, Vec3 point_room, Vec3 normal_room)
     return !seen ? Sight::none : measured >= 2 ? Sight::measured : Sight::seen;
 }
 
-ViewBenchPlace make_place(const OperatingRoom& room, const synthetic::RoomMoment& moment,
-                          const std::vector<ViewBenchCamera>& cameras, const Eye& eye,
-                          Size picture) {
+}  // namespace
+
+ViewBenchPlace make_view_bench_place(const OperatingRoom& room, const synthetic::RoomMoment& moment,
+                                     const std::vector<ViewBenchCamera>& cameras,
+                                     const ViewBenchEye& eye, Size picture) {
     const Calibration exact = synthetic::free_viewpoint(eye.from, eye.to, picture, eye.fov_degrees);
     GroundTruth truth = room.look_from(exact, {true, true, true})->render(moment);
     ViewBenchPlace place;
@@ -258,8 +255,6 @@ ViewBenchPlace make_place(const OperatingRoom& room, const synthetic::RoomMoment
     return place;
 }
 
-}  // namespace
-
 ViewBenchScene make_view_bench_scene(const ViewBenchOptions& options,
                                      const capture::Progress& progress) {
     if (options.cameras < 1 || options.cameras > synthetic::max_viewpoints)
@@ -269,7 +264,7 @@ ViewBenchScene make_view_bench_scene(const ViewBenchOptions& options,
     const OperatingRoom room(scene_options);
     const auto moment = room.at(seconds_to_duration(options.seconds));
 
-    const std::vector<Eye> held = held_places(), close = close_places();
+    const std::vector<ViewBenchEye> held = held_places(), close = close_places();
     ViewBenchScene scene;
     scene.cameras.resize(std::size_t(options.cameras));
     scene.places.resize(held.size());
@@ -284,8 +279,8 @@ ViewBenchScene make_view_bench_scene(const ViewBenchOptions& options,
     for_each_of(held.size() + close.size(), [&](std::size_t i) {
         const bool is_held = i < held.size();
         ViewBenchPlace& place = is_held ? scene.places[i] : scene.close[i - held.size()];
-        const Eye& eye = is_held ? held[i] : close[i - held.size()];
-        place = make_place(room, *moment, scene.cameras, eye, options.picture);
+        const ViewBenchEye& eye = is_held ? held[i] : close[i - held.size()];
+        place = make_view_bench_place(room, *moment, scene.cameras, eye, options.picture);
         tell();
     });
     return scene;

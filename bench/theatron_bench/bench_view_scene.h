@@ -10,6 +10,7 @@
 #include "geometry/calibration.h"
 #include "image/image.h"
 #include "render/camera_view.h"
+#include "synthetic/operating_room.h"
 
 namespace theatron::bench {
 
@@ -38,6 +39,12 @@ struct ViewBenchPlace {
     Image<std::uint8_t> seen, overlap, person, patterned;
 };
 
+// From where, and to which point of the room, a picture is taken.
+struct ViewBenchEye {
+    Vec3 from, to;
+    double fov_degrees = 70;  // horizontal
+};
+
 struct ViewBenchOptions {
     int cameras = 4;               // 1 to 12
     Size picture{640, 360};        // of the exact pictures
@@ -57,6 +64,13 @@ struct ViewBenchScene {
 
 ViewBenchScene make_view_bench_scene(const ViewBenchOptions& options,
                                      const capture::Progress& progress);
+
+// The exact picture from one viewpoint. It uses the cameras' calibration, exact depth and the
+// last depth image.
+ViewBenchPlace make_view_bench_place(const synthetic::OperatingRoom& room,
+                                     const synthetic::RoomMoment& moment,
+                                     const std::vector<ViewBenchCamera>& cameras,
+                                     const ViewBenchEye& eye, Size picture);
 
 // The images of one camera's frame as received by a viewer.
 struct ViewBenchImages {

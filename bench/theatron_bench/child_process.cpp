@@ -8,20 +8,22 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <filesystem>
 #include <string_view>
 
 #include "base/error.h"
 
 namespace theatron::bench {
 
-ChildProcess::ChildProcess(const std::vector<std::string>& arguments,
-                           const std::string& state_home) {
+std::filesystem::path neighbour_program(const std::string& name) {
+    return std::filesystem::read_symlink("/proc/self/exe").parent_path() / name;
+}
+
+ChildProcess::ChildProcess(const std::vector<std::string>& arguments, const std::string& state_home,
+                           const std::string& name) {
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0)
         throw Error("Cannot start a child process.");
-    const std::string program =
-        (std::filesystem::read_symlink("/proc/self/exe").parent_path() / "theatron").string();
+    const std::string program = neighbour_program(name).string();
     std::vector<std::string> copies = arguments;
     copies.insert(copies.begin(), program);
     std::vector<char*> argv;

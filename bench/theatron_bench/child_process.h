@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs the program `theatron` of the same folder as a child, for measurements between processes.
+// Runs a program of the same folder as a child, for measurements between processes.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
 namespace theatron::bench {
+
+// The path of a program beside this one, which may not exist.
+std::filesystem::path neighbour_program(const std::string& name);
 
 class ChildProcess {
 public:
@@ -13,7 +17,8 @@ public:
     // calling thread ends, for whatever reason. `state_home`: of its person's settings; empty:
     // those of this process. Throws Error.
     explicit ChildProcess(const std::vector<std::string>& arguments,
-                          const std::string& state_home = "");
+                          const std::string& state_home = "",
+                          const std::string& program = "theatron");
     ~ChildProcess();  // kills the child if it still runs
     ChildProcess(const ChildProcess&) = delete;
     ChildProcess& operator=(const ChildProcess&) = delete;

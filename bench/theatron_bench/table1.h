@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "image/view.h"
+#include "photon/stages.h"
 
 namespace theatron::bench {
 
@@ -37,6 +38,7 @@ enum class Table1Input {
     one_camera,
     two_cameras,
     session,
+    strip,
     none
 };
 // The part of a machine on which a figure depends.
@@ -66,7 +68,9 @@ struct Table1Measured {
     std::map<Table1Input, Size> sizes;          // of its pictures
     std::string processor;
     int cores = 0;
-    std::string gpu;             // the GL driver's name for it; empty: no GL
+    std::string gpu;  // the GL driver's name for it; empty: no GL
+    // The mean age of a drawn picture of a synthetic camera, stage by stage; empty: not measured.
+    std::vector<photon::Stage> stages;
     double cores_of_others = 0;  // busy with other programs before the first run
     int runs = 0, frames = 0;    // asked for
 };

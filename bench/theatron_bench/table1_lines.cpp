@@ -230,11 +230,24 @@ std::vector<Table1Line> table1_lines() {
                      "ms",
                      120,
                      150,
-                     {"photon", "from a movement to light on a screen"},
+                     {"photon/filmed", "from a movement to light on a screen"},
                      {},
                      In::none,
                      On::machine,
                      {"The paper filmed it at 30 Hz; about 75 ms of it are those of the camera."}});
+    lines.push_back(
+        {"delay.inside",
+         delay,
+         "Whole system with a synthetic camera, without display",
+         "ms",
+         0,
+         0,
+         {},
+         {"photon/inside", "theatron photon read, host with --camera strip:delay=0"},
+         In::strip,
+         On::machine,
+         {"The paper has no such figure. Its 120 to 150 ms less the 75 ms of its camera "
+          "are 45 to 75 ms, with a display in them, which this figure does not have."}});
     return lines;
 }
 

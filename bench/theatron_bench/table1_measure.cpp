@@ -2,7 +2,6 @@
 #include "table1_measure.h"
 
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <thread>
@@ -14,20 +13,20 @@
 #include "bench_filter.h"
 #include "bench_interaction.h"
 #include "camera_frames.h"
+#include "child_process.h"
+#include "processor_name.h"
 #include "table1_inputs.h"
+#include "temporary_folder.h"
 #include "video/color_codec.h"
 #include "video/depth_codecs.h"
 
 namespace theatron::bench {
 namespace {
 
-std::string processor_name() {
-    std::ifstream info("/proc/cpuinfo");
-    for (std::string line; std::getline(info, line);)
-        if (line.starts_with("model name"))
-            return line.substr(line.find(':') + 2);
-    return "processor of unknown name";
-}
+// Small, so that a software renderer keeps up with the camera.
+constexpr const char* photon_picture = "640x360";
+// The first pictures of a session are late, and software renderers draw few.
+constexpr double begin_s = 2;
 
 class Measuring {
 public:
@@ -41,6 +40,7 @@ public:
         out_.frames = int(cameras_.front().depth.size());
         measure_others();
         describe_inputs();
+        describe_strip();
     }
 
     Table1Measured run() {
@@ -58,8 +58,11 @@ public:
             part(0.40, "pictures for a headset", "vr", [&] { headset(); });
             part(0.70, "a session", "session/same", [&] { session("same", "trvl"); });
             part(0.85, "a session", "session/best", [&] { session("best", "strata"); });
+            part(0.95, "the age of a drawn picture", "photon/inside", [&] { motion_to_photon(); });
         }
-        motion_to_photon();
+        out_.reasons["photon/filmed"] =
+            "It needs a film that shows the scene's screen and the participant's display: "
+            "theatron photon film.";
         return std::move(out_);
     }
 
@@ -103,6 +106,14 @@ private:
             (options_.cameras.size() == 1 ? " camera" : " cameras") +
             ", two participants that act, one that moves; " +
             formatted_seconds(options_.session_seconds);
+    }
+
+    void describe_strip() {
+        out_.inputs[Table1Input::strip] =
+            std::string(
+                "a strip that shows the time, of a camera without delay, 30 pictures a "
+                "second; drawn as ") +
+            photon_picture;
     }
 
     static std::string formatted_seconds(double seconds) {
@@ -249,11 +260,32 @@ private:
         add_median("answer_ms", r["grabs"]["there_and_back_ms"]);
     }
 
-    // The one place for this figure: it needs a camera that sees the movement and the screen.
+    // Motion to photon needs a film of both screens. Without one, the age of a strip in the drawn
+    // picture is measured, between a host and a participant as they are in the program.
     void motion_to_photon() {
-        out_.reasons["photon"] =
-            "It needs a camera that sees both a movement and the screen that shows it, which this "
-            "command does not have.";
+        const TemporaryFolder folder;
+        const std::string state = folder.path.string();
+        ChildProcess host({"host", "--listen", "127.0.0.1:0", "--json", "--state",
+                           (folder.path / "host").string(), "--camera", "strip:delay=0"},
+                          state);
+        const auto greeting = nlohmann::json::parse(host.read_line(), nullptr, false);
+        if (!greeting.is_object())
+            throw Error("The host of the strip did not start; its message is above.");
+        ChildProcess reader(
+            {"photon", "read", greeting["link"], "--size", photon_picture, "--seconds",
+             std::to_string(options_.session_seconds + begin_s), "--json"},
+            state);
+        const auto read = nlohmann::json::parse(reader.read_line(), nullptr, false);
+        if (reader.wait().exit_code != 0 || !read.is_object())
+            throw Error(
+                "The strip was not read in the drawn pictures; the lines before the table have the "
+                "reason.");
+        add("photon/inside", read["age_ms"]["median"]);
+        out_.stages.clear();
+        for (const auto& stage : read["stages"])
+            out_.stages.push_back({stage["until"], stage["what"], stage["mean_ms"]});
+        host.interrupt();
+        (void)host.wait();
     }
 
     const Table1Options& options_;

@@ -157,6 +157,10 @@ std::string table1_text(const Table1Measured& measured, const std::vector<Table1
         if (!reason.empty())
             text += "    no figure: " + reason + "\n";
     }
+    if (!measured.stages.empty())
+        text += "\nMean age of a drawn picture of a synthetic camera, without display:\n";
+    for (const photon::Stage& stage : measured.stages)
+        text += "  " + padded(formatted("%.1f ms", stage.mean_ms), 12) + stage.name + "\n";
     text += "\nWhy a figure here cannot be compared with the paper's:\n";
     for (std::size_t i = 0; i < notes.size(); ++i)
         text += "  " + std::to_string(i + 1) + " " + notes[i] + "\n";
@@ -195,8 +199,12 @@ nlohmann::json table1_json(const Table1Measured& measured, const std::vector<Tab
                         {"device", row.device},
                         {"not_comparable", row.not_comparable}});
     }
+    nlohmann::json stages = nlohmann::json::array();
+    for (const photon::Stage& stage : measured.stages)
+        stages.push_back({{"until", stage.id}, {"what", stage.name}, {"mean_ms", stage.mean_ms}});
     return {{"paper", {{"title", paper_title}, {"machine", paper_machine}}},
             {"here", here},
+            {"stages", stages},
             {"bytes_per_kb", bytes_per_kb},
             {"rows", list}};
 }

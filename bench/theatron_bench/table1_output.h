@@ -14,7 +14,7 @@ namespace theatron::bench {
 std::string table1_text(const Table1Measured& measured, const std::vector<Table1Row>& rows);
 
 // {paper:{title,machine}, here:{processor,cores,gl_renderer,cores_of_others,runs,frames,
-// yardstick:{name,encode_ms,decode_ms,kb}}, bytes_per_kb,
+// yardstick:{name,encode_ms,decode_ms,kb}}, stages:[{until,what,mean_ms}], bytes_per_kb,
 // rows:[{id,group,name,unit,paper:{low,high}, same,best,input,device,not_comparable:[]}]}. `same`
 // and `best`: {ran,median,low,high,runs} or {ran,reason}, or null; `paper` is null where the paper
 // gives no figure, `gl_renderer` and `yardstick` where there is none.

@@ -202,5 +202,47 @@ TEST(Table1Page, HoldsAllInOneFile) {
     EXPECT_THAT(page, Not(HasSubstr("<figcaption><b>Depth, mm</b></figcaption>")));
 }
 
+Table1Measured with_stages() {
+    Table1Measured measured = given_machine();
+    measured.stages = {{"encoded", "host: encoding", 8.25}, {"presented", "drawing", 20}};
+    return measured;
+}
+
+TEST(Table1Stages, AreInTextJsonAndPage) {
+    const std::vector<Table1Row> rows = given_rows();
+    EXPECT_THAT(table1_text(with_stages(), rows), HasSubstr("\n  20.0 ms     drawing\n"));
+    const nlohmann::json stages = table1_json(with_stages(), rows)["stages"];
+    ASSERT_EQ(stages.size(), 2u);
+    EXPECT_EQ(stages[0]["until"], "encoded");
+    EXPECT_EQ(stages[0]["mean_ms"], 8.25);
+    EXPECT_THAT(table1_page(with_stages(), rows), HasSubstr("28.2 ms in all"));
+}
+
+TEST(Table1Stages, AreLeftOutWhereNothingWasMeasured) {
+    const std::vector<Table1Row> rows = given_rows();
+    EXPECT_THAT(table1_text(given_machine(), rows), Not(HasSubstr("Mean age")));
+    EXPECT_TRUE(table1_json(given_machine(), rows)["stages"].empty());
+    EXPECT_THAT(table1_page(given_machine(), rows), Not(HasSubstr("Where the time goes")));
+}
+
+TEST(Table1Page, TheAgeInsideTheSystemIsNotThePapersFigure) {
+    std::vector<Table1Row> rows = given_rows();
+    rows.push_back({"delay.inside",
+                    "Delay",
+                    "Whole system with a synthetic camera, without display",
+                    "ms",
+                    {},
+                    {},
+                    {},
+                    {"photon read", Table1Spread{41.5, 41, 42, 3}, ""},
+                    "",
+                    "",
+                    {}});
+    const std::string page = table1_page(given_machine(), rows);
+    EXPECT_THAT(page, HasSubstr("synthetic camera, without display: a picture is 41.5 ms old when "
+                                "it is drawn. The paper filmed 120 to 150 ms; less the 75 ms of "
+                                "its camera these are 45 to 75 ms"));
+}
+
 }  // namespace
 }  // namespace theatron::bench

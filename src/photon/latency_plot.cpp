@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <vector>
+
+#include "photon/svg_text.h"
 
 namespace theatron::photon {
 namespace {
@@ -13,35 +13,6 @@ namespace {
 constexpr double width = 760, height = 360, top = 56, bottom = 312;
 constexpr double left = 64, middle = 530, bars_left = 550, right = 736;
 constexpr int most_bars = 24;
-
-std::string escaped(const std::string& text) {
-    std::string out;
-    for (const char c : text)
-        switch (c) {
-            case '<':
-                out += "&lt;";
-                break;
-            case '>':
-                out += "&gt;";
-                break;
-            case '&':
-                out += "&amp;";
-                break;
-            default:
-                // Control characters are no XML.
-                out += std::uint8_t(c) < 0x20 ? ' ' : c;
-        }
-    return out;
-}
-
-[[gnu::format(printf, 2, 3)]] void add(std::string& svg, const char* format, ...) {
-    char text[400];
-    va_list values;
-    va_start(values, format);
-    std::vsnprintf(text, sizeof text, format, values);
-    va_end(values);
-    svg += text;
-}
 
 // 1, 2 or 5 times a power of ten, so that `range` has at most eight steps.
 double step_of(double range) {
@@ -66,33 +37,33 @@ public:
 
     void axes(std::string& svg) const {
         for (double ms = low_; ms <= high_ + step_ / 2; ms += step_)
-            add(svg,
-                "<path class='grid' d='M%.1f %.1fH%.1f'/><text x='%.1f' y='%.1f' "
-                "text-anchor='end'>%g</text>\n",
-                left, y_of(ms), right, left - 8, y_of(ms) + 4, ms);
+            svg_add(svg,
+                    "<path class='grid' d='M%.1f %.1fH%.1f'/><text x='%.1f' y='%.1f' "
+                    "text-anchor='end'>%g</text>\n",
+                    left, y_of(ms), right, left - 8, y_of(ms) + 4, ms);
         const double step_s = step_of(length_ms_ / 1000);
         for (double s = 0; s * 1000 <= length_ms_; s += step_s)
-            add(svg, "<text x='%.1f' y='%.1f' text-anchor='middle'>%g</text>\n", x_of(s * 1000),
-                bottom + 18, s);
-        add(svg, "<text x='%.1f' y='%.1f' text-anchor='middle'>seconds of the film</text>\n",
-            (left + middle) / 2, bottom + 36);
-        add(svg, "<text x='%.1f' y='%.1f' text-anchor='middle'>share of the changes</text>\n",
-            (bars_left + right) / 2, bottom + 36);
+            svg_add(svg, "<text x='%.1f' y='%.1f' text-anchor='middle'>%g</text>\n", x_of(s * 1000),
+                    bottom + 18, s);
+        svg_add(svg, "<text x='%.1f' y='%.1f' text-anchor='middle'>seconds of the film</text>\n",
+                (left + middle) / 2, bottom + 36);
+        svg_add(svg, "<text x='%.1f' y='%.1f' text-anchor='middle'>share of the changes</text>\n",
+                (bars_left + right) / 2, bottom + 36);
     }
 
     void mean(std::string& svg) const {
         const double upper = y_of(std::min(latency_.to_ms, high_));
         const double lower = y_of(std::max(latency_.from_ms, low_));
-        add(svg, "<rect class='interval' x='%.1f' y='%.1f' width='%.1f' height='%.1f'/>\n", left,
-            upper, right - left, std::max(lower - upper, 0.0));
-        add(svg, "<path class='mean' d='M%.1f %.1fH%.1f'/>\n", left, y_of(latency_.latency_ms.mean),
-            right);
+        svg_add(svg, "<rect class='interval' x='%.1f' y='%.1f' width='%.1f' height='%.1f'/>\n",
+                left, upper, right - left, std::max(lower - upper, 0.0));
+        svg_add(svg, "<path class='mean' d='M%.1f %.1fH%.1f'/>\n", left,
+                y_of(latency_.latency_ms.mean), right);
     }
 
     void changes(std::string& svg) const {
         for (const SeenChange& change : latency_.changes)
-            add(svg, "<circle cx='%.1f' cy='%.1f' r='2'/>\n", x_of(change.at_ms),
-                y_of(change.latency_ms));
+            svg_add(svg, "<circle cx='%.1f' cy='%.1f' r='2'/>\n", x_of(change.at_ms),
+                    y_of(change.latency_ms));
     }
 
     void bars(std::string& svg) const {
@@ -103,9 +74,9 @@ public:
         const int most = *std::max_element(counts.begin(), counts.end());
         const double bar = (bottom - top) / most_bars;
         for (int i = 0; i < most_bars; ++i)
-            add(svg, "<rect class='bar' x='%.1f' y='%.1f' width='%.1f' height='%.1f'/>\n",
-                bars_left, bottom - (i + 1) * bar + 0.5,
-                (right - bars_left) * counts[std::size_t(i)] / most, bar - 1);
+            svg_add(svg, "<rect class='bar' x='%.1f' y='%.1f' width='%.1f' height='%.1f'/>\n",
+                    bars_left, bottom - (i + 1) * bar + 0.5,
+                    (right - bars_left) * counts[std::size_t(i)] / most, bar - 1);
     }
 
 private:
@@ -120,16 +91,17 @@ private:
 
 std::string latency_svg(const FilmLatency& latency, const std::string& title) {
     std::string svg;
-    add(svg,
-        "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 %g %g' font-family='sans-serif' "
-        "font-size='12'>\n",
-        width, height);
+    svg_add(svg,
+            "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 %g %g' font-family='sans-serif' "
+            "font-size='12'>\n",
+            width, height);
     svg +=
         "<style>text{fill:#222}.grid{stroke:#ddd}.mean{stroke:#b03020;stroke-width:1.5}"
         ".interval{fill:#b03020;fill-opacity:.15}circle,.bar{fill:#1f6f8b}</style>\n"
         "<rect width='100%' height='100%' fill='#fff'/>\n";
-    svg += "<text x='16' y='22' font-size='15'>" + escaped(title) + "</text>\n";
-    add(svg,
+    svg += "<text x='16' y='22' font-size='15'>" + svg_escaped(title) + "</text>\n";
+    svg_add(
+        svg,
         "<text x='16' y='42'>ms of motion to photon: mean %.1f, between %.1f and %.1f with 95 %%; "
         "%zu changes at %.0f frames a second</text>\n",
         latency.latency_ms.mean, latency.from_ms, latency.to_ms, latency.changes.size(),

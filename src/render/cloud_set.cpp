@@ -30,8 +30,6 @@ constexpr NamedPass passes[] = {{"splat", make_splat_pass},
                                 {"blend", make_blend_pass},
                                 {yardstick_renderer, make_bare_grid_pass}};
 
-constexpr Rgb background{32, 34, 38};
-
 }  // namespace
 
 const std::vector<std::string>& renderer_names() {
@@ -236,7 +234,7 @@ Picture CloudSet::render(const CameraView& view, Size size, std::string_view ren
     check_renderer_name(renderer);
     if (!parts_->picture || parts_->picture->size() != size)
         parts_->picture.emplace(size);
-    parts_->picture->clear(background);
+    parts_->picture->clear(cloud_background);
     draw(view, parts_->picture->target(), renderer);
     return parts_->picture->read();
 }

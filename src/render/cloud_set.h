@@ -32,6 +32,9 @@ namespace theatron::render {
 // Largest number of cameras in a set.
 inline constexpr int max_set_cameras = 16;
 
+// The colour of pictures of clouds alone where there is none.
+inline constexpr Rgb cloud_background{32, 34, 38};
+
 // A picture read back. `depth_mm` is the distance along the view's axis in
 // millimetres, 0 where no cloud was drawn and beyond 65 m.
 struct Picture {

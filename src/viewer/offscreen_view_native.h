@@ -35,6 +35,11 @@ public:
         return can_draw() && (scene_.newest().contains(view.camera) ||
                               !scene_.calibrations().contains(view.camera));
     }
+    // The frame of a camera that the next picture shows; null before its first one.
+    receive::CameraFramePtr newest(CameraId camera) const {
+        const auto frame = scene_.newest().find(camera);
+        return frame == scene_.newest().end() ? nullptr : frame->second;
+    }
     // See LiveScene.
     std::vector<std::string> unseen_people() const { return scene_.unseen_people(); }
     std::size_t cameras() const { return scene_.calibrations().size(); }

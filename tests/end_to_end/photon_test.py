@@ -79,8 +79,14 @@ class Photon(unittest.TestCase):
 
     def test_the_strip_is_read_in_the_picture_of_a_session(self):
         with host(self.folder / "state", "strip:delay=200") as h:
-            figures = photon("read", h.greeting["link"], "--seconds", "3", "--json")
+            figures = photon("read", h.greeting["link"], "--seconds", "3", "--size", "640x360", "--json", "--plot", self.folder / "stages.svg")
         self.assertGreaterEqual(youngest(figures), 199.4)
+        stages = {stage["until"]: stage["mean_ms"] for stage in figures["stages"]}
+        self.assertEqual(list(stages)[-3:], ["decoded", "uploaded", "presented"])
+        self.assertGreaterEqual(stages["delivered"], 199)
+        # The strip and the frames' own times tell the same age; a picture is in memory a little before it is read.
+        self.assertLessEqual(abs(sum(stages.values()) - figures["age_ms"]["mean"]), 0.2 * figures["age_ms"]["mean"])
+        self.assertIn("class='stage'", (self.folder / "stages.svg").read_text())
         self.assertGreater(figures["read"], 4)
 
     def test_a_window_shows_the_time(self):

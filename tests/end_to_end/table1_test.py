@@ -28,7 +28,8 @@ class Table1(unittest.TestCase):
         rows = {row["id"]: row for row in found["rows"]}
         for row in rows.values():
             with self.subTest(row["id"]):
-                self.assertTrue(row["same"].get("reason") or row["same"]["runs"] == 1)
+                cell = row["same"] or row["best"]
+                self.assertTrue(cell.get("reason") or cell["runs"] == 1)
                 self.assertTrue(row["not_comparable"])
                 self.assertIn(row["name"], out)
                 self.assertIn(row["name"], files["html"].read_text())
@@ -38,7 +39,15 @@ class Table1(unittest.TestCase):
                      "color.jpeg.full.decode", "rate.full", "rate.cropped", "delay.interval", "delay.interaction"):
             for way in ("same", "best"):
                 self.assertGreater(rows[name][way]["median"], 0, name)
-        self.assertIn("camera", rows["delay.photon"]["same"]["reason"])
+        self.assertIn("photon film", rows["delay.photon"]["same"]["reason"])
+        # Without GL no picture is drawn; on a busy machine too few are.
+        inside = rows["delay.inside"]
+        self.assertIsNone(inside["paper"])
+        if inside["best"].get("median"):
+            self.assertIn("presented", [stage["until"] for stage in found["stages"]])
+            self.assertIn("class='stage'", files["html"].read_text())
+        else:
+            self.assertTrue(inside["best"]["reason"])
         kilobytes = sum(rows[name]["same"]["median"] for name in ("color.jpeg.full.size", "depth.trvl.full.size"))
         self.assertAlmostEqual(rows["rate.full"]["same"]["median"], 30 * kilobytes, delta=0.001 * kilobytes)
         for name in ("vr.1.splat.low", "vr.2.mesh.high"):

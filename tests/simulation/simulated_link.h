@@ -4,6 +4,7 @@
 #pragma once
 
 #include <deque>
+#include <optional>
 #include <random>
 #include <utility>
 
@@ -31,6 +32,13 @@ public:
 
     // Nothing arrives for so long, all the sooner afterwards.
     void stall(Duration length, TimePoint now) { stalled_until_ = now + length; }
+
+    // When all that was sent has left its buffer.
+    TimePoint free_at() const { return free_at_; }
+    // When the next envelope arrives.
+    std::optional<TimePoint> next_arrival() const {
+        return under_way_.empty() ? std::nullopt : std::optional(under_way_.front().first);
+    }
 
     // The next envelope that has arrived by now.
     bool receive(Bytes& envelope, TimePoint now) {

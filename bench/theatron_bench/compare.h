@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// Ways in which an expert elsewhere can see an operation, beside each other: a video call, a
+// published pipeline, a general codec for point clouds, and Theatron.
+//
+// Pure data: compare_measure.h fills Compared, compare_output.h and compare_page.h write it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compare_link.h"
+#include "image/image.h"
+
+namespace theatron::bench {
+
+// Drawn pictures beside the exact ones.
+struct CompareLikeness {
+    double psnr_db = 0, ssim = 0;  // of the pixels whose surface a camera sees
+    double holes_percent = 0;      // share of these without that surface: render::Holes
+    double undrawn_percent = 0;    // share of the whole picture in which nothing is drawn
+};
+
+// A camera's picture that came back, beside what the camera sees.
+struct CompareOwnView {
+    double psnr_db = 0, ssim = 0;
+};
+
+struct CompareMethod {
+    std::string id;      // stable, for scripts
+    std::string name;    // for people who know no codec
+    std::string ran;     // for people who do
+    std::string reason;  // why there are no figures at all; empty if there are some
+    int cameras = 0;
+    double mbit_per_camera = 0;             // at 30 pictures a second
+    double sender_ms = 0, receiver_ms = 0;  // processor time of one camera's picture
+    std::vector<LinkFigures> links;
+    std::optional<CompareOwnView> own_view;
+    std::optional<CompareLikeness> expert;    // over all places
+    std::vector<CompareLikeness> from_place;  // from each of them
+    std::string expert_reason;                // why there is no picture from the expert's place
+    // From each place of the expert; one picture if it is the same from all, none without any.
+    std::vector<ColorImage> pictures;
+};
+
+struct Compared {
+    std::string processor;
+    int cores = 0;
+    double cores_of_others = 0;  // busy with other programs before the first measurement
+    std::string gl_renderer;     // empty: no GL
+    int cameras = 0, frames = 0;
+    Size depth, color, picture;
+    std::vector<CompareLink> links;
+    std::vector<std::string> places;  // of the expert, in words
+    std::vector<ColorImage> truth;    // from each of them
+    std::vector<CompareMethod> methods;
+
+    const CompareMethod* find(const std::string& id) const {
+        for (const CompareMethod& method : methods)
+            if (method.id == id)
+                return &method;
+        return nullptr;
+    }
+};
+
+inline constexpr double compare_pictures_per_s = 30;
+inline constexpr const char *video_call_id = "video_call", *paper_id = "paper", *pcl_id = "pcl",
+                            *theatron_id = "theatron";
+
+}  // namespace theatron::bench

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "compare_output.h"
+
+#include <nlohmann/json.hpp>
+
+#include "svg_drawing.h"
+#include "table1_inputs.h"
+#include "table1_output.h"
+
+namespace theatron::bench {
+namespace {
+
+std::string column(const std::string& text, std::size_t width) {
+    return std::string(text.size() < width ? width - text.size() : 0, ' ') + text;
+}
+
+std::string pad_right(const std::string& text, std::size_t width) {
+    return text + std::string(text.size() < width ? width - text.size() : 0, ' ');
+}
+
+std::string counted(int number, const char* one, const char* many) {
+    return std::to_string(number) + " " + (number == 1 ? one : many);
+}
+
+nlohmann::json size_json(Size size) {
+    return {{"width", size.width}, {"height", size.height}};
+}
+
+nlohmann::json text_or_null(const std::string& text) {
+    return text.empty() ? nlohmann::json(nullptr) : nlohmann::json(text);
+}
+
+nlohmann::json method_json(const CompareMethod& method) {
+    nlohmann::json result = {{"id", method.id},
+                             {"name", method.name},
+                             {"ran", method.ran},
+                             {"reason", text_or_null(method.reason)},
+                             {"expert_reason", text_or_null(method.expert_reason)}};
+    for (const char* key :
+         {"cameras", "mbit_per_camera", "sender_ms", "receiver_ms", "links", "own_view", "expert"})
+        result[key] = nullptr;
+    if (method.reason.empty()) {
+        result["cameras"] = method.cameras;
+        result["mbit_per_camera"] = method.mbit_per_camera;
+        result["sender_ms"] = method.sender_ms;
+        result["receiver_ms"] = method.receiver_ms;
+        result["links"] = nlohmann::json::array();
+        for (const LinkFigures& f : method.links)
+            result["links"].push_back(
+                {{"mbit", f.link.mbit},
+                 {"latency_ms", f.link.latency_ms},
+                 {"pictures_per_s", f.pictures_per_s},
+                 {"delay_ms", {{"mean", f.delay_ms}, {"p95", f.delay_p95_ms}}}});
+    }
+    if (method.own_view)
+        result["own_view"] = {{"psnr_db", method.own_view->psnr_db},
+                              {"ssim", method.own_view->ssim}};
+    if (method.expert)
+        result["expert"] = {{"psnr_db", method.expert->psnr_db},
+                            {"ssim", method.expert->ssim},
+                            {"holes_percent", method.expert->holes_percent},
+                            {"undrawn_percent", method.expert->undrawn_percent}};
+    return result;
+}
+
+}  // namespace
+
+std::string link_text(const CompareLink& link) {
+    return figure_text(link.mbit) + " Mbit/s, " + figure_text(link.latency_ms) + " ms";
+}
+
+std::vector<std::string> compare_remarks(const Compared& c) {
+    std::vector<std::string> remarks;
+    remarks.push_back(
+        "Input: the generated operating room, " + counted(c.cameras, "camera", "cameras") + ", " +
+        counted(c.frames, "picture", "pictures") + " each at 30 a second; depth " +
+        size_text(c.depth) + ", colour " + size_text(c.color) + ", with the noise of sensors.");
+    remarks.push_back(
+        "Machine: " + c.processor + ", " + counted(c.cores, "core", "cores") + "; " +
+        (c.gl_renderer.empty() ? "no GL." : "pictures drawn by " + c.gl_renderer + "."));
+    if (c.cores_of_others > 0.2)
+        remarks.push_back("Other programs used " + formatted("%.1f", c.cores_of_others) +
+                          " cores before the first measurement. Processor times are those of the "
+                          "work itself, and a little longer for that.");
+    return remarks;
+}
+
+std::vector<std::string> compare_limits() {
+    return {
+        "The operation is generated. Its cameras have the noise and the gaps of real ones, but no "
+        "blood on a lens, no smoke and no lamp that blinds a sensor.",
+        "The lines are simulated: a rate, a delay, no losses, nobody else on them. Delay is from "
+        "the moment of the picture until it is decoded. The camera's own delay and that of drawing "
+        "and display come on top, for each method alike.",
+        "Each camera has a processor core of its own in this. Drawing is not in the processor "
+        "times, because it is the graphics card's work.",
+        "The video call's camera hangs where Theatron's first one does. Somebody in the room could "
+        "put it nearer or turn it when the expert asks.",
+        "The video call is one codec at one rate. Products for video calls add and leave out much "
+        "that is not measured here, sound among it.",
+        "The paper's pipeline is rebuilt from what the paper says; its own program was not run. "
+        "Its depth loses detail for fewer bytes, the one here does not.",
+        "PCL's codec is the one that cwipc's grew out of. cwipc itself was not run.",
+        "No figure says whether an expert decides better or sooner. That takes a study with "
+        "surgeons."};
+}
+
+std::string compare_text(const Compared& c) {
+    std::string text;
+    for (const std::string& remark : compare_remarks(c))
+        text += remark + "\n";
+    text += "\n" + pad_right("", 28) + column("cameras", 8) + column("Mbit/s", 9) +
+            column("sender", 9) + column("receiver", 10);
+    for (const CompareLink& link : c.links)
+        text += column(link_text(link), 23);
+    text += column("from the expert's place", 37) + "\n" + pad_right("", 28) + column("", 8) +
+            column("a camera", 9) + column("ms", 9) + column("ms", 10);
+    for (std::size_t i = 0; i < c.links.size(); ++i)
+        text += column("pictures/s   delay ms", 23);
+    text += column("PSNR dB", 12) + column("SSIM", 8) + column("holes %", 9) +
+            column("empty %", 9) + "\n";
+    for (const CompareMethod& m : c.methods) {
+        text += pad_right(m.name, 28);
+        if (!m.reason.empty()) {
+            text += "not measured: " + m.reason + "\n";
+            continue;
+        }
+        text += column(std::to_string(m.cameras), 8) +
+                column(formatted("%.1f", m.mbit_per_camera), 9) +
+                column(formatted("%.1f", m.sender_ms), 9) +
+                column(formatted("%.1f", m.receiver_ms), 10);
+        for (const LinkFigures& f : m.links)
+            text += column(formatted("%.1f", f.pictures_per_s), 12) +
+                    column(formatted("%.0f", f.delay_ms), 11);
+        if (m.expert)
+            text += column(formatted("%.1f", m.expert->psnr_db), 12) +
+                    column(formatted("%.3f", m.expert->ssim), 8) +
+                    column(formatted("%.1f", m.expert->holes_percent), 9) +
+                    column(formatted("%.1f", m.expert->undrawn_percent), 9);
+        else
+            text += "  none";
+        text += "\n";
+    }
+    text += "\nWhat ran:\n";
+    for (const CompareMethod& m : c.methods) {
+        text += "  " + m.name + ": " + m.ran + ".\n";
+        if (m.reason.empty() && !m.expert_reason.empty())
+            text += "    " + m.expert_reason + "\n";
+    }
+    text += "\nWhat the figures do not say:\n";
+    for (const std::string& sentence : compare_limits())
+        text += "  " + sentence + "\n";
+    return text;
+}
+
+nlohmann::json compare_json(const Compared& c) {
+    nlohmann::json methods = nlohmann::json::array();
+    for (const CompareMethod& method : c.methods)
+        methods.push_back(method_json(method));
+    return {{"here",
+             {{"processor", c.processor},
+              {"cores", c.cores},
+              {"cores_of_others", c.cores_of_others},
+              {"gl_renderer", text_or_null(c.gl_renderer)}}},
+            {"cameras", c.cameras},
+            {"frames", c.frames},
+            {"pictures_per_s", compare_pictures_per_s},
+            {"depth", size_json(c.depth)},
+            {"color", size_json(c.color)},
+            {"picture", size_json(c.picture)},
+            {"places", c.places},
+            {"methods", methods}};
+}
+
+}  // namespace theatron::bench

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// The comparison for people at a terminal and for scripts.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "compare.h"
+
+namespace theatron::bench {
+
+// A table, with what ran and each reason below it. Lines end with \n.
+std::string compare_text(const Compared& compared);
+
+// {here:{processor,cores,cores_of_others,gl_renderer}, cameras, frames, pictures_per_s, depth,
+// color and picture: {width,height}, places:[],
+// methods:[{id,name,ran,reason,cameras,mbit_per_camera,sender_ms,receiver_ms,
+// links:[{mbit,latency_ms,pictures_per_s,delay_ms:{mean,p95}}], own_view:{psnr_db,ssim},
+// expert:{psnr_db,ssim,holes_percent,undrawn_percent},expert_reason}]}. Null stands for what is
+// not there: figures of a method that could not be measured, own_view, expert, reasons.
+nlohmann::json compare_json(const Compared& compared);
+
+// The input and the machine, one sentence each.
+std::vector<std::string> compare_remarks(const Compared& compared);
+
+// The sentences on what no figure of the comparison says.
+std::vector<std::string> compare_limits();
+
+// "20 Mbit/s, 20 ms".
+std::string link_text(const CompareLink& link);
+
+}  // namespace theatron::bench

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Theatron beside a video call and point cloud codecs: table, JSON and page of one short measurement."""
+import html
+import json
+import pathlib
+import re
+import shutil
+import tempfile
+import unittest
+
+from theatron_process import PROGRAM, run
+
+METHODS = ["video_call", "paper", "pcl", "theatron"]
+
+
+class Compare(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="theatron_e2e_"))
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def test_every_method_has_figures_and_pictures_or_its_reason(self):
+        page, figures = self.folder / "compare.html", self.folder / "compare.json"
+        code, out, errors = run("bench", "compare", "--quick", "--frames", "3", "--mbit", "10", "1000", "--page", page, "--json", figures)
+        self.assertEqual(code, 0, errors)
+        found, raw = json.loads(figures.read_text()), page.read_text()
+        # The pictures would hide any message.
+        shown = html.unescape(re.sub("base64,[^\"]*", "", raw))
+        self.assertEqual([m["id"] for m in found["methods"]], METHODS)
+        pictures = len(found["places"])
+        for method in found["methods"]:
+            with self.subTest(method["id"]):
+                self.assertIn(method["name"], out)
+                self.assertIn(method["name"], shown)
+                if method["reason"]:
+                    self.assertIn(method["reason"], out)
+                    self.assertIsNone(method["mbit_per_camera"])
+                    continue
+                self.assertGreater(method["mbit_per_camera"], 0)
+                self.assertGreater(method["sender_ms"], 0)
+                self.assertGreater(method["receiver_ms"], 0)
+                slow, fast = method["links"]
+                self.assertEqual((slow["mbit"], fast["mbit"]), (10, 1000))
+                self.assertLessEqual(slow["pictures_per_s"], fast["pictures_per_s"])
+                self.assertGreater(slow["delay_ms"]["mean"], fast["delay_ms"]["mean"])
+                self.assertEqual(method["expert"] is None, method["expert_reason"] is not None)
+                pictures += len(found["places"]) if method["expert"] or method["id"] == "video_call" else 0
+        self.assertEqual(shown.count("<img "), pictures)
+        self.assertEqual(shown.count('src="data:image/jpeg;'), pictures)
+        self.assertNotIn("http", shown)
+        methods = {m["id"]: m for m in found["methods"]}
+        # These need no library that may be missing.
+        for name in ("paper", "theatron"):
+            self.assertIsNone(methods[name]["reason"])
+            self.assertEqual(methods[name]["expert"] is None, found["here"]["gl_renderer"] is None)
+            self.assertEqual(methods[name]["cameras"], 2)
+        self.assertIsNone(methods["video_call"]["expert"])
+        if methods["theatron"]["expert"]:
+            self.assertLess(methods["theatron"]["expert"]["holes_percent"], methods["paper"]["expert"]["holes_percent"])
+            self.assertGreater(methods["theatron"]["expert"]["psnr_db"], methods["paper"]["expert"]["psnr_db"])
+        self.assertEqual(methods["pcl"]["reason"] is None, (pathlib.Path(PROGRAM).parent / "theatron_bench_pcl").exists())
+
+    def test_what_cannot_be_written_is_said_before_anything_is_measured(self):
+        for words in (["--page", self.folder / "none" / "a.html"], ["--json", self.folder / "none" / "a.json"], ["--page", self.folder]):
+            code, out, errors = run("bench", "compare", "--quick", *words)
+            self.assertEqual((code, out), (1, ""))
+            self.assertIn(str(words[1]), errors)
+            self.assertNotIn("%", errors)
+
+
+if __name__ == "__main__":
+    unittest.main()
