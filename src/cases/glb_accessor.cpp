@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "cases/foreign_files.h"
 
@@ -42,6 +43,10 @@ bool has_extension(const Json& object, const char* name) {
         return false;
     const auto all = object.find("extensions");
     return all != object.end() && all->is_object() && all->contains(name);
+}
+
+const Json& extension_in(const Json& object, const char* name) {
+    return has_extension(object, name) ? object["extensions"][name] : no_list();
 }
 
 namespace {
@@ -118,8 +123,8 @@ struct Accessors::Numbers {
     std::size_t count = 0, component = f32, components = 1;
     bool normalized = false;
     std::size_t bytes() const { return components * size_of(component); }
-    double at(const std::byte* place) const {
-        const double value = value_at(place, component);
+    double at(const std::byte* place) const { return scaled(value_at(place, component)); }
+    double scaled(double value) const {
         return normalized ? std::max(value / one_of(component), -1.0) : value;
     }
 };
@@ -156,24 +161,89 @@ Answer Accessors::find_view(const Json& holder, std::size_t needed, ByteView& by
     if (!number || *number >= views.size())
         return Answer::unreadable;
     const Json& view = views[*number];
+    stride = index_of(view, "byteStride").value_or(0);
+    ByteView whole;
+    Answer found = Answer::content;
     // Packed bytes are in the extension's own buffer; this one may have none.
-    if (has_extension(view, "EXT_meshopt_compression") ||
-        has_extension(view, "KHR_meshopt_compression")) {
-        extension_ = "EXT_meshopt_compression";
-        return Answer::extension;
-    }
-    const std::size_t buffer = index_of(view, "buffer").value_or(0);
+    if (has_extension(view, meshopt))
+        found = unpack_view(*number, extension_in(view, meshopt), whole, stride);
+    else
+        found = find_bytes(view, whole);
+    if (found != Answer::content)
+        return found;
+    const std::size_t offset = index_of(holder, "byteOffset").value_or(0);
+    if (offset > whole.size() || needed > whole.size() - offset)
+        return Answer::lacks;
+    bytes = whole.subspan(offset);
+    return Answer::content;
+}
+
+// What a view, or an extension's object that is as one, says of its place in the file's buffer.
+Answer Accessors::find_bytes(const Json& place, ByteView& bytes) const {
+    const std::size_t buffer = index_of(place, "buffer").value_or(0);
     const Json& buffers = list_of(root_, "buffers");
     if (buffer != 0 || (!buffers.empty() && buffers[0].contains("uri")))
         return Answer::other_buffer;
-    const std::size_t begin = index_of(view, "byteOffset").value_or(0);
-    const std::size_t length = index_of(view, "byteLength").value_or(0);
-    const std::size_t offset = index_of(holder, "byteOffset").value_or(0);
-    stride = index_of(view, "byteStride").value_or(0);
-    if (begin > buffer_.size() || length > buffer_.size() - begin || offset > length ||
-        needed > length - offset)
+    const std::size_t begin = index_of(place, "byteOffset").value_or(0);
+    const std::size_t length = index_of(place, "byteLength").value_or(0);
+    if (begin > buffer_.size() || length > buffer_.size() - begin)
         return Answer::lacks;
-    bytes = buffer_.subspan(begin + offset, length - offset);
+    bytes = buffer_.subspan(begin, length);
+    return Answer::content;
+}
+
+// Several accessors may use one view, which is unpacked once.
+Answer Accessors::unpack_view(std::size_t number, const Json& packed, ByteView& bytes,
+                              std::size_t& stride) {
+    const MeshoptView about{text_of(packed, "mode"), text_of(packed, "filter"),
+                            index_of(packed, "count").value_or(0),
+                            index_of(packed, "byteStride").value_or(0)};
+    if (about.mode == "ATTRIBUTES")
+        stride = about.stride;
+    const auto known = unpacked_.find(number);
+    if (known != unpacked_.end()) {
+        bytes = known->second;
+        return Answer::content;
+    }
+    ByteView from;
+    if (const Answer found = find_bytes(packed, from); found != Answer::content)
+        return found;
+    std::optional<Bytes> content = unpack_meshopt(from, about);
+    if (!content)
+        return Answer::compression;
+    unpacked_bytes_ += content->size();
+    if (unpacked_bytes_ > max_unpacked_view_bytes)
+        return Answer::too_large;
+    bytes = unpacked_[number] = std::move(*content);
+    return Answer::content;
+}
+
+Answer Accessors::read_draco(const Json& packed, std::size_t position, RawMesh& out) {
+    if (!unpack_draco_) {
+        extension_ = draco;
+        return Answer::extension;
+    }
+    Numbers about;
+    if (const Answer found = find(position, 3, about); found != Answer::content)
+        return found;
+    ByteView bytes;
+    std::size_t stride = 0;
+    if (const Answer found = find_view(packed, 0, bytes, stride); found != Answer::content)
+        return found;
+    const Json& attributes = packed.contains("attributes") ? packed["attributes"] : no_list();
+    const auto number = index_of(attributes, "POSITION");
+    if (!number || *number > std::numeric_limits<std::uint32_t>::max())
+        return Answer::unreadable;
+    std::optional<RawMesh> mesh = unpack_draco_(bytes, std::uint32_t(*number));
+    if (!mesh)
+        return Answer::compression;
+    if (mesh->corners.size() > max_loose_vertices)
+        return Answer::too_large;
+    if (mesh->corners.size() < about.count)
+        return Answer::lacks;
+    for (Vec3& corner : mesh->corners)
+        corner = {about.scaled(corner.x), about.scaled(corner.y), about.scaled(corner.z)};
+    out = std::move(*mesh);
     return Answer::content;
 }
 

@@ -97,8 +97,12 @@ bool read_place(const Json& node, Matrix& out) {
 
 class Scene {
 public:
-    Scene(const Json& root, ByteView buffer, const TakeMesh& take, std::string& extension)
-        : root_(root), accessors_(root, buffer, extension), take_(take), extension_(extension) {}
+    Scene(const Json& root, ByteView buffer, const TakeMesh& take, std::string& extension,
+          glb::UnpackDraco unpack_draco)
+        : root_(root),
+          accessors_(root, buffer, extension, unpack_draco),
+          take_(take),
+          extension_(extension) {}
 
     Answer walk() {
         const Json& nodes = glb::list_of(root_, "nodes");
@@ -181,34 +185,37 @@ private:
         return take_(named) ? Answer::content : Answer::end;
     }
 
+    // Corners and triangles as numbers that stand in the file one after another.
+    Answer read_plain(const Json& primitive, std::size_t position, glb::RawMesh& out) {
+        if (const Answer read = accessors_.read_positions(position, out.corners);
+            read != Answer::content)
+            return read;
+        if (const auto list = glb::index_of(primitive, "indices"))
+            return accessors_.read_indices(*list, out.indices);
+        for (std::size_t i = 0; i < out.corners.size(); ++i)
+            out.indices.push_back(std::uint32_t(i));
+        return Answer::content;
+    }
+
     Answer add(const Json& primitive, const Matrix& place, medical::Mesh& mesh) {
         constexpr std::size_t triangles = 4, strip = 5, fan = 6;
         const std::size_t mode = glb::index_of(primitive, "mode").value_or(triangles);
         if (mode < triangles || mode > fan)
             return Answer::content;  // points and lines
-        constexpr const char* draco = "KHR_draco_mesh_compression";
         const Json& attributes =
             primitive.contains("attributes") ? primitive["attributes"] : glb::no_list();
         const auto position = glb::index_of(attributes, "POSITION");
         if (!position)
             return Answer::content;
-        if (glb::has_extension(primitive, draco) && !accessors_.has_bytes(*position)) {
-            extension_ = draco;
-            return Answer::extension;
-        }
-        std::vector<Vec3> corners;
-        if (const Answer read = accessors_.read_positions(*position, corners);
-            read != Answer::content)
-            return read;
-        std::vector<std::uint32_t> indices;
-        if (const auto list = glb::index_of(primitive, "indices")) {
-            if (const Answer read = accessors_.read_indices(*list, indices);
-                read != Answer::content)
-                return read;
-        } else {
-            for (std::size_t i = 0; i < corners.size(); ++i)
-                indices.push_back(std::uint32_t(i));
-        }
+        glb::RawMesh read;
+        const bool packed =
+            glb::has_extension(primitive, glb::draco) && !accessors_.has_bytes(*position);
+        const Answer found = packed ? accessors_.read_draco(
+                                          glb::extension_in(primitive, glb::draco), *position, read)
+                                    : read_plain(primitive, *position, read);
+        if (found != Answer::content)
+            return found;
+        const auto& [corners, indices] = read;
         const std::size_t first = mesh.positions.size();
         if (first + corners.size() > max_loose_vertices ||
             mesh.triangles.size() + indices.size() > max_loose_vertices)
@@ -216,12 +223,13 @@ private:
         for (const Vec3 corner : corners)
             mesh.positions.push_back(medical::to_float(placed(place, corner)));
         const bool mirrored = is_mirrored(place);
-        const std::size_t step = mode == triangles ? 3 : 1;
-        for (std::size_t i = 0; i + 3 <= indices.size(); i += step) {
+        // Draco has triangles in every mode.
+        const bool loose = mode == triangles || packed;
+        for (std::size_t i = 0; i + 3 <= indices.size(); i += loose ? 3 : 1) {
             std::size_t a = i, b = i + 1, c = i + 2;
-            if (mode == strip && i % 2 == 1)
+            if (!loose && mode == strip && i % 2 == 1)
                 std::swap(a, b);
-            if (mode == fan)
+            if (!loose && mode == fan)
                 a = 0;
             medical::Triangle t{indices[a], indices[mirrored ? c : b], indices[mirrored ? b : c]};
             for (std::uint32_t& corner : t) {
@@ -245,7 +253,8 @@ private:
 
 }  // namespace
 
-Answer read_glb(ByteView file, const TakeMesh& take, std::string& extension) {
+Answer read_glb(ByteView file, const TakeMesh& take, std::string& extension,
+                glb::UnpackDraco unpack_draco) {
     constexpr std::size_t header_bytes = 12, chunk_head = 8;
     if (file.size() < header_bytes || std::memcmp(file.data(), "glTF", 4) != 0)
         return Answer::no_mesh;
@@ -272,12 +281,11 @@ Answer read_glb(ByteView file, const TakeMesh& take, std::string& extension) {
         return Answer::unreadable;
     for (const Json& name : glb::list_of(root, "extensionsRequired"))
         if (name.is_string() && !is_harmless(name.get<std::string>()) &&
-            name.get<std::string>() != "KHR_draco_mesh_compression" &&
-            name.get<std::string>() != "EXT_meshopt_compression") {
+            name.get<std::string>() != glb::draco && name.get<std::string>() != glb::meshopt) {
             extension = name.get<std::string>();
             return Answer::extension;
         }
-    return Scene(root, buffer, take, extension).walk();
+    return Scene(root, buffer, take, extension, unpack_draco).walk();
 }
 
 }  // namespace theatron::cases

@@ -11,6 +11,7 @@
 #include "base/bytes.h"
 #include "cases/foreign_answer.h"
 #include "cases/foreign_files.h"
+#include "cases/glb_packed.h"
 
 namespace theatron::cases {
 
@@ -23,9 +24,11 @@ Answer read_stl(ByteView file, const TakeMesh& take);
 // Text or binary in either order of bytes; elements in any order; polygons and strips of triangles.
 Answer read_ply(ByteView file, const TakeMesh& take);
 
-// glTF 2.0 in one file; positions as floating-point numbers or quantized. The meshes of one node
-// are one. `extension` names the one that the file needs and that is not known, with
-// Answer::extension.
-Answer read_glb(ByteView file, const TakeMesh& take, std::string& extension);
+// glTF 2.0 in one file; positions as floating-point numbers or quantized, also packed with
+// meshoptimizer. The meshes of one node are one. `extension` names the one that the file needs and
+// that is not known, with Answer::extension; Draco is one of them unless `unpack_draco` is given
+// (glb_packed.h), which makes this as safe as that library is.
+Answer read_glb(ByteView file, const TakeMesh& take, std::string& extension,
+                glb::UnpackDraco unpack_draco = nullptr);
 
 }  // namespace theatron::cases

@@ -155,5 +155,70 @@ TEST(Glb, WhatItNeedsAndIsNotKnownIsNamed) {
         << "a node that holds itself";
 }
 
+// Three corners and a triangle, as meshoptimizer packs them in the plainest way.
+Bytes packed_corners(const std::vector<float>& numbers) {
+    constexpr std::size_t stride = 12, group = 16;
+    const auto* const bytes = reinterpret_cast<const std::uint8_t*>(numbers.data());
+    const std::size_t count = numbers.size() / 3;
+    Bytes out{std::byte{0xa0}};
+    for (std::size_t k = 0; k < stride; ++k) {
+        out.push_back(std::byte{0xff});
+        for (std::size_t i = 0; i < group; ++i) {
+            const auto before = std::int8_t(bytes[(i == 0 || i >= count ? 0 : i - 1) * stride + k]);
+            const auto here = i < count ? std::int8_t(bytes[i * stride + k]) : before;
+            const auto step = std::int8_t(here - before);
+            out.push_back(std::byte(std::uint8_t((step << 1) ^ (step >> 7))));
+        }
+    }
+    out.insert(out.end(), 32 - stride, std::byte{});
+    const auto first = as_bytes(std::span(numbers)).first(stride);
+    out.insert(out.end(), first.begin(), first.end());
+    return out;
+}
+
+TEST(GlbPacked, CornersOfMeshoptimizerAreExactAndEachTruncationIsRefused) {
+    const std::vector<float> numbers = {0, 0, 0, 0.25f, -7, 1e-3f, 3, 0.1f, 2};
+    const Bytes packed = packed_corners(numbers);
+    const glb::MeshoptView about{"ATTRIBUTES", "", 3, 12};
+    const std::optional<Bytes> unpacked = glb::unpack_meshopt(packed, about);
+    ASSERT_TRUE(unpacked);
+    EXPECT_TRUE(
+        std::equal(unpacked->begin(), unpacked->end(), as_bytes(std::span(numbers)).begin()));
+    for (std::size_t n = 0; n < packed.size(); ++n) {
+        const Bytes part(packed.begin(), packed.begin() + std::ptrdiff_t(n));
+        EXPECT_FALSE(glb::unpack_meshopt(part, about)) << n << " bytes";
+    }
+}
+
+TEST(GlbPacked, NumbersThatTheLibraryTrustsAreRefusedHere) {
+    const Bytes packed = packed_corners({0, 0, 0, 1, 0, 0, 0, 1, 0});
+    for (const glb::MeshoptView& about :
+         std::vector<glb::MeshoptView>{{"ATTRIBUTES", "", 0, 12},
+                                       {"ATTRIBUTES", "", 3, 0},
+                                       {"ATTRIBUTES", "", 3, 10},
+                                       {"ATTRIBUTES", "", 3, 260},
+                                       {"ATTRIBUTES", "", std::size_t(1) << 60, 16},
+                                       {"ATTRIBUTES", "OCTAHEDRAL", 3, 12},
+                                       {"TRIANGLES", "", 4, 2},
+                                       {"TRIANGLES", "", 3, 3},
+                                       {"INDICES", "EXPONENTIAL", 3, 4},
+                                       {"POINTS", "", 3, 12}})
+        EXPECT_FALSE(glb::unpack_meshopt(packed, about)) << about.mode << " " << about.count;
+}
+
+TEST(GlbPacked, BytesThatAreNoDracoAreNothing) {
+    const std::string text = std::string("DRACO\2\2\1\0\0\0", 11) + "and no more";
+    EXPECT_FALSE(glb::unpack_draco(as_bytes(text), 0));
+    EXPECT_FALSE(glb::unpack_draco({}, 0));
+}
+
+TEST(GlbPacked, DracoIsNamedWhereItsLibraryMayNotRun) {
+    const Found found = read_glb_text(glb(R"({"nodes": [{"mesh": 0}], "accessors": [
+        {"componentType": 5126, "count": 3, "type": "VEC3"}], "meshes": [{"primitives": [{"attributes":
+        {"POSITION": 0}, "extensions": {"KHR_draco_mesh_compression": {"bufferView": 0}}}]}]})"));
+    EXPECT_EQ(found.what, Answer::extension);
+    EXPECT_EQ(found.extension, "KHR_draco_mesh_compression");
+}
+
 }  // namespace
 }  // namespace theatron::cases

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads STL, PLY and GLB with readers of our own (mesh_files.h), OBJ with assimp. Runs in a
-// sandbox, because the library is large and the files are untrusted.
+// Reads STL, PLY and GLB with readers of our own (mesh_files.h), packed corners of GLB with Draco
+// and meshoptimizer, OBJ with assimp. Runs in a sandbox, because the libraries are large and the
+// files are untrusted.
 #include <assimp/importerdesc.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -217,7 +218,7 @@ void serve_meshes(sandbox::Inside& inside) {
         else if (extension == "ply")
             result = read_ply(file, take);
         else if (extension == "glb")
-            result = read_glb(file, take, needed);
+            result = read_glb(file, take, needed, glb::unpack_draco);
     }
     if (sender.wanted())
         answer(inside, result, as_bytes(needed));

@@ -271,7 +271,8 @@ ParsedLabels parse_nifti(ByteView file) {
     if (!parsed.problem.empty())
         return parsed;
     parsed.is_other_content = false;
-    const double offset = header.offset();
+    // Some programs leave 0, and let the samples follow the header and its four bytes behind.
+    const double offset = header.offset() == 0 ? double(header.size() + 4) : header.offset();
     if (!(offset >= double(header.size()) && offset <= double(max_offset))) {
         parsed.problem = "begins its samples at an impossible place";
         return parsed;

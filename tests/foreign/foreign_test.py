@@ -20,7 +20,9 @@ import dicom_inputs  # noqa: E402
 import folder_inputs  # noqa: E402
 import label_inputs  # noqa: E402
 import mesh_inputs  # noqa: E402
+import more_inputs  # noqa: E402
 import own_seeds  # noqa: E402
+import packed_glb  # noqa: E402
 from expected import problem  # noqa: E402
 
 LEAST = 200
@@ -30,7 +32,7 @@ LONGEST_SEED = 1 << 16
 
 
 def inputs():
-    for module in (dicom_inputs, label_inputs, mesh_inputs, folder_inputs):
+    for module in (dicom_inputs, label_inputs, mesh_inputs, packed_glb, folder_inputs, more_inputs):
         yield from module.inputs()
 
 
@@ -86,8 +88,14 @@ class ForeignFiles(unittest.TestCase):
     def test_surfaces_and_pictures(self):
         self.run_all(mesh_inputs)
 
+    def test_packed_surfaces(self):
+        self.run_all(packed_glb)
+
     def test_whole_folders(self):
         self.run_all(folder_inputs)
+
+    def test_more_of_each_kind(self):
+        self.run_all(more_inputs)
 
     def test_there_are_enough_and_each_has_its_name(self):
         names = [one.name for one in inputs()]

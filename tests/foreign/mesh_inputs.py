@@ -218,12 +218,9 @@ def glb_inputs():
     turned = {"matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0.1, 0.2, 0.3, 1]}
     yield Input("matrix", {"o.glb": box_glb(node=turned)},
                 parts=[Part(None, (110, -280, 230), (150, -255, 260), VOLUME, 12, 0.01)])
-    for name in ("KHR_draco_mesh_compression", "EXT_mesh_gpu_instancing", "VENDOR_shape"):
+    for name in ("EXT_mesh_gpu_instancing", "VENDOR_shape"):
         def need(root, name=name):
             root["extensionsRequired"] = root["extensionsUsed"] = [name]
-            if name == "KHR_draco_mesh_compression":
-                root["meshes"][0]["primitives"][0]["extensions"] = {name: {"bufferView": 0, "attributes": {}}}
-                del root["accessors"][0]["bufferView"]
             if name == "EXT_mesh_gpu_instancing":
                 root["nodes"][0]["extensions"] = {name: {"attributes": {}}}
         yield Input("needs " + name, {"o.glb": box_glb(change=need)}, refused="needs the glTF extension '%s'" % name)
@@ -233,12 +230,6 @@ def glb_inputs():
         def harmless(root, name=name):
             root["extensionsRequired"] = root["extensionsUsed"] = [name]
         yield Input("needs " + name, {"o.glb": box_glb(change=harmless)}, parts=[box(tolerance=0.01)])
-
-    def meshopt(root):
-        root["extensionsRequired"] = root["extensionsUsed"] = ["EXT_meshopt_compression"]
-        root["bufferViews"][0]["extensions"] = {"EXT_meshopt_compression": {"buffer": 0, "byteOffset": 0}}
-    yield Input("meshopt", {"o.glb": box_glb(change=meshopt)},
-                refused="needs the glTF extension 'EXT_meshopt_compression'")
 
     def no_scene(root):
         del root["scene"], root["scenes"]
