@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "face/osc.h"
 
+#include <string>
+
 #include "base/float_bytes.h"
 
 namespace theatron::face {
@@ -64,6 +66,17 @@ private:
     ByteView in_;
     bool ok_ = true;
 };
+
+void put_be(Bytes& out, std::uint32_t value) {
+    for (int shift = 24; shift >= 0; shift -= 8)
+        out.push_back(std::byte(value >> shift));
+}
+
+// With one zero or more, to four bytes.
+void put_text(Bytes& out, std::string_view text) {
+    out.insert(out.end(), as_bytes(text).begin(), as_bytes(text).end());
+    out.resize((out.size() / 4 + 1) * 4);
+}
 
 float float_of(std::uint32_t bits) {
     std::byte bytes[4];
@@ -187,6 +200,26 @@ Status read_osc(ByteView packet, const std::function<void(const OscMessage&)>& t
         return Status::too_large;
     int left = max_osc_messages;
     return read_element(packet, max_osc_depth, left, take);
+}
+
+Bytes osc_packet(const Channels& values, const ChannelMask& mask) {
+    Bytes out;
+    put_text(out, "#bundle");
+    put_be(out, 0);
+    put_be(out, 1);  // at once
+    for (std::size_t i = 0; i < channel_count; ++i) {
+        if (!mask[i])
+            continue;
+        Bytes message;
+        put_text(message, "/theatron/face/" + std::string(channel_names[i]));
+        put_text(message, ",f");
+        std::byte bytes[4];
+        store_f32(bytes, values[i]);
+        put_be(message, load_le<std::uint32_t>(bytes));
+        put_be(out, std::uint32_t(message.size()));
+        out.insert(out.end(), message.begin(), message.end());
+    }
+    return out;
 }
 
 }  // namespace theatron::face

@@ -10,6 +10,7 @@
 
 #include "base/bytes.h"
 #include "base/status.h"
+#include "face/channels.h"
 
 namespace theatron::face {
 
@@ -28,5 +29,9 @@ struct OscMessage {
 // Calls `take` for each message, in order. Views are valid during the call. Not ok: what precedes
 // the damage was given, what follows it was not.
 Status read_osc(ByteView packet, const std::function<void(const OscMessage&)>& take);
+
+// A bundle with one float a channel of `mask`, by ARKit's names under /theatron/face/: the scripted
+// actor's packet.
+Bytes osc_packet(const Channels& values, const ChannelMask& mask);
 
 }  // namespace theatron::face

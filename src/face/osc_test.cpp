@@ -102,6 +102,16 @@ TEST(OscFace, TakesBundlesUnderAnyPrefix) {
     EXPECT_EQ(face.counts().used, 3U);
 }
 
+TEST(OscFace, TakesThePacketOfTheActor) {
+    Channels values{};
+    values[jaw_open] = 0.25F;
+    OscFace face;
+    EXPECT_TRUE(face.take(osc_packet(values, table_of(Source::xr_htc).mask), start));
+    EXPECT_EQ(face.mapped().values, values);
+    EXPECT_EQ(face.mapped().present, table_of(Source::xr_htc).mask);
+    EXPECT_EQ(face.counts().refused, 0U);
+}
+
 TEST(OscFace, TakesNamesAsTexts) {
     Bytes packet;
     put_text(packet, "/VMC/Ext/Blend/Val");
