@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view magic = "TFNET";
 constexpr std::uint8_t version = 1;
-constexpr float max_weight = 1e4F;
+constexpr float max_weight = 10000;
 
 // FNV-1a: damage, not forgery, is what it finds.
 std::uint32_t checksum(ByteView bytes) {

@@ -29,7 +29,7 @@ public:
     // `values` of channels outside `mask` are 0. Successive takes differ.
     Take take(const Wish& wish, const ChannelMask& mask);
 
-    // Of 2 s at rest, as a user gives it for calibration.
+    // A take of 2 s at rest, as a user gives it for calibration.
     Take rest(const ChannelMask& mask);
 
 private:

@@ -17,7 +17,7 @@ struct Example {
 };
 
 constexpr float calibration_s = 2;
-// What precedes it in a take is the beginning of an expression.
+// The time before it in a take is the beginning of an expression.
 constexpr float settled_s = 0.8F;
 constexpr std::size_t batch_size = 32;
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the network sees of a face: the channels of the last 0.7 s, relative to the person at rest.
+// The window of a face that the network sees: the channels of the last 0.7 s, relative to the
+// person at rest.
 //
 // Three numbers a channel: the mean of the last 0.2 s, the mean of the window and its deviation.
 // They do not depend on the tracker's rate. On recorded data a window is worth five points of
@@ -18,8 +19,8 @@ inline constexpr std::size_t feature_count = features_per_channel * channel_coun
 
 using Features = std::array<float, feature_count>;
 
-// Of `samples` in the order of their times, of which those within window_s of the last one count.
-// Precondition: at least one sample.
+// The features of `samples` in the order of their times, of which those within window_s of the last
+// one count. Precondition: at least one sample.
 Features features_of(std::span<const Sample> samples, const Channels& rest);
 
 // The mean of each channel: what a person's face is at rest.
