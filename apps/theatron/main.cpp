@@ -91,6 +91,7 @@ int run(int argc, char** argv) {
     theatron::app::add_target_command(app);
     theatron::app::add_register_command(app);
     theatron::app::add_photon_command(app);
+    theatron::app::add_study_command(app);
 
     if (argc == 1) {
         std::cout << app.help();

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -12,7 +13,7 @@ namespace {
 constexpr int stud_mm = 8;
 constexpr double layer_mm = 9.6, stud_radius_mm = 2.4, stud_height_mm = 1.7;
 constexpr int page_width_mm = 210, page_height_mm = 297, margin_mm = 12, gap_mm = 6;
-constexpr int shown_studs = 10;  // a side of a layer's drawing
+constexpr int shown_studs = 10;  // across a layer's drawing
 constexpr double quarter_turn = 1.5707963267948966;
 
 std::string escaped(const std::string& text) {
@@ -126,17 +127,18 @@ std::string construction_plan(const Construction& construction, const std::strin
         high_y = std::max(high_y, brick.y + brick.depth);
     }
     // Two layers side by side. A large construction is drawn smaller.
-    const int side = std::max(high_x - low_x, high_y - low_y);
-    const double scale = std::min(1.0, double(shown_studs) / std::max(side, 1));
-    const double cell = side * stud_mm * scale;
+    const int across = std::max(high_x - low_x, 1), down = std::max(high_y - low_y, 1);
     const double rows = double((by_layer.size() + 1) / 2);
-    const double fitting = std::min(1.0, (page_height_mm - 75.0) / (rows * (cell + gap_mm + 4)));
+    const double free_mm = page_height_mm - 75.0 - rows * (gap_mm + 4);
+    const double shown_scale =
+        std::min({1.0, double(shown_studs) / across, free_mm / (rows * down * stud_mm)});
+    const double cell_width = across * stud_mm * shown_scale;
+    const double cell_height = down * stud_mm * shown_scale;
     std::string svg =
         "<svg xmlns='http://www.w3.org/2000/svg' width='210mm' height='297mm' "
         "viewBox='0 0 210 297' font-family='sans-serif'>\n";
     svg += rectangle(0, 0, page_width_mm, page_height_mm, "fill='#fff'");
     svg += text_at(margin_mm, margin_mm + 4, title, "6");
-    const double shown_scale = scale * fitting;
     svg += text_at(margin_mm, margin_mm + 10,
                    shown_scale > 0.999
                        ? "Layers from above, the lowest first; print at 100 %: a stud is 8 mm."
@@ -149,10 +151,10 @@ std::string construction_plan(const Construction& construction, const std::strin
     int place = 0;
     double bottom = margin_mm + 20;
     for (const auto& [layer, bricks] : by_layer) {
-        const double x = margin_mm + place % 2 * (cell * fitting + 3 * gap_mm);
-        const double y = margin_mm + 24 + place / 2 * (cell * fitting + gap_mm + 4);
+        const double x = margin_mm + place % 2 * (cell_width + 3 * gap_mm);
+        const double y = margin_mm + 24 + place / 2 * (cell_height + gap_mm + 4);
         svg += text_at(x, y - 1.5, "Layer " + std::to_string(layer + 1), "3.5");
-        svg += rectangle(x, y, cell * fitting, cell * fitting,
+        svg += rectangle(x, y, cell_width, cell_height,
                          "fill='none' stroke='#bbb' stroke-width='0.2'");
         const double pitch = stud_mm * shown_scale;
         const double left = x - low_x * pitch, top = y - low_y * pitch;
@@ -164,7 +166,7 @@ std::string construction_plan(const Construction& construction, const std::strin
                                  brick.depth * pitch,
                                  "fill='none' stroke='#888' stroke-width='0.5' "
                                  "stroke-dasharray='1.5 1'");
-        bottom = y + cell * fitting + gap_mm;
+        bottom = y + cell_height + gap_mm;
         ++place;
     }
     int line = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The replies of participants, as tidy tables (comma-separated values, a row a value) for the report,
-// for R and for anything else. Pure.
+// The replies of participants, as tidy tables (comma-separated values, a row a value) for the
+// report, for R and for anything else. Pure.
 #pragma once
 
 #include <string>
