@@ -74,7 +74,7 @@ void tell_host(const std::string& path, const std::string& line) {
     const int file = open(path.c_str(), O_WRONLY | O_APPEND | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
     if (file < 0 && errno == ENXIO)
         throw Error("No host reads from '" + path + "'; start it with: theatron host ... < " +
-                    path + ", and keep the pipe open.");
+                    path + ".");
     if (file < 0)
         throw Error("Cannot write to '" + path + "': " + std::strerror(errno) + ".");
     const std::string text = line + "\n";

@@ -27,7 +27,6 @@ namespace theatron::study {
 
 // A larger journal is refused.
 inline constexpr std::size_t max_journal_bytes = std::size_t(4) << 20;
-inline constexpr int max_participant = 999;
 
 // The number of a pseudonym: one capital letter and one to three digits, not 0 ("P07" is 7).
 // nullopt: it is none.

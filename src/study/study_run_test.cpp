@@ -197,18 +197,18 @@ TEST(StudyRun, AJournalOfOtherStepsIsRefused) {
 }
 
 TEST(Journal, DamagedLinesAreRefusedWithTheirNumber) {
-    const std::string head = journal_head("P07", 0xabc);
-    EXPECT_EQ(head, "theatron-study-1\tP07\t0000000000000abc\n");
-    EXPECT_EQ(parse_journal(head).problem, "");
-    EXPECT_EQ(parse_journal(head).journal.hash, 0xabcu);
+    const std::string first_line = journal_head("P07", 0xabc);
+    EXPECT_EQ(first_line, "theatron-study-1\tP07\t0000000000000abc\n");
+    EXPECT_EQ(parse_journal(first_line).problem, "");
+    EXPECT_EQ(parse_journal(first_line).journal.hash, 0xabcu);
     for (const char* line :
          {"", "1\t2\ta\t3", "1\t2\ta\t3\tok\t", "x\t2\ta\t3\tok", "1\t-2\ta\t3\tok",
           "1\t2\t\t3\tok", "1\t2\ta b\t3\tok", "1\t2\ta\tx\tok", "1\t2\ta\t3\tmaybe"}) {
-        const ReadJournal read = parse_journal(head + line + "\n");
+        const ReadJournal read = parse_journal(first_line + line + "\n");
         EXPECT_NE(read.problem, "") << line;
         EXPECT_EQ(read.line, 2);
     }
-    EXPECT_NE(parse_journal(head + "5\t0\ta\t-\tok\n4\t0\tb\t-\tok\n").problem, "");
+    EXPECT_NE(parse_journal(first_line + "5\t0\ta\t-\tok\n4\t0\tb\t-\tok\n").problem, "");
     EXPECT_NE(parse_journal("theatron-study-1\tAnna\t0000000000000abc\n").problem, "");
 }
 

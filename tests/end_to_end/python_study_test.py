@@ -25,7 +25,7 @@ try:
     SPEC.loader.exec_module(report)
     MISSING = ""
 except (ImportError, SystemExit) as missing:
-    MISSING = f"{missing}"
+    MISSING = f"needs python3-numpy, python3-scipy, python3-pandas and python3-matplotlib: {missing}"
 
 A7, B7, C7 = [3, 4, 2, 5, 3, 4, 4], [4, 4, 4, 5, 5, 3, 5], [5, 4, 4, 4, 5, 5, 5]
 A12 = [3.2, 4.0, 2.4, 5.1, 3.3, 4.4, 4.8, 2.9, 3.7, 1.5, 4.6, 3.0]

@@ -147,6 +147,8 @@ class Studies(unittest.TestCase):
         if REPORT_NEEDS is None or REPORT_NEEDS.returncode != 0:
             self.assertEqual(code, 1)
             self.assertIn("sudo apt install python3-scipy python3-pandas python3-matplotlib", errors)
+            with self.subTest("the page of the report"):
+                self.skipTest("needs python3-scipy, python3-pandas and python3-matplotlib")
             return None
         self.assertEqual(code, 0, errors)
         return (self.study / "report/report.html").read_text()
