@@ -14,6 +14,7 @@ set(THEATRON_PAGE ${CMAKE_SOURCE_DIR}/build/web/apps/web/page CACHE PATH "The br
 set(packaging ${CMAKE_SOURCE_DIR}/packaging)
 
 install(TARGETS theatron RUNTIME COMPONENT program)
+install(FILES ${CMAKE_SOURCE_DIR}/apps/theatron/study_report.py DESTINATION ${CMAKE_INSTALL_DATADIR}/theatron COMPONENT program)
 if(NOT CMAKE_CROSSCOMPILING)
   install(DIRECTORY ${THEATRON_MANUAL}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT program)
   install(FILES ${THEATRON_MANUAL}/theatron.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME theatron

@@ -17,7 +17,7 @@ PAGE = "docs/limits.md"
 FOLDERS = ("src/wire", "src/net", "src/session", "src/receive", "src/record", "src/sandbox", "src/files", "src/host", "src/client", "src/export", "apps/cli", "apps/theatron")
 # Folders that measure and draw, too: most, longest and least are bounds of their own work there.
 DATA_FOLDERS = ("src/capture", "src/cases", "src/codec", "src/face", "src/filter", "src/geometry", "src/image", "src/medical",
-                "src/publish", "src/sound", "src/video", "src/viewer", "src/voice")
+                "src/publish", "src/sound", "src/study", "src/video", "src/viewer", "src/voice")
 DATA_BOUND = re.compile(r"^max_")
 BOUND = re.compile(r"^(max|most|longest|least)_|_(limit|deadline|patience|timeout)$|^give_up")
 NO_BOUNDS = {("src/record/segment_files.cpp", "least_digits"), ("src/record/segment_files.cpp", "most_digits"),

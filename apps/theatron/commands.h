@@ -36,5 +36,6 @@ void add_target_command(CLI::App& app);
 void add_register_command(CLI::App& app);
 void add_photon_command(CLI::App& app);
 void add_face_command(CLI::App& app);
+void add_study_command(CLI::App& app);
 
 }  // namespace theatron::app

@@ -27,8 +27,6 @@
 namespace theatron::app {
 namespace {
 
-using host::ConfigLine;
-
 constexpr std::size_t shown_of_config = 80;
 constexpr std::uint16_t https_port = 443;
 
@@ -262,7 +260,7 @@ void check_together(const std::vector<ConfigLine>& lines, HostConfig& config,
 
 HostConfig host_config(std::string_view text, const std::vector<std::string>& given,
                        bool is_public) {
-    host::ConfigText parsed = host::parse_config(text);
+    ConfigText parsed = parse_config(text);
     HostConfig config{{}, std::move(parsed.mistakes)};
     if (std::string mistake = mistake_of_sessions(parsed.lines, given); !mistake.empty())
         config.mistakes.push_back({0, "", std::move(mistake)});
@@ -288,7 +286,7 @@ HostConfig host_config(std::string_view text, const std::vector<std::string>& gi
     // A line that is wrong may be the one that another one needs.
     if (config.mistakes.empty())
         check_together(good, config, given);
-    std::ranges::stable_sort(config.mistakes, {}, &host::ConfigMistake::line);
+    std::ranges::stable_sort(config.mistakes, {}, &ConfigMistake::line);
     return config;
 }
 
@@ -305,8 +303,7 @@ ConfigFile read_config(const std::string& file, const std::string& shown) {
     const int in = open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
     struct stat facts {};
     const bool is_file = in >= 0 && fstat(in, &facts) == 0 && S_ISREG(facts.st_mode);
-    ConfigFile config{std::string(host::max_config_bytes + 1, '\0'),
-                      (facts.st_mode & S_IROTH) != 0};
+    ConfigFile config{std::string(max_config_bytes + 1, '\0'), (facts.st_mode & S_IROTH) != 0};
     std::size_t size = 0;
     bool is_read = is_file;
     while (is_read && size < config.text.size()) {
@@ -354,8 +351,7 @@ std::vector<std::string> with_config(const std::vector<std::string>& arguments) 
     const ConfigFile content = read_config(file, shown);
     const HostConfig config = host_config(content.text, arguments, content.is_public);
     if (!config.mistakes.empty())
-        throw Error("The configuration cannot be used:\n" +
-                    host::mistakes_text(shown, config.mistakes));
+        throw Error("The configuration cannot be used:\n" + mistakes_text(shown, config.mistakes));
     std::vector<std::string> words = arguments;
     words.insert(words.end(), config.words.begin(), config.words.end());
     return words;

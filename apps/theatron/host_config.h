@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The configuration file of 'theatron host' (host/config_text.h): its lines become words of the
+// The configuration file of 'theatron host' (base/config_text.h): its lines become words of the
 // command line, so that every option can stand there and means the same.
 #pragma once
 
@@ -7,13 +7,13 @@
 #include <string_view>
 #include <vector>
 
-#include "host/config_text.h"
+#include "base/config_text.h"
 
 namespace theatron::app {
 
 struct HostConfig {
     std::vector<std::string> words;  // "--camera", "k4a:0", ...
-    std::vector<host::ConfigMistake> mistakes;
+    std::vector<ConfigMistake> mistakes;
 };
 
 // `given`: words of the command line. A key whose option is among them is left out.

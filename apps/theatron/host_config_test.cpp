@@ -24,12 +24,12 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 std::string mistakes(std::string_view text, bool is_public = false) {
-    return host::mistakes_text("f", host_config(text, {}, is_public).mistakes);
+    return mistakes_text("f", host_config(text, {}, is_public).mistakes);
 }
 
 // `given`: words of the command line.
 std::string mistakes_beside(const std::vector<std::string>& given, std::string_view text) {
-    return host::mistakes_text("f", host_config(text, given, false).mistakes);
+    return mistakes_text("f", host_config(text, given, false).mistakes);
 }
 
 // A file that can be used; the umask of this machine may let others write.

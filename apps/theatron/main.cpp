@@ -92,6 +92,7 @@ int run(int argc, char** argv) {
     theatron::app::add_register_command(app);
     theatron::app::add_photon_command(app);
     theatron::app::add_face_command(app);
+    theatron::app::add_study_command(app);
 
     if (argc == 1) {
         std::cout << app.help();

@@ -6,21 +6,15 @@
 #include <cmath>
 #include <cstdint>
 
+#include "base/split_mix.h"
 #include "geometry/vec.h"
 
 namespace theatron::cases {
 
-// SplitMix64 (Steele, Lea and Flood 2014).
-inline std::uint64_t mixed(std::uint64_t z) {
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-}
-
 class SynthRandom {
 public:
-    explicit SynthRandom(std::uint64_t seed) : state_(seed) {}
-    std::uint64_t next() { return mixed(state_ += 0x9e3779b97f4a7c15u); }
+    explicit SynthRandom(std::uint64_t seed) : numbers_(seed) {}
+    std::uint64_t next() { return numbers_.next(); }
     double between(double low, double high) {
         return low + (high - low) * (double(next() >> 11) * 0x1p-53);
     }
@@ -34,7 +28,7 @@ public:
     }
 
 private:
-    std::uint64_t state_;
+    SplitMix numbers_;
 };
 
 // Newton's iteration; `value` above 0.

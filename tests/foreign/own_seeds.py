@@ -233,6 +233,7 @@ def seeds():
         "chain_settings_fuzz": [*numbered(CHAINS), ("json", blocks("docs/filters.md", "json")[0].encode())],
         "codec_text_fuzz": numbered(CODECS),
         "config_text_fuzz": [(file.name, file.read_bytes()) for file in sorted((ROOT / "packaging").glob("*.conf"))],
+        "protocol_fuzz": [(f"page_{i}", one.encode()) for i, one in enumerate(blocks("docs/formats/study.md", ""))],
         "rtsp_text_fuzz": [(name, one.encode()) for name, one in RTSP.items()],
         "calibration_fuzz": [("page", page_calibration), ("azure", azure_calibration()), ("matrix", b"525 0 319.5 0 525 239.5 0 0 1")],
         "calibration_bytes_fuzz": calibration_bytes(),

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/config_text.h"
+#include "base/config_text.h"
 
 #include <algorithm>
 
 #include "base/outside_text.h"
 #include "base/trimmed.h"
 
-namespace theatron::host {
+namespace theatron {
 namespace {
 
 constexpr std::size_t shown_characters = 60;  // of what stands in the file
@@ -37,7 +37,7 @@ void parse_line(std::string_view text, int number, ConfigText& config) {
         if (shown.starts_with("--") && is_key(shown.substr(2)))
             return refuse("", "write '" + shown.substr(2) + "' without the hyphens before it");
         if (key.starts_with("["))
-            return refuse("", "there are no sections; another 'session = NAME' begins one");
+            return refuse("", "there are no sections in brackets; lines are KEY = VALUE");
         return refuse("", "'" + shown + "' is no key; lines are KEY = VALUE");
     }
     if (equals == text.npos)
@@ -89,4 +89,4 @@ std::string mistakes_text(const std::string& file, const std::vector<ConfigMista
     return text;
 }
 
-}  // namespace theatron::host
+}  // namespace theatron

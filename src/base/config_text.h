@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The text of a host's configuration file: lines "KEY = VALUE", where KEY is an option of
+// The text of a configuration file: lines "KEY = VALUE". In that of a host, KEY is an option of
 // 'theatron host' without its hyphens.
 //
 //   # the operating room at the end of the corridor
@@ -19,7 +19,7 @@
 #include <string_view>
 #include <vector>
 
-namespace theatron::host {
+namespace theatron {
 
 // A longer text is refused as a whole.
 inline constexpr std::size_t max_config_bytes = 64 * 1024;
@@ -47,4 +47,4 @@ ConfigText parse_config(std::string_view text);
 // "or-3.conf:12: camera: there is no value.", a line each.
 std::string mistakes_text(const std::string& file, const std::vector<ConfigMistake>& mistakes);
 
-}  // namespace theatron::host
+}  // namespace theatron

@@ -4,26 +4,26 @@
 #include <cstdint>
 #include <cstdlib>
 
+#include "base/config_text.h"
 #include "base/outside_text.h"
-#include "host/config_text.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace theatron;
-    const host::ConfigText config = host::parse_config({reinterpret_cast<const char*>(data), size});
+    const ConfigText config = parse_config({reinterpret_cast<const char*>(data), size});
     std::string again;
     int last = 0;
-    for (const host::ConfigLine& line : config.lines) {
+    for (const ConfigLine& line : config.lines) {
         if (line.line <= last || line.value.empty())
             std::abort();
         last = line.line;
         again += line.key + "=\"" + line.value + "\"\n";
     }
-    for (const host::ConfigMistake& mistake : config.mistakes)
+    for (const ConfigMistake& mistake : config.mistakes)
         if (clean_text(mistake.text, mistake.text.size()) != mistake.text)
             std::abort();
-    if (again.size() > host::max_config_bytes)
+    if (again.size() > max_config_bytes)
         return 0;
-    const host::ConfigText reread = host::parse_config(again);
+    const ConfigText reread = parse_config(again);
     if (!reread.mistakes.empty() || reread.lines.size() != config.lines.size())
         std::abort();
     for (std::size_t i = 0; i < config.lines.size(); ++i)

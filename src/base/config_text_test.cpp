@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/config_text.h"
+#include "base/config_text.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace theatron::host {
+namespace theatron {
 namespace {
 
 using ::testing::ElementsAre;
@@ -46,7 +46,7 @@ TEST(ConfigText, EachMistakeIsToldWithLineAndKey) {
               "or.conf:1: session: there is no '='; lines are KEY = VALUE.\n"
               "or.conf:2: camera: there is no value; leave the line out for the usual one.\n"
               "or.conf:3: write 'hsts' without the hyphens before it.\n"
-              "or.conf:4: there are no sections; another 'session = NAME' begins one.\n"
+              "or.conf:4: there are no sections in brackets; lines are KEY = VALUE.\n"
               "or.conf:5: 'What' is no key; lines are KEY = VALUE.\n"
               "or.conf:6: session: the value begins with \" and does not end with it.\n"
               "or.conf:7: session: the value ends with \" and does not begin with it.\n"
@@ -97,4 +97,4 @@ TEST(ConfigText, WrittenByAnotherProgramItIsShownWithoutItsControlCharacters) {
 }
 
 }  // namespace
-}  // namespace theatron::host
+}  // namespace theatron
