@@ -178,7 +178,7 @@ Answer Accessors::find_view(const Json& holder, std::size_t needed, ByteView& by
     return Answer::content;
 }
 
-// What a view, or an extension's object that is as one, says of its place in the file's buffer.
+// The place in the buffer that a view names; an object of the extension is as one.
 Answer Accessors::find_bytes(const Json& place, ByteView& bytes) const {
     const std::size_t buffer = index_of(place, "buffer").value_or(0);
     const Json& buffers = list_of(root_, "buffers");
