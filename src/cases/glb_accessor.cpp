@@ -178,8 +178,7 @@ Answer Accessors::find_view(const Json& holder, std::size_t needed, ByteView& by
     return Answer::content;
 }
 
-// Reads from a view, or from an object of an extension that is as one, its place in the buffer of
-// the file.
+// The place in the buffer that a view names; an object of the extension is as one.
 Answer Accessors::find_bytes(const Json& place, ByteView& bytes) const {
     const std::size_t buffer = index_of(place, "buffer").value_or(0);
     const Json& buffers = list_of(root_, "buffers");
