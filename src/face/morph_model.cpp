@@ -62,13 +62,13 @@ Vec3 blended_vertex(const MorphModel& model, std::span<const float> identity,
 }
 
 Bytes model_bytes(const MorphModel& model) {
-    Bytes bytes;
+    const ByteView magic_bytes = as_bytes(model_magic);
+    Bytes bytes(magic_bytes.begin(), magic_bytes.end());
     ByteWriter out(bytes);
     const auto put_all = [&](const std::vector<float>& values) {
         for (const float value : values)
             put_f32(out, value);
     };
-    out.put_bytes(as_bytes(model_magic));
     out.put(model_version);
     out.put(std::uint32_t(model.vertex_count()));
     out.put(std::uint32_t(model.triangles.size()));
