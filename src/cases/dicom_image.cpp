@@ -141,13 +141,15 @@ void read_scale(const DicomSet& set, const DicomImage& image, DicomSlice& slice)
 
 void read_window(const DicomSet& set, DicomSlice& slice) {
     medical::Window window{0, 0};
-    // A window that is no number is only not used.
-    if (dicom_decimals(set, center_tag, &window.center, 1) != Field::good ||
-        dicom_decimals(set, width_tag, &window.width, 1) != Field::good)
+    const Field center = dicom_decimals(set, center_tag, &window.center, 1);
+    const Field width = dicom_decimals(set, width_tag, &window.width, 1);
+    if (center == Field::absent || width == Field::absent)
         return;
     constexpr double limit = 1e9;
-    slice.has_window =
-        window.width > 0 && window.width <= limit && std::abs(window.center) <= limit;
+    slice.has_window = center == Field::good && width == Field::good && window.width > 0 &&
+                       window.width <= limit && std::abs(window.center) <= limit;
+    // The values are right without it, so it is no refusal.
+    slice.has_wrong_window = !slice.has_window;
     if (slice.has_window)
         slice.window = window;
 }

@@ -17,7 +17,8 @@ enum Flag : std::uint8_t {
     deidentified = 8,
     lowered = 16,
     has_padding = 32,
-    all_flags = 63
+    has_wrong_window = 64,
+    all_flags = 127
 };
 
 void put_text(ByteWriter& writer, const std::string& text) {
@@ -98,7 +99,8 @@ Bytes encode(const DicomSlice& slice) {
     writer.put(std::uint8_t((slice.has_place ? has_place : 0) |
                             (slice.has_window ? has_window : 0) | (slice.inverted ? inverted : 0) |
                             (slice.deidentified ? deidentified : 0) |
-                            (slice.lowered ? lowered : 0) | (slice.has_padding ? has_padding : 0)));
+                            (slice.lowered ? lowered : 0) | (slice.has_padding ? has_padding : 0) |
+                            (slice.has_wrong_window ? has_wrong_window : 0)));
     put_text(writer, slice.problem);
     for (const std::string& key : slice.keys)
         put_text(writer, key);
@@ -134,6 +136,7 @@ Result<DicomSlice> decode_dicom_slice(ByteView bytes) {
     slice.deidentified = flags & deidentified;
     slice.lowered = flags & lowered;
     slice.has_padding = flags & has_padding;
+    slice.has_wrong_window = flags & has_wrong_window;
     slice.problem = get_text(reader, good);
     for (std::string& key : slice.keys)
         key = get_text(reader, good);

@@ -45,6 +45,7 @@ struct DicomSlice {
     bool has_place = false;  // orientation, position and spacing were given
     double slope = 1, intercept = 0;
     bool has_window = false;
+    bool has_wrong_window = false;  // one is there that cannot be used
     medical::Window window;
     bool inverted = false;      // MONOCHROME1
     bool deidentified = false;  // PatientIdentityRemoved is YES

@@ -42,7 +42,7 @@ std::optional<RawMesh> unpack_draco(ByteView packed, std::uint32_t position) {
     }
     out.indices.reserve(3 * std::size_t(mesh.num_faces()));
     for (std::uint32_t i = 0; i < mesh.num_faces(); ++i)
-        for (const draco::PointIndex point : mesh.face(draco::FaceIndex(i)))
+        for (const draco::PointIndex& point : mesh.face(draco::FaceIndex(i)))
             out.indices.push_back(point.value());
     return out;
 }

@@ -119,6 +119,13 @@ void add_volume(std::vector<DicomSlice> slices, const std::string& begins,
         remarks.push_back(std::to_string(built.repeated) +
                           (built.repeated == 1 ? " image is" : " images are") +
                           " in the series twice and taken once." + begins);
+    const bool has_window = std::any_of(slices.begin(), slices.end(),
+                                        [](const DicomSlice& slice) { return slice.has_window; });
+    if (!has_window && std::any_of(slices.begin(), slices.end(),
+                                   [](const DicomSlice& slice) { return slice.has_wrong_window; }))
+        remarks.push_back(
+            "The window of its images cannot be used, and is made of their values instead." +
+            begins);
     const int number = ++count[one.series.modality];
     one.series.name = one.series.modality + (number > 1 ? " " + std::to_string(number) : "");
     one.series.missing_slices = std::move(built.missing_slices);

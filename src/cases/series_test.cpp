@@ -119,7 +119,7 @@ TEST(Series, UnsignedValuesThatDoNotFitAreLoweredTogether) {
 TEST(DicomSlice, ComesBackAsItWasSentAndEveryTruncationIsRefused) {
     DicomSlice slice = slice_at({1, 2, 3});
     slice.identifiers = {{"PatientName", "Doe^Jane"}};
-    slice.has_window = slice.deidentified = slice.inverted = true;
+    slice.has_window = slice.deidentified = slice.inverted = slice.has_wrong_window = true;
     slice.window = {40, 400};
     const Bytes bytes = encode(slice);
     const Result<DicomSlice> read = decode_dicom_slice(bytes);
@@ -128,7 +128,7 @@ TEST(DicomSlice, ComesBackAsItWasSentAndEveryTruncationIsRefused) {
     EXPECT_EQ(read->identifiers, slice.identifiers);
     EXPECT_EQ(read->samples, slice.samples);
     EXPECT_EQ(read->position_mm, slice.position_mm);
-    EXPECT_TRUE(read->deidentified && read->inverted && read->has_window);
+    EXPECT_TRUE(read->deidentified && read->inverted && read->has_window && read->has_wrong_window);
     for (std::size_t n = 0; n < bytes.size(); ++n)
         EXPECT_FALSE(decode_dicom_slice(ByteView(bytes).first(n))) << n;
 }

@@ -50,8 +50,10 @@ def dicom_elements():
                 folder(lambda k: file_of(slice_elements(k, _00200013=("IS", "%d.0" % (k + 1))))), [series()])
     yield Input("two windows", everywhere(_00281050=("DS", "40\\-600"), _00281051=("DS", "400\\1500"),
                                           _00281055=("LO", "SOFT\\LUNG")), [series(window=(40, 400))])
-    yield Input("a window with a comma is none", everywhere(_00281050=("DS", "40,5")), [series(window=(465.5, 2757))])
-    yield Input("a window of no width", everywhere(_00281051=("DS", "0")), [series(window=(465.5, 2757))])
+    yield Input("a window with a comma is none", everywhere(_00281050=("DS", "40,5")), [series(window=(465.5, 2757))],
+                remarks=["window of its images cannot be used"])
+    yield Input("a window of no width", everywhere(_00281051=("DS", "0")), [series(window=(465.5, 2757))],
+                remarks=["window of its images cannot be used"])
     yield Input("another character set", everywhere(_00080005=("CS", "\\ISO 2022 IR 87"),
                                                     _0008103e=("LO", b"\x1b$B7A\x1b(B")), [series()])
 
