@@ -9,6 +9,7 @@ import re
 import struct
 
 import case_seeds
+import face_seeds
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 VECTORS = ROOT / "tests/vectors/0.1.0"
@@ -228,7 +229,11 @@ def seeds():
     background = (VECTORS / "empty.background").read_bytes()
     fetch = b"\1\0\0" b"\0\1\x08" b"\3\1\x08\1" b"\4\1\x08\0\1" b"\2\0\0"
     answer = struct.pack("<Bqiid", 1, 0, 1280, 720, 25.0) + struct.pack("<I", 0)
+    journal = ("theatron-study-1\tP07\t0123456789abcdef\n"
+               "0\t900\tagree\t1\tok\n5000\t1200\tbuild.mesh.q2\t3\tok\n5000\t0\tresumed\t-\tok\n9000\t70000\timpression.mesh.own.calm\t-\tlate\n")
     by_target = {
+        **face_seeds.seeds(),
+        "journal_fuzz": [("replies", journal.encode()), ("cut", journal.encode()[:-7])],
         "shown_name_fuzz": numbered(NAMES),
         "chain_settings_fuzz": [*numbered(CHAINS), ("json", blocks("docs/filters.md", "json")[0].encode())],
         "codec_text_fuzz": numbered(CODECS),

@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Sound inputs of the readers of faces: packets of trackers, recordings, networks and heads."""
+import struct
+
+FEATURES, HIDDEN, EMOTIONS, LANDMARKS = 156, 48, 6, 68
+RECORDING = """# theatron face 1
+# source xr_fb
+# synthetic no
+time_s,take,label,BROW_LOWERER_L,BROW_LOWERER_R,JAW_DROP
+0.000,0,neutral,0.02,0.01,
+0.016,0,neutral,0.02,,0.1
+0.000,1,anger,0.9,0.8,0.2
+0.000,2,fear,0.1,0.1,0.1
+"""
+
+
+def text(value):
+    return value.encode() + b"\0" * (4 - len(value) % 4)
+
+
+def message(address, tags, *values):
+    body = b"".join(text(value) if isinstance(value, str) else struct.pack(">f", value) for value in values)
+    return text(address) + text("," + tags) + body
+
+
+def bundle(*messages):
+    return b"#bundle\0" + struct.pack(">Q", 1) + b"".join(struct.pack(">I", len(one)) + one for one in messages)
+
+
+def packets():
+    jaw = message("/avatar/parameters/v2/JawOpen", "f", 0.4)
+    yield "float", jaw
+    yield "binary", bundle(message("/x/v2/JawOpen1", "T"), message("/x/v2/JawOpen2", "F"), message("/x/v2/SmileSadLeftNegative", "T"))
+    yield "vmc", message("/VMC/Ext/Blend/Val", "sf", "jawOpen", 0.3)
+    yield "nested", bundle(jaw, bundle(message("/v2/BrowUpLeft", "f", 1.0), jaw))
+    yield "other", message("/avatar/change", "s", "avtr_1")
+
+
+def network():
+    body = b"TFNET" + struct.pack("<BBBIQ3H", 1, 2, 1, 0, (1 << 52) - 1, FEATURES, HIDDEN, EMOTIONS)
+    count = 2 * FEATURES + FEATURES * HIDDEN + HIDDEN + EMOTIONS * HIDDEN + EMOTIONS
+    body += struct.pack(f"<{count}f", *(0.01 * (i % 7) for i in range(count)))
+    total = 2166136261
+    for byte in body:
+        total = (total ^ byte) * 16777619 & 0xffffffff
+    return body + struct.pack("<I", total)
+
+
+def head():
+    corners = [(0, 0, 0), (100, 0, 0), (0, 100, 0), (0, 0, 50)]
+    triangles = [(0, 1, 2), (0, 1, 3)]
+
+    def points(move):
+        return struct.pack("<12f", *(value + move for corner in corners for value in corner))
+    return (b"TFHEAD" + struct.pack("<B4I", 1, len(corners), len(triangles), 1, 2)
+            + struct.pack(f"<{LANDMARKS}I", *(i % len(corners) for i in range(LANDMARKS))) + points(0)
+            + b"".join(struct.pack("<3I", *one) for one in triangles) + points(-1)
+            + struct.pack("<B", 24) + points(1) + struct.pack("<B", 51) + points(2))
+
+
+def landmarks():
+    return ("version: 1\nn_points: 68\n{\n" + "".join(f"{i}.5 {2 * i}\n" for i in range(LANDMARKS)) + "}\n").encode()
+
+
+def seeds():
+    """Fuzz target: (name, bytes)."""
+    return {"face_osc_fuzz": list(packets()), "face_recording_fuzz": [("takes", RECORDING.encode())],
+            "face_network_fuzz": [("small", network())], "face_model_fuzz": [("head", head()), ("landmarks", landmarks())]}
