@@ -4,7 +4,7 @@
 #   program  bin/theatron, manual pages, completion of bash and zsh
 #   page     the browser client, share/theatron/page; the program finds it from its own place (src/host/page.h)
 #   desktop  menu entry, kinds of files, icon, MetaInfo
-#   server   unit, user, folders, devices of cameras, AppArmor profile, examples of configurations; for the prefix /usr,
+#   server   units, user, folders, devices of cameras, AppArmor profile, examples of configurations; for the prefix /usr,
 #            where the unit has its program
 #   doc      docs/
 #   python   the package for Python, where it was made (apps/python/CMakeLists.txt); only with --component python
@@ -40,6 +40,8 @@ install(FILES ${packaging}/theatron.svg DESTINATION ${CMAKE_INSTALL_DATADIR}/ico
 install(FILES ${packaging}/theatron.metainfo.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/metainfo COMPONENT desktop)
 
 install(FILES ${packaging}/theatron-host@.service DESTINATION lib/systemd/system COMPONENT server)
+install(FILES ${packaging}/theatron-or-screen.service DESTINATION lib/systemd/user COMPONENT server)
+install(PROGRAMS ${packaging}/theatron-acme-hook DESTINATION ${CMAKE_INSTALL_DATADIR}/theatron RENAME acme-hook COMPONENT server)
 install(FILES ${packaging}/theatron.sysusers DESTINATION lib/sysusers.d RENAME theatron.conf COMPONENT server)
 install(FILES ${packaging}/theatron.tmpfiles DESTINATION lib/tmpfiles.d RENAME theatron.conf COMPONENT server)
 install(FILES ${packaging}/theatron.rules DESTINATION lib/udev/rules.d RENAME 60-theatron.rules COMPONENT server)

@@ -16,6 +16,9 @@ said=$(systemd-analyze verify --man=no packaging/theatron-host@.service 2>&1 | g
 [ -z "$said" ] || fail "the unit: $said"
 systemd-analyze security --offline=true --threshold=15 packaging/theatron-host@.service > /dev/null ||
     fail "the unit is more exposed than 1.5: systemd-analyze security --offline=true packaging/theatron-host@.service"
+# A runtime folder, which the user's manager has.
+said=$(XDG_RUNTIME_DIR=/tmp systemd-analyze --user verify --man=no packaging/theatron-or-screen.service 2>&1 | grep -v 'theatron is not executable: No such file' || true)
+[ -z "$said" ] || fail "the unit of the OR screen: $said"
 apparmor_parser -Q packaging/theatron-host.apparmor
 desktop-file-validate packaging/*.desktop
 # The project has no domain of which its name could be a part.

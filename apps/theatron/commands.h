@@ -18,6 +18,7 @@ void add_host_command(CLI::App& app, std::vector<std::vector<std::string>> furth
                       std::vector<std::string> given);
 void add_session_command(CLI::App& app);
 void add_link_command(CLI::App& app);
+void add_certificate_command(CLI::App& app);
 void add_join_command(CLI::App& app);
 void add_publish_command(CLI::App& app);
 void add_record_command(CLI::App& app);

@@ -140,7 +140,7 @@ std::string browser_text(const HostFlags& flags, bool has_page) {
     return "The certificate is this host's own, so a guest's browser says first that the "
            "connection is not private: 'Advanced' and then 'Proceed' (Firefox: 'Accept the Risk "
            "and Continue') leads in. With a certificate of your organisation no browser asks: "
-           "docs/hospital_it.md\n\n";
+           "theatron certificate --help\n\n";
 }
 
 std::string all_links_text(const HostSessions& sessions, bool has_page) {

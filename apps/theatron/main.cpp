@@ -74,6 +74,7 @@ int run(int argc, char** argv) {
     theatron::app::add_host_command(app, words.further, given);
     theatron::app::add_session_command(app);
     theatron::app::add_link_command(app);
+    theatron::app::add_certificate_command(app);
     theatron::app::add_join_command(app);
     theatron::app::add_publish_command(app);
     theatron::app::add_record_command(app);

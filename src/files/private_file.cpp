@@ -46,8 +46,9 @@ std::string quoted(const fs::path& path) {
                 advice);
 }
 
-void require_own(const struct stat& info, const fs::path& path) {
-    if (info.st_uid != geteuid() && info.st_uid != 0)
+void require_own(const struct stat& info, const fs::path& path,
+                 std::optional<Owner> owner = std::nullopt) {
+    if (info.st_uid != geteuid() && info.st_uid != 0 && !(owner && info.st_uid == owner->user))
         throw Error(quoted(path) + " belongs to another user (number " +
                     std::to_string(info.st_uid) +
                     "), who could change it; name another folder with --state, or make this one "
@@ -97,7 +98,7 @@ void open_private_folder(const fs::path& folder) {
 }
 
 std::optional<std::string> read_private_file(const fs::path& path, Privacy privacy,
-                                             std::size_t max_bytes) {
+                                             std::size_t max_bytes, std::optional<Owner> owner) {
     const Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY));
     if (!file.is_open() && errno == ENOENT)
         return std::nullopt;
@@ -106,7 +107,7 @@ std::optional<std::string> read_private_file(const fs::path& path, Privacy priva
         refuse("read", path);
     // A pipe is not checked: the user passed it on the command line.
     if (S_ISREG(info.st_mode)) {
-        require_own(info, path);
+        require_own(info, path, owner);
         if (info.st_mode & (S_IWGRP | S_IWOTH))
             throw Error("Others may write to " + quoted(path) +
                         "; take that away with: chmod go-w " + quoted(path) + ".");
@@ -133,7 +134,7 @@ std::optional<std::string> read_private_file(const fs::path& path, Privacy priva
     return text;
 }
 
-void write_private_file(const fs::path& path, const std::string& text) {
+void write_private_file(const fs::path& path, const std::string& text, std::optional<Owner> owner) {
     fs::path draft = path;
     draft += ".part";
     // A crash may have left a draft. O_EXCL refuses a file that another user puts there.
@@ -141,7 +142,8 @@ void write_private_file(const fs::path& path, const std::string& text) {
     Descriptor file(open(draft.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600));
     if (!file.is_open())
         refuse("write", draft);
-    if (!write_all(file.get(), text) || fsync(file.get()) != 0 || !file.close() ||
+    const bool is_owned = !owner || fchown(file.get(), owner->user, owner->group) == 0;
+    if (!is_owned || !write_all(file.get(), text) || fsync(file.get()) != 0 || !file.close() ||
         rename(draft.c_str(), path.c_str()) != 0) {
         const int reason = errno;
         unlink(draft.c_str());

@@ -3,6 +3,8 @@
 // throw Error, one sentence that names the file and says what to do.
 #pragma once
 
+#include <sys/types.h>
+
 #include <cstddef>
 #include <filesystem>
 #include <optional>
@@ -20,14 +22,22 @@ void open_private_folder(const std::filesystem::path& folder);
 // In both cases only the owner may write. `secret`: only the owner may read.
 enum class Privacy { secret, readable };
 
-// The text of a file that belongs to this user or root; nullopt if there is no file. A file of more
-// than `max_bytes` is refused.
+// For root, which reads and writes files of the user that a service runs as.
+struct Owner {
+    uid_t user = 0;
+    gid_t group = 0;
+};
+
+// The text of a file that belongs to this user, root or `owner`; nullopt if there is no file. A
+// file of more than `max_bytes` is refused.
 std::optional<std::string> read_private_file(const std::filesystem::path& path, Privacy privacy,
-                                             std::size_t max_bytes = max_private_file_bytes);
+                                             std::size_t max_bytes = max_private_file_bytes,
+                                             std::optional<Owner> owner = std::nullopt);
 
 // Atomic and durable: after a crash at any time, `path` has its previous content or all of
-// `text`. A draft left by a crash is replaced.
-void write_private_file(const std::filesystem::path& path, const std::string& text);
+// `text`. A draft left by a crash is replaced. The file belongs to this user, or to `owner`.
+void write_private_file(const std::filesystem::path& path, const std::string& text,
+                        std::optional<Owner> owner = std::nullopt);
 
 // Durable, too: after a crash the file does not come back. False if there is none.
 bool remove_private_file(const std::filesystem::path& path);

@@ -132,8 +132,9 @@ void write_address(const std::filesystem::path& folder, const net::Link& link) {
     files::write_private_file(folder / address_file, net::format_link(address) + "\n");
 }
 
-net::Link read_address(const std::filesystem::path& folder) {
-    const auto text = files::read_private_file(folder / address_file, files::Privacy::readable);
+net::Link read_address(const std::filesystem::path& folder, std::optional<files::Owner> owner) {
+    const auto text = files::read_private_file(folder / address_file, files::Privacy::readable,
+                                               files::max_private_file_bytes, owner);
     if (!text)
         throw Error("No host has run with the state folder '" + folder.string() +
                     "', so its address is not known; start 'theatron host' first, or name its "

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
+#include "files/private_file.h"
 #include "net/link.h"
 
 namespace theatron::host {
@@ -47,8 +49,9 @@ bool is_host_running(const std::filesystem::path& folder);
 // Notes the address of the host's links, for 'theatron link'. Throws Error.
 void write_address(const std::filesystem::path& folder, const net::Link& link);
 // Address and fingerprint of the host that last ran with this folder; no token. Throws Error if
-// none has.
-net::Link read_address(const std::filesystem::path& folder);
+// none has. `owner`: for root, the user that the host runs as.
+net::Link read_address(const std::filesystem::path& folder,
+                       std::optional<files::Owner> owner = std::nullopt);
 
 // The address of a host that listens on all interfaces: its first outside IPv4 address, or
 // 127.0.0.1.

@@ -10,26 +10,16 @@
 #include <openssl/x509v3.h>
 
 #include <algorithm>
-#include <ctime>
-#include <memory>
 
 #include "base/error.h"
 #include "files/private_file.h"
+#include "net/openssl_pointers.h"
 
 namespace theatron::net {
-namespace {
 
-template <auto free_function>
-struct Deleter {
-    template <class T>
-    void operator()(T* p) const {
-        free_function(p);
-    }
-};
-using Key = std::unique_ptr<EVP_PKEY, Deleter<EVP_PKEY_free>>;
-using X509Ptr = std::unique_ptr<X509, Deleter<X509_free>>;
-using Extension = std::unique_ptr<X509_EXTENSION, Deleter<X509_EXTENSION_free>>;
-using Bio = std::unique_ptr<BIO, Deleter<BIO_free_all>>;
+using namespace openssl;
+
+namespace {
 
 std::string hex(const unsigned char* bytes, std::size_t count) {
     static constexpr char digits[] = "0123456789abcdef";
@@ -42,38 +32,24 @@ std::string hex(const unsigned char* bytes, std::size_t count) {
 }
 
 X509Ptr first_of(const std::string& certificate_pem) {
-    const Bio in(BIO_new_mem_buf(certificate_pem.data(), int(certificate_pem.size())));
+    const Bio in = reader_of(certificate_pem);
     return X509Ptr(PEM_read_bio_X509(in.get(), nullptr, nullptr, nullptr));
-}
-
-// A key with a passphrase is not asked for it.
-int no_passphrase(char*, int, int, void*) {
-    return -1;
 }
 
 // Sets the fingerprint. False if the two parts do not belong together.
 bool complete(Certificate& c) {
     const X509Ptr x509 = first_of(c.certificate_pem);
-    const Bio key_in(BIO_new_mem_buf(c.private_key_pem.data(), int(c.private_key_pem.size())));
-    const Key key(PEM_read_bio_PrivateKey(key_in.get(), nullptr, no_passphrase, nullptr));
+    const Key key = key_of(c.private_key_pem);
     if (!x509 || !key || X509_check_private_key(x509.get(), key.get()) != 1)
         return false;
     c.fingerprint = certificate_fingerprint(x509.get());
     return true;
 }
 
-// OpenSSL writes every time of a certificate in UTC.
 files::UtcSeconds utc_of(const ASN1_TIME* time) {
-    std::tm parts{};
-    if (!time || ASN1_TIME_to_tm(time, &parts) != 1)
-        throw Error("The certificate names no time of its end.");
-    return timegm(&parts);
-}
-
-std::string content(BIO* bio) {
-    char* data = nullptr;
-    const long size = BIO_get_mem_data(bio, &data);
-    return std::string(data, std::size_t(size));
+    if (const auto utc = time_of(time))
+        return *utc;
+    throw Error("The certificate names no time of its end.");
 }
 
 // A host has made links with the certificate of this folder.
@@ -91,6 +67,13 @@ std::string certificate_fingerprint(X509* certificate) {
     if (!X509_digest(certificate, EVP_sha256(), digest, &size))
         throw Error("The certificate's fingerprint cannot be computed.");
     return hex(digest, size);
+}
+
+std::string fingerprint_of(const Certificate& certificate) {
+    const X509Ptr x509 = first_of(certificate.certificate_pem);
+    if (!x509)
+        throw Error("The certificate is damaged.");
+    return certificate_fingerprint(x509.get());
 }
 
 Certificate make_certificate() {
@@ -124,7 +107,7 @@ Certificate make_certificate() {
     const Bio certificate_out(BIO_new(BIO_s_mem())), key_out(BIO_new(BIO_s_mem()));
     PEM_write_bio_X509(certificate_out.get(), x509.get());
     PEM_write_bio_PrivateKey(key_out.get(), key.get(), nullptr, nullptr, 0, nullptr, nullptr);
-    return {content(certificate_out.get()), content(key_out.get()),
+    return {content_of(certificate_out.get()), content_of(key_out.get()),
             certificate_fingerprint(x509.get())};
 }
 

@@ -22,6 +22,9 @@ struct Certificate {
 // The fingerprint of a certificate, as in a link.
 std::string certificate_fingerprint(x509_st* certificate);
 
+// The same of the first certificate in its PEM. Throws Error if that is damaged.
+std::string fingerprint_of(const Certificate& certificate);
+
 // A new P-256 key with a certificate for ten years. Throws Error.
 Certificate make_certificate();
 
