@@ -2,6 +2,7 @@
 """Texts, messages and files of our own formats, with which their readers' fuzz targets begin: from the pages of
 docs/formats, from the files of released versions in tests/vectors, and from what people and other programs write."""
 
+import base64
 import hashlib
 import json
 import pathlib
@@ -209,6 +210,27 @@ CODECS = ["raw", "rvl", "trvl:layers=3", "zstd:delta=1,level=3", "lz4:level=9", 
           "h264:crf=8", "h264:encoder=x264,crf=20", "h264:bitrate_mbit=4", "none", "auto"]
 
 
+# Of a host "or3" with two other names; valid for a hundred years.
+CERTIFICATE = """-----BEGIN CERTIFICATE-----
+MIIBWjCCAQygAwIBAgIUba8Ps+j+jR2kJ8P1NLcg9Ojpv+wwBQYDK2VwMA4xDDAK
+BgNVBAMMA29yMzAgFw0yNjExMjcxODIyMTBaGA8yMTI2MTEwMzE4MjIxMFowDjEM
+MAoGA1UEAwwDb3IzMCowBQYDK2VwAyEAXZQ0HaTrQEhqbqlg+yYmnSpewHP8cEFZ
+O6VvuGyMigCjejB4MB0GA1UdDgQWBBQLyhvfoPg3zItwhYfK8Gmyobb73DAfBgNV
+HSMEGDAWgBQLyhvfoPg3zItwhYfK8Gmyobb73DAPBgNVHRMBAf8EBTADAQH/MCUG
+A1UdEQQeMByCFG9yMy5ob3NwaXRhbC5leGFtcGxlhwQKAAADMAUGAytlcANBACQr
+/8LIN1OG45FLYL4RVo/u2T1AhvlSy+l95eMskzkaAmmGFHzxwgbQG6rB87YyTYcF
+ZzZInkzndJ/BiuEE8ws=
+-----END CERTIFICATE-----
+"""
+
+
+def certificates():
+    lines = CERTIFICATE.splitlines()
+    yield "text", CERTIFICATE.encode()
+    yield "twice", b"chain\n" + 2 * CERTIFICATE.encode()
+    yield "der", base64.b64decode("".join(lines[1:-1]))
+
+
 def spoken():
     """Packets behind time in microseconds, blocks that are played and size. The Opus packets are silence."""
     packet = vector("docs/formats/voice.md")
@@ -233,6 +255,7 @@ def seeds():
                "0\t900\tagree\t1\tok\n5000\t1200\tbuild.mesh.q2\t3\tok\n5000\t0\tresumed\t-\tok\n9000\t70000\timpression.mesh.own.calm\t-\tlate\n")
     by_target = {
         **face_seeds.seeds(),
+        "certificate_fuzz": certificates(),
         "journal_fuzz": [("replies", journal.encode()), ("cut", journal.encode()[:-7])],
         "shown_name_fuzz": numbered(NAMES),
         "chain_settings_fuzz": [*numbered(CHAINS), ("json", blocks("docs/filters.md", "json")[0].encode())],
