@@ -4,9 +4,9 @@
 #include <pwd.h>
 #include <unistd.h>
 
+#include "base/config_text.h"
 #include "base/error.h"
 #include "base/outside_text.h"
-#include "host/config_text.h"
 
 namespace theatron::app {
 namespace {
@@ -42,7 +42,7 @@ CertificatePlace certificate_place(const fs::path& file, std::string_view text) 
     place.certificate = fs::path(file).replace_extension(".pem");
     place.key = fs::path(file).replace_extension(".key");
     bool names_certificate = false, names_key = false;
-    for (const host::ConfigLine& line : host::parse_config(text).lines) {
+    for (const ConfigLine& line : parse_config(text).lines) {
         if (line.key == "certificate" && fs::path(line.value).is_absolute()) {
             place.certificate = line.value;
             names_certificate = true;
@@ -72,8 +72,8 @@ CertificatePlace find_certificate_place(const std::string& file) {
     if (!fs::is_regular_file(config, error))
         throw Error("There is no configuration " + shown + " that can be read.");
     // The administrator's own file, which only root or the host's user may have written.
-    const auto text = files::read_private_file(
-        config, files::Privacy::readable, host::max_config_bytes, certificate_owner("", config));
+    const auto text = files::read_private_file(config, files::Privacy::readable, max_config_bytes,
+                                               certificate_owner("", config));
     if (!text)
         throw Error("There is no configuration " + shown + ".");
     CertificatePlace place = certificate_place(config, *text);

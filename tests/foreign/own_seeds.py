@@ -210,7 +210,7 @@ CODECS = ["raw", "rvl", "trvl:layers=3", "zstd:delta=1,level=3", "lz4:level=9", 
           "h264:crf=8", "h264:encoder=x264,crf=20", "h264:bitrate_mbit=4", "none", "auto"]
 
 
-# Of a host "or3" with two other names; valid for a hundred years.
+# The certificate of a host "or3" with two other names; valid for a hundred years.
 CERTIFICATE = """-----BEGIN CERTIFICATE-----
 MIIBWjCCAQygAwIBAgIUba8Ps+j+jR2kJ8P1NLcg9Ojpv+wwBQYDK2VwMA4xDDAK
 BgNVBAMMA29yMzAgFw0yNjExMjcxODIyMTBaGA8yMTI2MTEwMzE4MjIxMFowDjEM
