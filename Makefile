@@ -3,7 +3,7 @@
 SHELL := /bin/bash
 SECONDS_OF_DEMO := $(if $(filter environment command line,$(origin SECONDS)),--seconds $(SECONDS),)
 
-.PHONY: help setup program build package demo test test-all test-timing test-tsan tidy soak test-arm64 format fuzz bench-web figures clean
+.PHONY: help setup program build package container demo test test-all test-timing test-tsan tidy soak test-arm64 format fuzz bench-web figures clean
 
 help:
 	@echo "make demo               install what is needed, build, and meet two people in a streamed room"
@@ -17,6 +17,7 @@ help:
 	@echo "make test-arm64         tests of the SIMD kernels on emulated 64-bit ARM"
 	@echo "make build              build/release/apps/theatron/theatron, and the browser client beside it"
 	@echo "make package            Debian packages in build/packages: program, service, documentation"
+	@echo "make container          an image of the program packages for podman or docker; needs root"
 	@echo "make fuzz TIME=600      every fuzz target, TIME seconds each"
 	@echo "make bench-web FOLDERS='DIR ...'   depth codecs natively and under node"
 	@echo "make figures            repeat the sizes and likenesses that docs/ states, and compare; SLOW=1: also what takes many minutes"
@@ -36,6 +37,9 @@ build: program
 
 package: setup
 	@tools/package.sh
+
+container: package
+	@tools/container.sh
 
 demo: program
 	@tools/demo.sh $(SECONDS_OF_DEMO)

@@ -24,6 +24,9 @@ function(theatron_notices file)
     endif()
     string(APPEND notices "\n== ${package}\n\n${text}")
   endforeach()
+  # For the software bill of materials (packaging/sbom.py).
+  list(JOIN N_PACKAGES "\n" names)
+  file(WRITE ${file}.packages "${names}\n")
   # An equal file stays untouched, so that nothing is compiled again.
   file(WRITE ${file}.new "${notices}")
   file(COPY_FILE ${file}.new ${file} ONLY_IF_DIFFERENT)

@@ -15,6 +15,8 @@ set(packaging ${CMAKE_SOURCE_DIR}/packaging)
 
 install(TARGETS theatron RUNTIME COMPONENT program)
 install(FILES ${CMAKE_SOURCE_DIR}/apps/theatron/study_report.py DESTINATION ${CMAKE_INSTALL_DATADIR}/theatron COMPONENT program)
+# Where the target `sbom` was built, as for packages.
+install(FILES ${CMAKE_BINARY_DIR}/theatron.spdx.json DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program OPTIONAL)
 if(NOT CMAKE_CROSSCOMPILING)
   install(DIRECTORY ${THEATRON_MANUAL}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT program)
   install(FILES ${THEATRON_MANUAL}/theatron.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME theatron

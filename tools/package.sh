@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Builds the Debian packages into build/packages, and lets lintian and the validators of their parts look at them.
+# Builds the source package and, from it alone and without a network, the Debian packages into build/packages, and lets lintian
+# and the validators of their parts look at them.
 # Usage: package.sh
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -24,14 +25,29 @@ desktop-file-validate packaging/*.desktop
 # The project has no domain of which its name could be a part.
 appstreamcli validate --no-net --override=cid-desktopapp-is-not-rdns=info packaging/theatron.metainfo.xml > /dev/null
 
-# Objects of a build before are used again; all files of the packages are made anew.
-dh_clean
-THEATRON_DEB_FOLDER=$folder dpkg-buildpackage --build=binary --unsigned-changes --unsigned-buildinfo --no-pre-clean \
+# The tracked files, and the sources of Debian's libraries that the page compiles.
+[ -s libraries/versions.txt ] || fail "libraries/ is missing, so the page would lack zstd, lz4 and Opus: tools/library_sources.sh"
+version=$(dpkg-parsechangelog --show-field Version)
+tree=$folder/theatron-$version
+SOURCE_DATE_EPOCH=$(dpkg-parsechangelog --show-field Timestamp)
+export SOURCE_DATE_EPOCH
+mkdir "$tree"
+git ls-files -z | tar --create --null --files-from=- libraries | tar --extract --directory="$tree"
+(cd "$folder" && dpkg-source --build "$tree")
+rm -rf "$tree"
+(cd "$folder" && dpkg-source --extract "theatron_$version.dsc" "$tree")
+
+# Where namespaces can be made, the build has no network. ccache has the objects of a build before.
+offline=()
+unshare --net true 2> /dev/null && offline=(unshare --net)
+[ ${#offline[@]} -gt 0 ] || echo "package: no namespace can be made here, so the build could reach the network"
+(cd "$tree" && THEATRON_DEB_FOLDER=$folder "${offline[@]}" dpkg-buildpackage --build=binary --unsigned-changes --unsigned-buildinfo \
     --buildinfo-option="-u$folder" --changes-option="-u$folder" \
-    --buildinfo-file="$folder/theatron.buildinfo" --changes-file="$folder/theatron.changes"
-web=build/web/apps/web
+    --buildinfo-file="$folder/theatron.buildinfo" --changes-file="$folder/theatron.changes")
+web=$tree/build/web/apps/web
 [ -s "$web/page/files.txt" ] || fail "the packages have no page: $web/page/files.txt is missing"
 [ -z "$(tr -d '[:space:]' < "$web/missing.txt")" ] ||
     fail "the page lacks $(cat "$web/missing.txt"), which tools/library_sources.sh fetches"
-lintian --fail-on error "$folder"/*.deb
+lintian --fail-on error "$folder"/*.deb "$folder"/*.dsc
+rm -rf "$tree"
 ls -l "$folder"/*.deb
