@@ -63,11 +63,35 @@ void add_parts(const LabelMap& map, const fs::path& file, const ImportOptions& o
     }
 }
 
+// The file beside the head that has its samples, whether it is there or not.
+fs::path sample_file_of_pair(const fs::path& head) {
+    fs::path name = head.filename();
+    if (name.extension() == ".gz")
+        name = name.stem();
+    const bool is_upper = name.extension() == ".HDR";
+    const fs::path plain = head.parent_path() / name.replace_extension(is_upper ? ".IMG" : ".img");
+    fs::path packed = plain;
+    packed += ".gz";
+    std::error_code failed;
+    return !fs::exists(plain, failed) && fs::exists(packed, failed) ? packed : plain;
+}
+
+Bytes samples_beside(const fs::path& head, const fs::path& samples, const char* in_one_piece) {
+    std::error_code failed;
+    if (!fs::is_regular_file(fs::symlink_status(samples, failed)))
+        throw NotForUs(head,
+                       "keeps its samples in another file, " + quoted_path(samples.filename()) +
+                           ", which is not beside it; save it in one piece (" + in_one_piece + ")");
+    return files::read_file(samples, max_label_file_bytes);
+}
+
 }  // namespace
 
 std::optional<fs::path> sample_file_of(const fs::path& header) {
     constexpr std::size_t most = std::size_t(1) << 20;
     std::error_code failed;
+    if (is_nifti_head_file(header))
+        return sample_file_of_pair(header);
     if (!is_nrrd_file(header) || fs::file_size(header, failed) > most || failed)
         return std::nullopt;
     const std::string name = detached_data_of(files::read_file(header, most));
@@ -80,18 +104,15 @@ std::optional<fs::path> sample_file_of(const fs::path& header) {
 LabelMap read_label_map(const fs::path& file, std::size_t layer, std::size_t& layers) {
     const Bytes bytes = files::read_file(file, max_label_file_bytes);
     ParsedLabels parsed;
-    if (!is_nrrd_file(file)) {
+    if (is_nifti_head(bytes)) {
+        parsed = parse_nifti(bytes, samples_beside(file, sample_file_of_pair(file), ".nii"));
+    } else if (!is_nrrd_file(file)) {
         parsed = parse_nifti(bytes);
     } else if (const std::string name = detached_data_of(bytes); name.empty()) {
         parsed = parse_nrrd(bytes, layer);
     } else {
         const fs::path data = file.parent_path() / fs::path(name).filename();
-        std::error_code failed;
-        if (!fs::is_regular_file(fs::symlink_status(data, failed)))
-            throw NotForUs(file, "keeps its samples in another file, " +
-                                     quoted_path(data.filename()) +
-                                     ", which is not beside it; save it in one piece (.nrrd)");
-        parsed = parse_nrrd(bytes, layer, files::read_file(data, max_label_file_bytes));
+        parsed = parse_nrrd(bytes, layer, samples_beside(file, data, ".nrrd"));
     }
     layers = parsed.layers;
     if (!parsed.problem.empty() && parsed.is_other_content)

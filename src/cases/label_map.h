@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Label maps: volumes whose samples say to which organ they belong, as segmentation programs write
-// them, NIfTI (.nii, .nii.gz; versions 1 and 2) and NRRD (.nrrd, .nhdr, .seg.nrrd of 3D Slicer).
+// them, NIfTI (.nii, .nii.gz, .hdr with .img; versions 1 and 2) and NRRD (.nrrd, .nhdr, .seg.nrrd
+// of 3D Slicer).
 //
 // Reading is safe for any bytes and bounded: compressed content is unpacked only as far as the
 // header announces, and a header may not announce more than its file can hold. Nothing throws but
@@ -42,7 +43,10 @@ struct ParsedLabels {
     std::size_t layers = 1;
 };
 
-ParsedLabels parse_nifti(ByteView file);  // also compressed
+// Also compressed. `samples`: the content of the other file of a pair, whose head `file` is.
+ParsedLabels parse_nifti(ByteView file, ByteView samples = {});
+// The file is the head of a pair (.hdr, .img) and not one of Analyze 7.5, whose name is the same.
+bool is_nifti_head(ByteView file);
 
 // A file of 3D Slicer may hold several layers of segments that overlap; `value` is one of them.
 // `data`: the content of the file that detached_data_of() names, if it names one.

@@ -23,15 +23,20 @@ public:
     explicit Header(ByteView bytes) : bytes_(bytes) {
         for (const bool big_endian : {false, true}) {
             big_endian_ = big_endian;
-            version_ = get<std::int32_t>(0) == 348 && has_magic(344, "n+1") ? 1
-                       : get<std::int32_t>(0) == 540 && has_magic(4, "n+2") ? 2
-                                                                            : 0;
-            if (version_ != 0)
-                return;
+            for (const bool apart : {false, true}) {
+                is_apart_ = apart;
+                version_ = get<std::int32_t>(0) == 348 && has_magic(344, apart ? "ni1" : "n+1") ? 1
+                           : get<std::int32_t>(0) == 540 && has_magic(4, apart ? "ni2" : "n+2") ? 2
+                                                                                                : 0;
+                if (version_ != 0)
+                    return;
+            }
         }
     }
     bool big_endian() const { return big_endian_; }
-    int version() const { return version_; }  // 0: no NIfTI in one piece
+    int version() const { return version_; }  // 0: no NIfTI
+    // The samples lie in a file of their own.
+    bool is_apart() const { return is_apart_; }
     std::size_t size() const { return version_ == 1 ? header_size : header_size_2; }
     double dim(std::size_t i) const {
         return version_ == 1 ? double(get<std::int16_t>(40 + 2 * i))
@@ -86,7 +91,7 @@ private:
     }
 
     ByteView bytes_;
-    bool big_endian_ = false;
+    bool big_endian_ = false, is_apart_ = false;
     int version_ = 0;
 };
 
@@ -249,17 +254,30 @@ Bytes first_bytes(ByteView file, bool packed, std::size_t size) {
     return head;
 }
 
+bool is_packed(ByteView file) {
+    return file.size() > 2 && file[0] == std::byte(0x1f) && file[1] == std::byte(0x8b);
+}
+
 }  // namespace
 
-ParsedLabels parse_nifti(ByteView file) {
-    const bool packed = file.size() > 2 && file[0] == std::byte(0x1f) && file[1] == std::byte(0x8b);
+bool is_nifti_head(ByteView file) {
+    Bytes head = first_bytes(file, is_packed(file), header_size_2);
+    if (head.size() < header_size)
+        return false;
+    head.resize(header_size_2);
+    const Header header(head);
+    return header.version() != 0 && header.is_apart();
+}
+
+ParsedLabels parse_nifti(ByteView file, ByteView samples) {
+    const bool packed = is_packed(file);
     Bytes head = first_bytes(file, packed, header_size_2);
     if (head.size() < header_size)
         return {{}, "is no NIfTI file, or cut off"};
     head.resize(header_size_2);
     const Header header(head);
     if (header.version() == 0)
-        return {{}, "is no NIfTI file of version 1 or 2 in one piece", true};
+        return {{}, "is no NIfTI file of version 1 or 2", true};
     ParsedLabels parsed;
     parsed.is_other_content = true;
     SampleLayout layout;
@@ -271,9 +289,11 @@ ParsedLabels parse_nifti(ByteView file) {
     if (!parsed.problem.empty())
         return parsed;
     parsed.is_other_content = false;
+    const bool apart = header.is_apart();
     // Some programs leave 0, and let the samples follow the header and its four bytes behind.
-    const double offset = header.offset() == 0 ? double(header.size() + 4) : header.offset();
-    if (!(offset >= double(header.size()) && offset <= double(max_offset))) {
+    const double offset =
+        header.offset() == 0 && !apart ? double(header.size() + 4) : header.offset();
+    if (!(offset >= (apart ? 0 : double(header.size())) && offset <= double(max_offset))) {
         parsed.problem = "begins its samples at an impossible place";
         return parsed;
     }
@@ -286,10 +306,12 @@ ParsedLabels parse_nifti(ByteView file) {
     layout.big_endian = header.big_endian();
     layout.count = parsed.value.grid.size();
     layout.skipped_bytes = std::size_t(offset);
-    const Bytes before = first_bytes(file, packed, layout.skipped_bytes);
+    const Bytes before = first_bytes(file, packed, apart ? max_offset : layout.skipped_bytes);
     parsed.value.names = names_in(ByteView(before).subspan(std::min(header.size(), before.size())));
-    ReadSamples read = read_labels(file, packed ? std::optional(Packing::gzip) : std::nullopt,
-                                   layout, parsed.value.labels);
+    const ByteView content = apart ? samples : file;
+    ReadSamples read =
+        read_labels(content, is_packed(content) ? std::optional(Packing::gzip) : std::nullopt,
+                    layout, parsed.value.labels);
     parsed.problem = std::move(read.problem);
     parsed.is_other_content = read.is_other_content;
     return parsed;

@@ -7,8 +7,10 @@
 #include "cases/case_folder.h"
 #include "cases/foreign_files.h"
 #include "cases/import_case.h"
+#include "cases/label_map.h"
 #include "cases/left_out.h"
 #include "cases/quoted_path.h"
+#include "files/file_bytes.h"
 
 namespace theatron::cases {
 namespace {
@@ -72,7 +74,15 @@ std::vector<fs::path> files_below(const fs::path& folder, std::size_t& links) {
 }  // namespace
 
 bool is_nifti_file(const fs::path& file) {
-    return ends_with(file, ".nii") || ends_with(file, ".nii.gz");
+    return ends_with(file, ".nii") || ends_with(file, ".nii.gz") || is_nifti_head_file(file);
+}
+
+bool is_nifti_head_file(const fs::path& file) {
+    constexpr std::size_t most = std::size_t(1) << 20;
+    std::error_code failed;
+    return (ends_with(file, ".hdr") || ends_with(file, ".hdr.gz")) &&
+           fs::file_size(file, failed) <= most && !failed &&
+           is_nifti_head(files::read_file(file, most));
 }
 
 bool is_nrrd_file(const fs::path& file) {

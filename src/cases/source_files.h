@@ -21,7 +21,9 @@ struct SourceFiles {
 // nothing, or far too much, or a folder cannot be read to its end.
 SourceFiles find_source_files(const std::filesystem::path& source);
 
+// By its name; a file that may be the head of a pair (.hdr, .hdr.gz) also by its content.
 bool is_nifti_file(const std::filesystem::path& file);
+bool is_nifti_head_file(const std::filesystem::path& file);
 bool is_nrrd_file(const std::filesystem::path& file);
 
 }  // namespace theatron::cases

@@ -166,8 +166,18 @@ def nifti_files():
     yield Input("two extensions", {"o.nii": nifti(extension=comment * 2)}, parts=parts())
     yield Input("a float map of two labels", {"o.nii.gz": gzip.compress(nifti([float(v) for v in labels()], "float"))},
                 parts=parts())
-    yield Input("a head and samples apart", {"liver.stl": stl_binary(), "o.hdr": plain[:344] + b"ni1\0" + bytes(4),
-                                             "o.img": plain[352:]}, parts=[box("liver")], remarks=["o.hdr", "o.img"])
+    head, samples = plain[:108] + struct.pack("<f", 0) + plain[112:344] + b"ni1\0" + bytes(4), plain[352:]
+    yield Input("a head and samples apart", {"o.hdr": head, "o.img": samples}, parts=parts())
+    yield Input("a head and packed samples apart", {"o.hdr": head, "o.img.gz": gzip.compress(samples)}, parts=parts())
+    yield Input("a packed head and packed samples apart", {"o.hdr.gz": gzip.compress(head), "o.img.gz": gzip.compress(samples)},
+                parts=parts())
+    yield Input("a head and samples apart in capitals", {"O.HDR": head, "O.IMG": samples}, parts=parts())
+    later = plain[:108] + struct.pack("<f", 16) + plain[112:344] + b"ni1\0" + bytes(4)
+    yield Input("samples apart that begin later", {"o.hdr": later, "o.img": bytes(16) + samples}, parts=parts())
+    yield Input("a head without its samples", {"o.hdr": head}, refused="which is not beside it")
+    yield Input("samples apart that are cut off", {"o.hdr": head, "o.img": samples[:-9]}, refused="cut off")
+    yield Input("a head of Analyze 7.5", {"liver.stl": stl_binary(), "o.hdr": plain[:344] + bytes(4), "o.img": samples},
+                parts=[box("liver")], remarks=["o.hdr", "o.img"])
 
 
 def placed_part(number, place):
