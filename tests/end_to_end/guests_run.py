@@ -23,11 +23,13 @@ EXPENSIVE = ["zstd:delta=1,level=19", "zstd:level=19", "zstd:delta=1,level=18", 
 LOWEST_FPS = 29.5
 
 
-def seconds_to_join(link):
+def seconds_to_join(link, **fields):
     begin = time.monotonic()
     with RawPeer(link) as peer:
-        peer.join()
-        peer.receive_control("Welcome")
+        peer.join(**fields)
+        kind, answer = peer.receive_control("Welcome", "Refused")
+        if kind != "Welcome":
+            raise ValueError(answer["in_english"])
         return time.monotonic() - begin
 
 
