@@ -3,9 +3,9 @@
 # modules below are not. Tests are compiled with few optimisations, and with none where there are sanitizers: what they
 # test is not, and `make test` from nothing is faster by five minutes on two cores.
 
-# Their inner loops take most of the time of every figure in docs/, or measure it. The compiler limits inlining by
+# Their inner loops take most of the time of every figure in docs/. The compiler limits inlining by
 # the size of what it compiles at once, so a source that is added elsewhere must not change how a loop is compiled.
-set(THEATRON_FAST_MODULES image geometry codec filter video render medical bench_library)
+set(THEATRON_FAST_MODULES image geometry codec filter video render medical)
 
 # Inline functions of headers take most of the time of these.
 set(THEATRON_LONG_TESTS registration_test synthetic_test)
@@ -14,20 +14,8 @@ set(THEATRON_LONG_TESTS registration_test synthetic_test)
 # says "redefinition" or "ambiguous" then: rename one of the two, or add a source here. So is one that takes the
 # compiler longest, such as each with Boost's sockets: two cores share them.
 set(THEATRON_COMPILED_ALONE
-  apps/theatron/demo_command.cpp
-  apps/theatron/export_command.cpp
   apps/theatron/host_command.cpp
   apps/theatron/join_command.cpp
-  apps/theatron/link_command.cpp
-  apps/theatron/lobby_command.cpp
-  apps/theatron/mark_lines.cpp
-  apps/theatron/publish_command.cpp
-  apps/theatron/record_command.cpp
-  apps/theatron/recover_command.cpp
-  apps/theatron/register_command.cpp
-  apps/theatron/scripted_people.cpp
-  apps/theatron/session_command.cpp
-  apps/theatron/target_command.cpp
   bench/theatron_bench/bench_filter.cpp
   bench/theatron_bench/bench_pipeline.cpp
   bench/theatron_bench/bench_render.cpp

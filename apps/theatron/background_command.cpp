@@ -17,7 +17,7 @@
 namespace theatron::app {
 namespace {
 
-struct Flags {
+struct BackgroundFlags {
     std::string camera, out;
     int frames = 90;
     bool overwrite = false;
@@ -27,7 +27,7 @@ struct Flags {
 // A camera without a picture for this time is treated as ended.
 constexpr Duration patience = std::chrono::seconds(12);
 
-filter::Background record(const Flags& flags) {
+filter::Background record(const BackgroundFlags& flags) {
     const capture::Progress progress = cli::show_progress();
     const auto camera = capture::open_camera(flags.camera, progress);
     filter::Background background;
@@ -53,7 +53,7 @@ filter::Background record(const Flags& flags) {
     return background;
 }
 
-void run(const Flags& flags) {
+void run(const BackgroundFlags& flags) {
     if (std::filesystem::exists(flags.out) && !flags.overwrite)
         throw Error("'" + flags.out + "' is there already; --overwrite replaces it.");
     const filter::Background background = record(flags);
@@ -81,7 +81,7 @@ void add_background_command(CLI::App& app) {
     CLI::App* background =
         app.add_subcommand("background", "Record the empty scene, to leave it out of streams");
     background->require_subcommand(1);
-    const auto flags = std::make_shared<Flags>();
+    const auto flags = std::make_shared<BackgroundFlags>();
     CLI::App* command = background->add_subcommand("record", "Record the empty scene of a camera");
     command->footer(
         "For each pixel the nearest that was measured is kept. Nobody may be in the picture.\n"

@@ -164,7 +164,8 @@ bool change_screen(client::Participant& participant, const std::string& what, st
     return viewer::set_screen(participant, screen);
 }
 
-bool carry_out(client::Participant& participant, const std::string& what, std::istream& words) {
+bool carry_out_case(client::Participant& participant, const std::string& what,
+                    std::istream& words) {
     if (what == "open")
         return open_by_name(participant, rest_of(words)), true;
     if (what == "close")
@@ -231,7 +232,7 @@ bool obey_case_line(client::Participant& participant, const std::string& line) {
     if (word != "case")
         return false;
     try {
-        if (!carry_out(participant, what, words))
+        if (!carry_out_case(participant, what, words))
             log::say("'" + line + "': " +
                      (session::case_in_room(participant.room().objects)
                           ? "The open case has not come yet."

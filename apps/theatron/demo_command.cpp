@@ -29,7 +29,7 @@
 namespace theatron::app {
 namespace {
 
-struct Flags {
+struct DemoFlags {
     std::string program;  // as it was called, for commands to copy
     std::vector<std::string> cameras = {"synthetic:camera=0,cameras=2,wait=off",
                                         "synthetic:camera=1,cameras=2,wait=off"};
@@ -74,7 +74,8 @@ private:
     std::jthread thread_;
 };
 
-void show_pictures(const Flags& flags, const std::filesystem::path& folder, const net::Link& link) {
+void show_pictures(const DemoFlags& flags, const std::filesystem::path& folder,
+                   const net::Link& link) {
     client::Participant viewer(viewer_options(link));
     constexpr Size size{1280, 720}, screen_size{1920, 1080};
     viewer::OffscreenView scene;
@@ -126,7 +127,7 @@ void show_pictures(const Flags& flags, const std::filesystem::path& folder, cons
 }
 
 // Null where none can be opened, for whatever reason: the demo then writes pictures.
-std::unique_ptr<xr::DesktopWindow> open_window(const Flags& flags) {
+std::unique_ptr<xr::DesktopWindow> open_window(const DemoFlags& flags) {
     if (flags.no_window || !has_display())
         return nullptr;
     try {
@@ -137,7 +138,7 @@ std::unique_ptr<xr::DesktopWindow> open_window(const Flags& flags) {
     }
 }
 
-void run(const Flags& flags) {
+void run(const DemoFlags& flags) {
     cli::catch_stop_signals();
     const std::filesystem::path folder = flags.out;
     std::error_code error;
@@ -186,7 +187,7 @@ void run(const Flags& flags) {
 }  // namespace
 
 void add_demo_command(CLI::App& app) {
-    const auto flags = std::make_shared<Flags>();
+    const auto flags = std::make_shared<DemoFlags>();
     CLI::App* command = app.add_subcommand(
         "demo",
         "See it work: a generated room with two scripted people, in a window or as pictures");

@@ -23,7 +23,7 @@
 namespace theatron::app {
 namespace {
 
-struct Flags {
+struct ExportFlags {
     std::string file;
     std::string ply, png, k4a, room, voices;
     std::optional<int> camera;
@@ -39,7 +39,7 @@ struct Flags {
 using Recording = std::shared_ptr<const record::RecordingFile>;
 
 // The cameras that have a calibration of this number: one after the other, they count from 0.
-exporting::ExportSource open_source(const Flags& flags, const Recording& recording,
+exporting::ExportSource open_source(const ExportFlags& flags, const Recording& recording,
                                     std::size_t calibration) {
     exporting::ExportSource source;
     source.progress = [show = cli::show_progress()](std::string_view step, double done) {
@@ -129,7 +129,7 @@ void say_places(const exporting::ExportSource& source) {
 }
 
 // False if packets are damaged.
-bool save_voices(const Flags& flags, const Recording& recording) {
+bool save_voices(const ExportFlags& flags, const Recording& recording) {
     exporting::VoicesSummary voices;
     const auto files = exporting::export_voices(recording, flags.voices, flags.overwrite, voices);
     for (std::size_t i = 0; i < files.size(); ++i)
@@ -147,7 +147,7 @@ bool save_voices(const Flags& flags, const Recording& recording) {
     return voices.damaged == 0;
 }
 
-void run(const Flags& flags) {
+void run(const ExportFlags& flags) {
     if (flags.ply.empty() && flags.png.empty() && flags.k4a.empty() && flags.room.empty() &&
         flags.voices.empty())
         throw Error(
@@ -315,7 +315,7 @@ void run(const Flags& flags) {
 }  // namespace
 
 void add_export_command(CLI::App& app) {
-    const auto flags = std::make_shared<Flags>();
+    const auto flags = std::make_shared<ExportFlags>();
     CLI::App* command = app.add_subcommand("export", "Turn a recording into points or pictures");
     command->footer(
         "Depth is exported as it was recorded, without loss. With several cameras, each gets a\n"

@@ -25,14 +25,14 @@ namespace {
 // A host looks at its links twenty times a second.
 constexpr Duration answer_patience = std::chrono::seconds(10);
 
-struct Flags {
+struct LinkFlags {
     std::string role = "expert", label, show, revoke, state, session;
     double hours = 0;
     bool list = false, qr = false, json = false;
 };
 
 // 'theatron link' with these options, for the same folder and session.
-std::string command_of(const Flags& flags, const std::string& options) {
+std::string command_of(const LinkFlags& flags, const std::string& options) {
     return "theatron link " + options +
            (flags.session.empty() ? "" : " --session '" + flags.session + "'") +
            (flags.state.empty() ? "" : " --state '" + flags.state + "'");
@@ -46,7 +46,7 @@ nlohmann::json facts_of(const host::KnownLink& link) {
             {"for", link.label}};
 }
 
-void print(const host::KnownLink& link, const net::Link& address, const Flags& flags) {
+void print(const host::KnownLink& link, const net::Link& address, const LinkFlags& flags) {
     const std::string text = host::link_text(link, address);
     if (flags.json) {
         nlohmann::json json = facts_of(link);
@@ -98,7 +98,7 @@ bool is_followed(const std::filesystem::path& state, const std::filesystem::path
     });
 }
 
-void revoke(const Flags& flags, const std::filesystem::path& state,
+void revoke(const LinkFlags& flags, const std::filesystem::path& state,
             const std::filesystem::path& folder) {
     bool was_there = false;
     try {
@@ -130,7 +130,7 @@ void revoke(const Flags& flags, const std::filesystem::path& state,
                                                     : "");
 }
 
-void run(const Flags& flags) {
+void run(const LinkFlags& flags) {
     const std::filesystem::path state =
         flags.state.empty() ? host::default_state_folder() : std::filesystem::path(flags.state);
     const net::Link address = host::read_address(state);
@@ -160,7 +160,7 @@ void run(const Flags& flags) {
 }  // namespace
 
 void add_link_command(CLI::App& app) {
-    const auto flags = std::make_shared<Flags>();
+    const auto flags = std::make_shared<LinkFlags>();
     CLI::App* command =
         app.add_subcommand("link", "Make a link of this machine's host for somebody, or revoke it");
     command->footer(

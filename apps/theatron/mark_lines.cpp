@@ -71,7 +71,8 @@ Mark read_mark(MarkKind kind, std::istream& words, const client::Participant::Ro
     return mark;
 }
 
-bool carry_out(client::Participant& participant, const std::string& what, std::istream& words) {
+bool carry_out_mark(client::Participant& participant, const std::string& what,
+                    std::istream& words) {
     std::string all;
     if (what == "undo" && !(words >> all))
         return viewer::undo_mark(participant);
@@ -100,7 +101,7 @@ bool obey_mark_line(client::Participant& participant, const std::string& line) {
     if (mark != "mark")
         return false;
     try {
-        if (!carry_out(participant, what, words))
+        if (!carry_out_mark(participant, what, words))
             log::say("'" + line.substr(0, 80) + "': There is no such mark.");
     } catch (const Error& e) {
         log::say("'" + line.substr(0, 80) + "': " + e.what());

@@ -19,7 +19,7 @@ struct ShowFlags {
     std::string size = "1280x560";
 };
 
-void add_show(CLI::App& photon) {
+void add_photon_show(CLI::App& photon) {
     const auto flags = std::make_shared<ShowFlags>();
     CLI::App* command = photon.add_subcommand("show", "Show this computer's time as a strip");
     command->footer(
@@ -98,7 +98,7 @@ void add_film(CLI::App& photon) {
     command->callback([wanted] { run_photon_film(*wanted); });
 }
 
-void add_check(CLI::App& photon) {
+void add_photon_check(CLI::App& photon) {
     const auto wanted = std::make_shared<PhotonCheck>();
     CLI::App* command = photon.add_subcommand(
         "check", "Tell how wrong 'photon film' is, by films with known delays");
@@ -121,10 +121,10 @@ void add_photon_command(CLI::App& app) {
         "photon", "Measure the time from a change in the scene to the light of the display");
     photon->require_subcommand(1);
     photon->footer("docs/measuring.md tells what each figure means.");
-    add_show(*photon);
+    add_photon_show(*photon);
     add_read(*photon);
     add_film(*photon);
-    add_check(*photon);
+    add_photon_check(*photon);
 }
 
 }  // namespace theatron::app

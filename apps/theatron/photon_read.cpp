@@ -107,10 +107,6 @@ void check_ages(const StripAges& ages) {
         if (ages.unread > ages.without)
             throw Error("A strip is seen in " + std::to_string(ages.unread) + of +
                         ", but its time cannot be read; show it larger or sharper.");
-        if (ages.without + ages.several + ages.unread == 0)
-            throw Error("Too few pictures came to say an age (" + std::to_string(ages.pictures) +
-                        " of at least " + std::to_string(least) +
-                        "); read for longer (--seconds).");
         throw Error("No strip is seen in " + std::to_string(ages.without) + of +
                     "; it must be at least 48 pixels wide, with its white border. "
                     "--save FILE.png keeps the last picture.");

@@ -24,7 +24,7 @@
 namespace theatron::app {
 namespace {
 
-struct Flags {
+struct PublishFlags {
     std::string link;
     std::string name = "cameras";
     std::vector<std::string> cameras, shared, filters;
@@ -80,7 +80,7 @@ std::string status_line(const publish::CameraPublisher& publisher,
     return line;
 }
 
-void run(const Flags& flags) {
+void run(const PublishFlags& flags) {
     const std::vector<std::string> cameras = with_shared(flags.cameras, flags.shared);
     if (cameras.empty())
         throw Error("Name what is sent: --camera CAMERA, or --share SOURCE for a screen.");
@@ -131,7 +131,7 @@ void run(const Flags& flags) {
 }  // namespace
 
 void add_publish_command(CLI::App& app) {
-    const auto flags = std::make_shared<Flags>();
+    const auto flags = std::make_shared<PublishFlags>();
     CLI::App* command =
         app.add_subcommand("publish", "Send cameras of this machine to a session of another");
     command->footer(

@@ -36,7 +36,7 @@ namespace {
 // The recording ended normally, but it is not complete.
 constexpr int exit_incomplete = 3;
 
-struct Flags {
+struct RecordFlags {
     std::vector<std::string> names;  // [LINK] FILE
     std::vector<std::string> cameras;
     std::string depth_codec = "strata";
@@ -49,7 +49,7 @@ struct Flags {
     bool json = false;
 };
 
-record::RecordCodecs check_codecs(const Flags& flags) {
+record::RecordCodecs check_codecs(const RecordFlags& flags) {
     const auto depth = video::parse_depth_setting(flags.depth_codec);
     const auto color = video::parse_color_setting(flags.color_codec);
     // A session's host encodes; one's own cameras are encoded here.
@@ -66,7 +66,7 @@ record::RecordCodecs check_codecs(const Flags& flags) {
     return {depth.setting.text, color.setting.text};
 }
 
-record::Recorder::Options recorder_options(const Flags& flags) {
+record::Recorder::Options recorder_options(const RecordFlags& flags) {
     constexpr int least_mb = 1, most_mb = 1'000'000;
     if (flags.buffer_mb < least_mb || flags.buffer_mb > most_mb)
         throw Error("--buffer is from " + std::to_string(least_mb) + " to " +
@@ -74,7 +74,7 @@ record::Recorder::Options recorder_options(const Flags& flags) {
     return {std::size_t(flags.buffer_mb) << 20, flags.overwrite};
 }
 
-std::unique_ptr<record::RecordSource> open_source(const Flags& flags) {
+std::unique_ptr<record::RecordSource> open_source(const RecordFlags& flags) {
     const record::RecordCodecs codecs = check_codecs(flags);
     const record::Recorder::Options options = recorder_options(flags);
     const std::string& file = flags.names.back();
@@ -266,7 +266,7 @@ bool fetch_rest(record::RecordSource& source, const Say& say) {
 // From the wish to end until the file has its end: fetch_rest(), and a slow disk.
 constexpr Duration file_patience = std::chrono::seconds(30);
 
-void run(const Flags& flags) {
+void run(const RecordFlags& flags) {
     cli::catch_stop_signals();
     std::optional<cli::Saving> saving(file_patience);
     const std::string& file = flags.names.back();
@@ -403,7 +403,7 @@ void run(const Flags& flags) {
 }  // namespace
 
 void add_record_command(CLI::App& app) {
-    const auto flags = std::make_shared<Flags>();
+    const auto flags = std::make_shared<RecordFlags>();
     CLI::App* command = app.add_subcommand("record", "Record a session, or cameras, into a file");
     command->footer(
         "The streams are written as they are encoded, and play again with recording:FILE.mkv,\n"

@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Flags {
+struct RecoverFlags {
     std::string file, out;
     bool json = false;
 };
@@ -62,7 +62,7 @@ void print(const record::RecordingFile& recording, const record::Recovered& save
         std::printf("%s\n", file.c_str());
 }
 
-void run(const Flags& flags) {
+void run(const RecoverFlags& flags) {
     const auto recording = record::RecordingFile::open(flags.file);
     cli::catch_stop_signals();
     const capture::Progress show = cli::show_progress();
@@ -123,7 +123,7 @@ void run(const Flags& flags) {
 }  // namespace
 
 void add_recover_command(CLI::App& app) {
-    const auto flags = std::make_shared<Flags>();
+    const auto flags = std::make_shared<RecoverFlags>();
     CLI::App* command =
         app.add_subcommand("recover", "Write what is whole of a damaged recording into a new one");
     command->footer(

@@ -30,7 +30,7 @@ namespace {
 using registration::BoardSession;
 using registration::RigSolution;
 
-struct Flags {
+struct RegisterFlags {
     std::string link;
     std::vector<std::string> cameras, only;
     BoardFlags board;
@@ -44,7 +44,7 @@ struct Flags {
     double seconds = 0;
 };
 
-std::unique_ptr<DepthSource> open(const Flags& flags, const WantedCameras& choice) {
+std::unique_ptr<DepthSource> open(const RegisterFlags& flags, const WantedCameras& choice) {
     if (flags.link.empty() == flags.cameras.empty())
         throw Error(
             "Say which cameras: the link of a running session, or --camera for each that this "
@@ -76,7 +76,7 @@ const char* in_words(BoardSession::Sight sight) {
 
 // Prints the state of the registration after a view.
 void tell(const BoardSession& session, const RigSolution& solution, const Cameras& cameras,
-          std::size_t taken, const Flags& flags) {
+          std::size_t taken, const RegisterFlags& flags) {
     const Vec3 span = BoardSession::span_m(solution);
     const std::string next = session.next_step(solution, flags.poses);
     nlohmann::json report{{"event", "view"},
@@ -116,7 +116,7 @@ void tell(const BoardSession& session, const RigSolution& solution, const Camera
     std::cout << clear_line() << line << text << "\n  " << next << std::endl;
 }
 
-void watch(DepthSource& source, BoardSession& session, const Flags& flags) {
+void watch(DepthSource& source, BoardSession& session, const RegisterFlags& flags) {
     const Cameras& cameras = source.cameras();
     const TimePoint begin = steady_now();
     TimePoint next_line = begin;
@@ -147,7 +147,8 @@ void watch(DepthSource& source, BoardSession& session, const Flags& flags) {
 }
 
 // The text of a file, or of standard input to its end.
-std::string typed_or_file(const std::string& file, const Flags& flags, const char* request) {
+std::string typed_or_file(const std::string& file, const RegisterFlags& flags,
+                          const char* request) {
     constexpr std::size_t max_text_bytes = 1 << 16;
     if (file != "-") {
         const Bytes bytes = files::read_file(file, max_text_bytes);
@@ -163,7 +164,7 @@ std::string typed_or_file(const std::string& file, const Flags& flags, const cha
 }
 
 // Where the tip is in the controller's frame. Throws Error with a sentence.
-Vec3 tip_of(const Flags& flags) {
+Vec3 tip_of(const RegisterFlags& flags) {
     const auto tip = capture::parse_place(flags.tip);
     if (!tip || std::count(flags.tip.begin(), flags.tip.end(), ':') != 2)
         throw Error("--tip " + flags.tip + " is not X:Y:Z in metres.");
@@ -171,7 +172,7 @@ Vec3 tip_of(const Flags& flags) {
 }
 
 // Where the board is in the controller's frame. Throws Error with a sentence.
-Pose holder_offset_of(const Flags& flags) {
+Pose holder_offset_of(const RegisterFlags& flags) {
     std::string words = flags.holder_offset;
     std::replace(words.begin(), words.end(), ':', ' ');
     const auto offset = registration::parse_pose(registration::words_of(words, 7));
@@ -182,7 +183,7 @@ Pose holder_offset_of(const Flags& flags) {
 }
 
 // The room by a controller's tip at the board's corners. Throws Error with a sentence.
-RoomFrame touched_room(const Flags& flags, const registration::LatticeTarget& target,
+RoomFrame touched_room(const RegisterFlags& flags, const registration::LatticeTarget& target,
                        const RigSolution& solution) {
     const auto parsed = registration::parse_touches(
         typed_or_file(flags.touches, flags,
@@ -199,7 +200,7 @@ RoomFrame touched_room(const Flags& flags, const registration::LatticeTarget& ta
 }
 
 // The room by a controller that carries the board. Throws Error with a sentence.
-RoomFrame held_room(const Flags& flags, const registration::LatticeTarget& target,
+RoomFrame held_room(const RegisterFlags& flags, const registration::LatticeTarget& target,
                     const RigSolution& solution) {
     const auto parsed = registration::parse_holder(typed_or_file(
         flags.holder, flags,
@@ -215,7 +216,7 @@ RoomFrame held_room(const Flags& flags, const registration::LatticeTarget& targe
 }
 
 // Means of some images of each camera, for --refine.
-std::vector<registration::FrameMean> still_images(DepthSource& source, const Flags& flags) {
+std::vector<registration::FrameMean> still_images(DepthSource& source, const RegisterFlags& flags) {
     constexpr Duration patience = std::chrono::seconds(20);
     const Duration longest = flags.seconds > 0 ? seconds_to_duration(flags.seconds) : patience;
     std::vector<registration::FrameMean> means;
@@ -250,7 +251,7 @@ void check_outputs(const RigOutput& output) {
         files::require_own_kind(output.report, "<!doctype html>", "a report");
 }
 
-void run(const Flags& flags) {
+void run(const RegisterFlags& flags) {
     const registration::LatticeTarget target = board_of(flags.board);
     // Mistyped ones are told before anybody carries the board.
     (void)tip_of(flags);
@@ -292,7 +293,7 @@ void run(const Flags& flags) {
 }  // namespace
 
 void add_register_command(CLI::App& app) {
-    const auto flags = std::make_shared<Flags>();
+    const auto flags = std::make_shared<RegisterFlags>();
     CLI::App* command =
         app.add_subcommand("register", "Find out where cameras are, with a board and depth alone");
     command->footer(

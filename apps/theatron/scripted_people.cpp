@@ -21,7 +21,7 @@ constexpr double cycle_s = 20, taken_s = 4, given_s = 9, put_back_s = 15;
 // In the generated operating room, whose table stands at the origin. Metres.
 constexpr Vec3 situs{0, 1, 0}, brick_home{0.45, 1.2, 0.3}, brick_away{-0.35, 1.35, 0.2};
 constexpr std::array<Vec3, 2> heads{{{0.9, 1.6, -0.6}, {-0.9, 1.7, 0.1}}};
-constexpr std::array<const char*, 2> names{"remote expert", "student"};
+constexpr std::array<const char*, 2> person_names{"remote expert", "student"};
 
 double smooth(double from, double to, double at) {
     const double share = std::clamp((at - from) / (to - from), 0.0, 1.0);
@@ -37,7 +37,7 @@ Vec3 brick_at(double seconds) {
 }
 
 // A head or a hand that looks or points at `at`.
-wire::PartPose towards(Vec3 place, Vec3 at) {
+wire::PartPose part_towards(Vec3 place, Vec3 at) {
     return viewer::part_of(look_at(place, at, {0, 1, 0}) * Pose{Quat{0, 1, 0, 0}, {}});
 }
 
@@ -55,12 +55,12 @@ wire::PersonPose pose_at(std::size_t person, double seconds, TimePoint now) {
     const Vec3 hand = holds ? brick - reach * 0.06 : shoulder + reach * 0.45;
     wire::PersonPose pose;
     pose.time = now;
-    pose.head = towards(head, looks_at);
-    pose.right_hand = towards(hand, hand + reach);
+    pose.head = part_towards(head, looks_at);
+    pose.right_hand = part_towards(hand, hand + reach);
     // The other hand rests before the body: a headset sees both.
     const Vec3 ahead = normalized(Vec3{reach.x, 0, reach.z});
     const Vec3 rest = shoulder + Vec3{0, -0.12, 0} + 0.26 * ahead + 0.17 * cross({0, 1, 0}, ahead);
-    pose.left_hand = towards(rest, rest + ahead + Vec3{0, -0.3, 0});
+    pose.left_hand = part_towards(rest, rest + ahead + Vec3{0, -0.3, 0});
     // The expert shows the student the situs while the brick rests.
     pose.points = person == 0 && attention == 0;
     return pose;
@@ -72,7 +72,7 @@ ScriptedPeople::ScriptedPeople(const net::Link& link) : begin_(steady_now()) {
     for (std::size_t person = 0; person < people_.size(); ++person) {
         client::Participant::Options options;
         options.link = link;
-        options.name = names[person];
+        options.name = person_names[person];
         options.keeps_room = true;
         options.media = [](const wire::MediaHeader&, ByteView) {};
         people_[person] = std::make_unique<client::Participant>(std::move(options));

@@ -29,16 +29,16 @@ namespace fs = std::filesystem;
 using host::ToldSession;
 
 // A camera may take long to open; a session ends within seconds.
-constexpr Duration opening_patience = std::chrono::seconds(120);
+constexpr Duration new_session_patience = std::chrono::seconds(120);
 constexpr Duration ending_patience = std::chrono::seconds(30);
 
-struct Flags {
+struct NewSessionFlags {
     SessionFlags session;
     std::string name, state;
     bool json = false;
 };
 
-fs::path state_of(const Flags& flags) {
+fs::path state_of(const NewSessionFlags& flags) {
     return flags.state.empty() ? host::default_state_folder() : fs::path(flags.state);
 }
 
@@ -73,7 +73,7 @@ bool wait_for(Duration patience, const Condition& is_done) {
     return true;
 }
 
-void print_created(const Flags& flags, const fs::path& state, bool is_open) {
+void print_created(const NewSessionFlags& flags, const fs::path& state, bool is_open) {
     const fs::path folder = host::session_folder(state, flags.name);
     if (!is_open) {
         if (flags.json)
@@ -98,7 +98,7 @@ void print_created(const Flags& flags, const fs::path& state, bool is_open) {
     std::cout << "More links: theatron link --session '" << flags.name << "' --help\n";
 }
 
-void create(const Flags& flags) {
+void create(const NewSessionFlags& flags) {
     host::check_session_name(flags.name);
     const fs::path state = state_of(flags);
     (void)session_options(flags.session);
@@ -115,7 +115,7 @@ void create(const Flags& flags) {
         return print_created(flags, state, false);
 
     std::optional<ToldSession> now;
-    const bool is_answered = wait_for(opening_patience, [&] {
+    const bool is_answered = wait_for(new_session_patience, [&] {
         now = told(state, flags.name);
         return now && now->state != ToldSession::State::opening;
     });
@@ -139,7 +139,7 @@ void delete_session(const fs::path& state, const std::string& name) {
         host::AuditLog(host::usual_audit_log(state)).add(host::deletion_of(name), "", name);
 }
 
-void end(const Flags& flags) {
+void end(const NewSessionFlags& flags) {
     const fs::path state = state_of(flags);
     const fs::path folder = host::find_session_folder(state, flags.name);
     if (folder == state)
@@ -158,7 +158,7 @@ void end(const Flags& flags) {
                      flags.name.c_str());
 }
 
-void list(const Flags& flags) {
+void list(const NewSessionFlags& flags) {
     const fs::path state = state_of(flags);
     std::vector<ToldSession> running = host::told_sessions(state);
     nlohmann::json all = nlohmann::json::array();
@@ -185,7 +185,7 @@ void list(const Flags& flags) {
 }  // namespace
 
 void add_session_command(CLI::App& app) {
-    const auto flags = std::make_shared<Flags>();
+    const auto flags = std::make_shared<NewSessionFlags>();
     CLI::App* command =
         app.add_subcommand("session", "Create, end and list the sessions of this machine's host");
     command->footer(

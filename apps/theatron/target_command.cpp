@@ -12,13 +12,13 @@
 namespace theatron::app {
 namespace {
 
-struct Flags {
+struct TargetFlags {
     BoardFlags board;
     std::string out;
     bool overwrite = false;
 };
 
-void run(const Flags& flags) {
+void run(const TargetFlags& flags) {
     const registration::LatticeTarget target = board_of(flags.board);
     const std::string ending = std::filesystem::path(flags.out).extension().string();
     if (ending != ".svg" && ending != ".dxf")
@@ -35,7 +35,7 @@ void run(const Flags& flags) {
 }  // namespace
 
 void add_target_command(CLI::App& app) {
-    const auto flags = std::make_shared<Flags>();
+    const auto flags = std::make_shared<TargetFlags>();
     CLI::App* command =
         app.add_subcommand("target", "Draw the board that 'theatron register' looks for");
     command->footer(

@@ -43,7 +43,7 @@ private:
     fs::path path_;
 };
 
-struct Flags {
+struct ViewFlags {
     std::string what;
     JoinFlags join;
 };
@@ -64,7 +64,7 @@ host::HostOptions host_options(const ViewSource& source, const fs::path& folder)
     return options;
 }
 
-void run(Flags flags) {
+void run(ViewFlags flags) {
     const ViewSource source = view_source(flags.what);
     cli::catch_stop_signals();
     const OwnFolder folder;
@@ -80,7 +80,7 @@ void run(Flags flags) {
 }  // namespace
 
 void add_view_command(CLI::App& app) {
-    const auto flags = std::make_shared<Flags>();
+    const auto flags = std::make_shared<ViewFlags>();
     CLI::App* command = app.add_subcommand(
         "view", "Look at a camera, a recording or a case, without a host and a link");
     command->footer(

@@ -8,10 +8,12 @@
 #include <thread>
 
 #include "base/error.h"
+#include "bench_capacity.h"
 #include "bench_color.h"
 #include "bench_commands.h"
 #include "bench_compare.h"
 #include "bench_depth.h"
+#include "bench_face.h"
 #include "bench_filter.h"
 #include "bench_interaction.h"
 #include "bench_pipeline.h"
@@ -519,8 +521,10 @@ void add_benchmarks(CLI::App& app) {
     add_depth(app);
     add_color(app);
     add_filter_bench(app);
+    add_face_bench(app);
     add_interaction(app);
     add_pipeline(app);
+    add_capacity_bench(app);
     add_render(app);
     add_slices_bench(app);
     add_table1_bench(app);

@@ -5,14 +5,14 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "base/error.h"
+#include "base/bytes.h"
 #include "bench_report.h"
+#include "cli/number_check.h"
 #include "cli/progress.h"
 #include "compare_measure.h"
 #include "compare_output.h"
 #include "compare_page.h"
 #include "files/file_bytes.h"
-#include "files/json_text.h"
 
 namespace theatron::bench {
 namespace {
@@ -33,17 +33,11 @@ void run_compare(const CompareFlags& flags) {
     options.links.clear();
     for (const double mbit : flags.mbit)
         options.links.push_back({mbit, flags.latency_ms});
-    const bool json_file = !flags.json.empty() && flags.json != "-";
-    for (const std::string& file : {json_file ? flags.json : std::string(), flags.page})
-        if (!file.empty())
-            files::require_writable(file);
+    require_outputs({flags.json, flags.page});
     const Compared compared = measure_compare(options, cli::show_progress());
-    const nlohmann::json json = compare_json(compared);
     if (!flags.page.empty())
         files::write_file(flags.page, as_bytes(compare_page(compared)));
-    if (json_file)
-        files::write_file(flags.json, as_bytes(files::json_text(json, 2) + "\n"));
-    report(json, flags.json == "-" ? "-" : "",
+    report(compare_json(compared), flags.json,
            [&] { std::fputs(compare_text(compared).c_str(), stdout); });
 }
 
@@ -73,10 +67,10 @@ void add_compare_bench(CLI::App& bench) {
         ->add_option("--mbit", flags->mbit,
                      "Rates of the simulated lines, separated by blanks, Mbit/s")
         ->capture_default_str()
-        ->check(CLI::Range(0.1, 10000.0));
+        ->check(cli::number_from_to(0.1, 10'000));
     command->add_option("--latency-ms", flags->latency_ms, "Their delay, one way")
         ->capture_default_str()
-        ->check(CLI::Range(0.0, 2000.0));
+        ->check(cli::number_from_to(0, 2000));
     command->add_flag("--quick", flags->options.scene.quick,
                       "A coarse room, small pictures, few of them: whether all works; says little");
     command->add_option(

@@ -14,7 +14,7 @@
 namespace theatron::bench {
 namespace {
 
-struct Flags {
+struct FilterFlags {
     std::string folder;
     std::string json;
     int frames = 30;
@@ -74,7 +74,7 @@ void print_quality(const nlohmann::json& chains) {
     }
 }
 
-nlohmann::json quality_of(const Flags& flags) {
+nlohmann::json quality_of(const FilterFlags& flags) {
     nlohmann::json chains = nlohmann::json::array();
     std::optional<FilterClip> room;
     if (flags.room && flags.stereo)
@@ -111,7 +111,7 @@ void print_recorded(const nlohmann::json& chains) {
                 100 * s["flips"].get<double>(), 100 * s["valid"].get<double>());
 }
 
-nlohmann::json recorded_quality_of(const Flags& flags) {
+nlohmann::json recorded_quality_of(const FilterFlags& flags) {
     const BenchSequence sequence = load_sequence(flags.folder, false, flags.frames);
     nlohmann::json chains = nlohmann::json::array();
     for (const std::string& name : flags.filters) {
@@ -126,7 +126,7 @@ nlohmann::json recorded_quality_of(const Flags& flags) {
     return chains;
 }
 
-void run(const Flags& flags) {
+void run(const FilterFlags& flags) {
     if (flags.quality && !flags.folder.empty()) {
         const nlohmann::json chains = recorded_quality_of(flags);
         report(chains, flags.json, [&] { print_recorded(chains); });
@@ -151,7 +151,7 @@ void run(const Flags& flags) {
 }  // namespace
 
 void add_filter_bench(CLI::App& bench) {
-    const auto flags = std::make_shared<Flags>();
+    const auto flags = std::make_shared<FilterFlags>();
     CLI::App* command =
         bench.add_subcommand("filter", "Depth filters: speed, or quality; checked, one thread");
     command->add_option("folder", flags->folder,

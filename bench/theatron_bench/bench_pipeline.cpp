@@ -109,7 +109,8 @@ struct UsageSample {
 // samples: two cameras that each lost half of their frames count as one.
 nlohmann::json capacity(const UsageSample& before, const UsageSample& after, double cameras) {
     const double seconds = to_seconds(after.time - before.time);
-    double cores = after.host.cpu_seconds - before.host.cpu_seconds;
+    const double host = after.host.cpu_seconds - before.host.cpu_seconds;
+    double cores = host;
     std::vector<std::pair<std::string, double>> used;
     used.emplace_back("the host's network thread",
                       busiest(before.host, after.host, "net", seconds));
@@ -119,6 +120,7 @@ nlohmann::json capacity(const UsageSample& before, const UsageSample& after, dou
             used.emplace_back(std::string("a viewer's ") + name + " thread",
                               busiest(before.viewers[i], after.viewers[i], name, seconds));
     }
+    const double viewers = (cores - host) / seconds;
     cores /= seconds;
     const double here = std::max(1u, std::thread::hardware_concurrency());
     used.insert(used.begin(), {"all cores", cores / here});
@@ -129,6 +131,8 @@ nlohmann::json capacity(const UsageSample& before, const UsageSample& after, dou
         shares[name] = share;
     const double others = (after.machine - before.machine) / seconds - cores;
     return {{"cores", cores},
+            {"host", host / seconds},
+            {"viewer", viewers / double(after.viewers.size())},
             {"others", std::max(0.0, others)},
             {"cores_here", here},
             {"shares", shares},
@@ -228,6 +232,9 @@ nlohmann::json bench_pipeline(const PipelineBench& bench) {
             {"mbit_per_camera", mbit / cameras / bench.viewers},
             {"target", cli::instruction_set_in_use()},
             {"cpu_cores", load["cores"]},
+            {"host_cores", load["host"]},
+            {"viewer_cores", load["viewer"]},
+            {"frames_per_viewer", frames / bench.viewers},
             {"frame_cpu_ms", frame_cpu_ms},
             {"frame_cpu_of_zstd1", frame_cpu_ms / yardstick},
             {"cpu_cores_here", load["cores_here"]},

@@ -20,7 +20,8 @@ struct PipelineBench {
 
 // Runs one host and `viewers` participants as child processes. Returns
 // {cameras,viewers,seconds,stages:[{name,p50_ms,p99_ms}],fps_min,frames_dropped,
-// mbit_per_camera,cpu_cores,age_ms:{p50,p99,max}, ...}. age_ms: from captured to decoded, the
+// mbit_per_camera,cpu_cores,host_cores,viewer_cores (of one),
+// frames_per_viewer,age_ms:{p50,p99,max}, ...}. age_ms: from captured to decoded, the
 // worst of all streams and viewers. frames_dropped: frames given by the cameras after the
 // warm-up and not decoded by a viewer. cameras_possible: the number of cameras that would
 // saturate all cores or a single thread. frame_cpu_ms: processor time of host and viewers for a

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench_report.h"
 
-#include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "base/error.h"
+#include "base/bytes.h"
+#include "files/file_bytes.h"
 #include "files/json_text.h"
 
 namespace theatron::bench {
@@ -19,10 +19,13 @@ void report(const nlohmann::json& result, const std::string& file,
     print_table();
     if (file.empty())
         return;
-    std::ofstream out(file);
-    out << files::json_text(result, 2) << "\n";
-    if (!out.flush())
-        throw Error("Cannot write " + file + ".");
+    files::write_file(file, as_bytes(files::json_text(result, 2) + "\n"));
+}
+
+void require_outputs(std::initializer_list<std::string> files) {
+    for (const std::string& file : files)
+        if (!file.empty() && file != "-")
+            files::require_writable(file);
 }
 
 }  // namespace theatron::bench

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <initializer_list>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
@@ -12,5 +13,9 @@ namespace theatron::bench {
 // prints JSON instead of the table. Throws Error.
 void report(const nlohmann::json& result, const std::string& file,
             const std::function<void()>& print_table);
+
+// Before a measurement: throws Error where one of these files cannot be written, so that this is
+// told now and not after minutes. Empty names and "-" are left out.
+void require_outputs(std::initializer_list<std::string> files);
 
 }  // namespace theatron::bench

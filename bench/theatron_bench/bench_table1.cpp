@@ -3,8 +3,8 @@
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
-#include <span>
 
+#include "base/bytes.h"
 #include "base/error.h"
 #include "bench_report.h"
 #include "cli/camera_option.h"
@@ -17,7 +17,7 @@
 namespace theatron::bench {
 namespace {
 
-struct Flags {
+struct Table1Flags {
     Table1Options options;
     bool quick = false;
     std::string json, csv, page;
@@ -25,7 +25,7 @@ struct Flags {
 
 void write(const std::string& file, const std::string& text) {
     if (!file.empty())
-        files::write_file(file, std::as_bytes(std::span(text)));
+        files::write_file(file, as_bytes(text));
 }
 
 std::vector<std::string> generated_room(bool quick) {
@@ -34,7 +34,7 @@ std::vector<std::string> generated_room(bool quick) {
     return {room + "0", room + "1"};
 }
 
-void run(Flags flags) {
+void run(Table1Flags flags) {
     Table1Options& options = flags.options;
     if (options.cameras.size() > 2)
         throw Error("The table has rows of one and of two cameras: give --camera at most twice.");
@@ -42,10 +42,7 @@ void run(Flags flags) {
         options.cameras = generated_room(flags.quick);
     if (flags.quick)
         make_quick(options);
-    // A file that cannot be written is told now, not after minutes.
-    for (const std::string& file : {flags.json, flags.csv, flags.page})
-        if (!file.empty() && file != "-")
-            files::require_writable(file);
+    require_outputs({flags.json, flags.csv, flags.page});
     const Table1Measured measured = measure_table1(options, cli::show_progress());
     const std::vector<Table1Row> rows = table1_rows(measured);
     write(flags.csv, table1_csv(rows));
@@ -57,7 +54,7 @@ void run(Flags flags) {
 }  // namespace
 
 void add_table1_bench(CLI::App& bench) {
-    const auto flags = std::make_shared<Flags>();
+    const auto flags = std::make_shared<Table1Flags>();
     CLI::App* command = bench.add_subcommand(
         "table1", "Table 1 of Fischer et al. 2022, row by row, beside this machine's figures");
     command->footer(

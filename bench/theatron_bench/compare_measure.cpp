@@ -6,18 +6,17 @@
 #include <thread>
 
 #include "base/error.h"
-#include "base/machine_load.h"
 #include "base/statistics.h"
 #include "bench_libjpeg.h"
 #include "compare_pcl.h"
 #include "compare_points.h"
 #include "filter/chain.h"
 #include "filter/color_registration.h"
-#include "processor_name.h"
 #include "render/cloud_set.h"
 #include "render/gl_driver.h"
 #include "render/offscreen_context_native.h"
 #include "render/picture_quality.h"
+#include "this_machine.h"
 #include "video/color_codec.h"
 #include "video/depth_codecs.h"
 
@@ -237,7 +236,7 @@ public:
         out_.frames = options_.scene.frames;
         out_.picture = options_.scene.picture;
         out_.links = options_.links;
-        measure_others();
+        out_.cores_of_others = cores_of_others();
         scene_ = make_compare_scene(options_.scene, progress_);
         out_.depth = scene_.cameras.front().calibration.depth.size;
         out_.color = scene_.cameras.front().color.front().size;
@@ -255,13 +254,6 @@ public:
     }
 
 private:
-    void measure_others() {
-        MachineLoad load;
-        (void)load.since_last();
-        std::this_thread::sleep_for(std::chrono::seconds(1));
-        out_.cores_of_others = load.since_last() * out_.cores;
-    }
-
     void begin_drawing() {
         try {
             context_ = std::make_unique<render::OffscreenContext>();

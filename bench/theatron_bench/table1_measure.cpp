@@ -7,16 +7,15 @@
 #include <thread>
 
 #include "base/error.h"
-#include "base/machine_load.h"
 #include "bench_color.h"
 #include "bench_depth.h"
 #include "bench_filter.h"
 #include "bench_interaction.h"
 #include "camera_frames.h"
 #include "child_process.h"
-#include "processor_name.h"
 #include "table1_inputs.h"
 #include "temporary_folder.h"
+#include "this_machine.h"
 #include "video/color_codec.h"
 #include "video/depth_codecs.h"
 
@@ -38,7 +37,7 @@ public:
         out_.cores = int(std::thread::hardware_concurrency());
         out_.runs = options.runs;
         out_.frames = int(cameras_.front().depth.size());
-        measure_others();
+        out_.cores_of_others = cores_of_others();
         describe_inputs();
         describe_strip();
     }
@@ -67,13 +66,6 @@ public:
     }
 
 private:
-    void measure_others() {
-        MachineLoad load;
-        (void)load.since_last();
-        std::this_thread::sleep_for(std::chrono::seconds(1));
-        out_.cores_of_others = load.since_last() * out_.cores;
-    }
-
     void describe_inputs() {
         const CameraFrames& first = cameras_.front();
         const Size full = first.depth.front().size;

@@ -361,6 +361,7 @@ void CameraLane::filter_frame() {
         camera.depth_unit_mm = info_.calibration.depth_unit_mm;
         camera.background = background_.get();
         chain_ = std::make_unique<filter::DeviceChain>(filter_, camera, [this] { return now(); });
+        meter_.on_filter_device(chain_->device());
     }
     const TimePoint begin = now();
     const TimePoint captured = frame.times.captured;
@@ -371,14 +372,11 @@ void CameraLane::filter_frame() {
     filtered_captured_ = captured;
     filtered_at_ = now();
     meter_.on_stage(Stage::filter, filtered_at_ - begin);
-    if (chain_)
-        tell_filter_device();
-}
-
-void CameraLane::tell_filter_device() {
-    meter_.on_filter_device(chain_->device());
-    if (const std::string remark = chain_->take_remark(); !remark.empty())
+    // Only a chain that has a remark may have changed its device.
+    if (const std::string remark = chain_ ? chain_->take_remark() : ""; !remark.empty()) {
+        meter_.on_filter_device(chain_->device());
         log::warning("filter", remark, {{"camera", info_.name}});
+    }
 }
 
 void CameraLane::prepare_frame(TimePoint begin, LaneEncoders::For meant) {

@@ -153,7 +153,6 @@ private:
     std::optional<LaneEncoders::For> repeats(TimePoint begin);
     void take_orders();
     void filter_frame();
-    void tell_filter_device();
     void prepare_frame(TimePoint begin, LaneEncoders::For meant);
     void encode_frame();
     void encode_depth();

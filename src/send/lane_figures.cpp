@@ -77,8 +77,7 @@ void LaneMeter::on_filter(const std::string& spelling) {
 
 void LaneMeter::on_filter_device(const std::string& device) {
     const std::lock_guard lock(mutex_);
-    if (counts_.filter_device != device)
-        counts_.filter_device = device;
+    counts_.filter_device = device;
 }
 
 std::string LaneMeter::filter() const {

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench_face.h"
+
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/statistics.h"
+#include "base/steady_clock.h"
+#include "bench_report.h"
+#include "cli/progress.h"
+#include "face/fit_figures.h"
+#include "face/synthetic_faces.h"
+#include "face/training.h"
+#include "files/file_bytes.h"
+#include "this_machine.h"
+
+namespace theatron::bench {
+namespace {
+
+constexpr double missing_share = 0.2;
+// Those of training have seeds from the seed of its parameters on.
+constexpr std::uint64_t held_out_seed = 1'000'001;
+
+struct FaceFlags {
+    std::string model, json;
+    int persons = 40;
+};
+
+face::MorphModel model_of(const std::string& file) {
+    if (file.empty())
+        return face::generated_head();
+    const Result<face::MorphModel> model = face::parse_model(files::read_file(file));
+    if (!model)
+        throw Error("'" + file + "' is no face model: it is " +
+                    std::string(to_text(model.error())) + ".");
+    return *model;
+}
+
+nlohmann::json fit_json(const face::FitFigures& f) {
+    return {{"mean_error_mm", f.mean_error_mm},
+            {"mean_face_error_mm", f.mean_face_error_mm},
+            {"shape_error_mm", f.shape_error_mm},
+            {"mean_face_shape_error_mm", f.mean_face_shape_error_mm},
+            {"pose_deg", f.pose_degrees},
+            {"worst_pose_deg", f.worst_pose_degrees},
+            {"residual_px", f.residual_px},
+            {"refused", f.refused}};
+}
+
+// The median time of a call, over calls that take about a second.
+double median_ms(const std::function<void()>& call) {
+    std::vector<double> times;
+    const TimePoint begin = steady_now();
+    while (times.size() < 50 || steady_now() - begin < std::chrono::seconds(1)) {
+        const TimePoint from = steady_now();
+        call();
+        times.push_back(to_ms(steady_now() - from));
+    }
+    return theatron::median(times);
+}
+
+nlohmann::json times_json(const face::MorphModel& model, const face::Network& network) {
+    // The actor's smile, and the most that a face can move.
+    face::Channels all;
+    all.fill(0.5F);
+    const face::Channels smile = face::actor_channels(1.5);
+    const face::Features features{};
+    const face::ChannelMask present = network.mask;
+    const face::DrawnPerson person = face::drawn_person(model, 1, 0);
+    std::vector<float> vertices(model.neutral.size());
+    float sum = 0;
+    const double infer = median_ms([&] { sum += face::evaluate(network, features, present)[0]; });
+    const auto blend = [&](const face::Channels& channels) {
+        return median_ms([&] {
+            face::blend_shape(model, person.identity, channels, vertices);
+            sum += vertices[0];
+        });
+    };
+    const double one = blend(smile), most = blend(all);
+    // Keeps the calls from being left out by the compiler.
+    if (sum == -1)
+        std::puts("");
+    return {{"infer", infer}, {"blend", one}, {"blend_all_channels", most}};
+}
+
+nlohmann::json measure_face(const FaceFlags& flags) {
+    require_outputs({flags.json});
+    const capture::Progress progress = cli::show_progress();
+    const face::MorphModel model = model_of(flags.model);
+    progress("fitting faces", 0);
+    nlohmann::json result = {{"processor", processor_name()},
+                             {"persons", flags.persons},
+                             {"model", flags.model.empty() ? "generated" : flags.model},
+                             {"vertices", model.vertex_count()},
+                             {"synthetic", true},
+                             {"chance", 1.0 / double(face::emotion_count)},
+                             {"fit", fit_json(face::fit_figures(model, flags.persons, 1))}};
+    const std::pair<face::Source, const char*> sources[] = {
+        {face::Source::xr_fb_face2, "training for XR_FB"},
+        {face::Source::xr_htc, "training for HTC"}};
+    std::optional<face::Network> network;
+    for (const auto& [source, what] : sources) {
+        network = face::train_synthetic(source, {}, [&](double done) { progress(what, done); });
+        const face::Recording others =
+            face::synthetic_recording(source, flags.persons, held_out_seed);
+        const std::string name(face::source_name(source));
+        result["accuracy"][name] = face::confusion_of(*network, others).accuracy();
+        const double missing = face::confusion_of(*network, others, missing_share).accuracy();
+        if (source == face::Source::xr_fb_face2)
+            result["accuracy"]["missing_20"] = missing;
+        else
+            result["accuracy"][name + "_missing_20"] = missing;
+    }
+    result["ms"] = times_json(model, *network);
+    return result;
+}
+
+void print_face(const nlohmann::json& r) {
+    const auto& fit = r["fit"];
+    const auto& accuracy = r["accuracy"];
+    const auto number = [](const nlohmann::json& value) { return value.get<double>(); };
+    std::printf("%s\n%d synthetic persons, a model of %d vertices: no measure of real faces\n",
+                r["processor"].get<std::string>().c_str(), r["persons"].get<int>(),
+                r["vertices"].get<int>());
+    std::printf(
+        "\na face from one frontal photo, landmarks off by 2 px\n"
+        "  surface %.2f mm from the person's (the mean face %.2f), at one size %.2f (%.2f)\n"
+        "  pose %.2f degrees off, the worst %.2f; landmarks %.1f px; %d refused\n",
+        number(fit["mean_error_mm"]), number(fit["mean_face_error_mm"]),
+        number(fit["shape_error_mm"]), number(fit["mean_face_shape_error_mm"]),
+        number(fit["pose_deg"]), number(fit["worst_pose_deg"]), number(fit["residual_px"]),
+        fit["refused"].get<int>());
+    std::printf(
+        "\nsix emotions, windows told right (chance %.0f %%)\n"
+        "  XR_FB %.1f %%, with a fifth of the channels missing %.1f %%\n"
+        "  HTC   %.1f %%, with a fifth of the channels missing %.1f %%\n",
+        100 * number(r["chance"]), 100 * number(accuracy["xr_fb"]),
+        100 * number(accuracy["missing_20"]), 100 * number(accuracy["xr_htc"]),
+        100 * number(accuracy["xr_htc_missing_20"]));
+    std::printf(
+        "\none core: network %.3f ms, shape of the head %.3f ms (all channels moved: %.3f)\n",
+        number(r["ms"]["infer"]), number(r["ms"]["blend"]), number(r["ms"]["blend_all_channels"]));
+}
+
+}  // namespace
+
+void add_face_bench(CLI::App& bench) {
+    const auto flags = std::make_shared<FaceFlags>();
+    CLI::App* command =
+        bench.add_subcommand("face", "The face under the headset: fit, emotions, times");
+    command->footer(
+        "The persons are made up, so that the truth is known; no figure is one of real faces.\n"
+        "Example: theatron bench face\n"
+        "Example: theatron bench face --model head.theatron-face --json face.json");
+    command->add_option("--model", flags->model, "A face model; the generated head without it");
+    command->add_option("--persons", flags->persons, "Made-up persons")
+        ->capture_default_str()
+        ->check(CLI::Range(2, 1000));
+    command->add_option("--json", flags->json,
+                        "Write the result to this file; - prints it instead of the table");
+    command->callback([flags] {
+        const nlohmann::json result = measure_face(*flags);
+        report(result, flags->json, [&] { print_face(result); });
+    });
+}
+
+}  // namespace theatron::bench
