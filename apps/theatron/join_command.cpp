@@ -48,6 +48,7 @@
 #include "viewer/renderer_text.h"
 #include "viewer_window.h"
 #include "voice_line.h"
+#include "voice_lines.h"
 
 namespace theatron::app {
 namespace {
@@ -120,7 +121,7 @@ bool obey_webcam_line(publish::OwnFace* face, const std::string& line) {
 // "quit".
 bool obey(client::Participant& participant, RoomLines& room, VoiceLine& voice,
           const std::string& line) {
-    if (voice.obey(line) || obey_consent_line(participant, line) ||
+    if (obey_voice_line(voice, line) || obey_consent_line(participant, line) ||
         obey_people_line(participant, line) || obey_look_back_line(participant, line) ||
         refuse_looking_back(participant, line) || obey_camera_line(participant, line) ||
         obey_playback_line(participant, line) || obey_case_line(participant, line) ||

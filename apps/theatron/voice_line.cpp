@@ -2,7 +2,6 @@
 #include "voice_line.h"
 #include "phrases/phrase.h"
 
-#include <sstream>
 #include <utility>
 
 #include "base/error.h"
@@ -20,81 +19,60 @@ double to_ms_of(std::uint64_t samples) {
     return double(samples) * 1000 / voice::sample_rate;
 }
 
+void say_text(const std::string& text) {
+    log::say(text);
+}
+
+std::unique_ptr<sound::EchoCanceller> canceller_of(VoiceLine::Options::Cleaning cleaning) {
+    if (cleaning == VoiceLine::Options::Cleaning::off)
+        return nullptr;
+    try {
+        return std::make_unique<sound::EchoCanceller>();
+    } catch (const Error& error) {
+        log::say(error.what());
+        return nullptr;
+    }
+}
+
 }  // namespace
 
-VoiceLine::VoiceLine(const Options& options) : options_(options), is_pushed_(options.push_to_talk) {
-    if (options_.cleaning != Options::Cleaning::off) {
-        try {
-            canceller_ = std::make_unique<sound::EchoCanceller>();
-        } catch (const Error& error) {
-            log::say(error.what());
-        }
-    }
+VoiceLine::VoiceLine(const Options& options)
+    : options_(options),
+      switch_(options.push_to_talk),
+      canceller_(canceller_of(options.cleaning)),
+      output_([this](std::span<const float> samples) { rendered(samples); }) {
     if (!options_.speaker.empty())
         use_speaker(options_.speaker);
 }
 
+void VoiceLine::rendered(std::span<const float> samples) {
+    if (cleans_)
+        canceller_->played(samples);
+}
+
 void VoiceLine::use_speaker(const std::string& name) {
-    if (speaker_) {
-        speaker_->change(name);
-        return;
-    }
-    const auto open = [this](const std::string& wanted) {
-        using Spatial = Options::Spatial;
-        const bool in_space = options_.spatial == Spatial::on ||
-                              (options_.spatial == Spatial::automatic && !sound::is_file(wanted));
-        if (!in_space)
-            return sound::open_speaker(wanted, [this](std::span<float> out) { play(out); });
-        {
-            const std::lock_guard lock(mixer_mutex_);
-            if (!spatial_)
-                spatial_ = std::make_unique<sound::SpatialVoices>();
-        }
-        constexpr int ears = 2;
-        return sound::open_speaker(
-            wanted, [this](std::span<float> out) { play_in_space(out); }, ears);
-    };
+    if (speaker_)
+        return speaker_->change(name);
+    output_thread_ = std::make_unique<sound::FeedThread>(
+        "loudspeaker", [this] { return output_.work(steady_now); });
     speaker_ = std::make_unique<sound::KeptDevice>(
-        "loudspeaker", name, open, [](const std::string& text) { log::say(text); },
-        sound::KeptDevice::usual_interval, options_.usual_instead);
-    plays_ = true;
+        "loudspeaker", name, [this](const std::string& wanted) { return open_speaker(wanted); },
+        say_text, sound::KeptDevice::usual_interval, options_.usual_instead);
 }
 
-void VoiceLine::play(std::span<float> out) {
-    {
-        const std::lock_guard lock(mixer_mutex_);
-        mixer_.pull(out, steady_now());
-    }
-    if (cleans_)
-        canceller_->played(out);
-}
-
-void VoiceLine::play_in_space(std::span<float> out) {
-    // A voice whose place is not known is heard from ahead.
-    constexpr Vec3 ahead{0, 0, -sound::full_loudness_m};
-    const TimePoint now = steady_now();
-    played_.resize(out.size() / 2);
-    {
-        const std::lock_guard lock(mixer_mutex_);
-        if (head_from_room_) {
-            std::vector<sound::SpatialVoices::Voice> voices;
-            for (const voice::Mixer::Heard& heard : mixer_.pull_each(played_.size(), now)) {
-                const auto place = heads_.find(heard.speaker);
-                voices.push_back({heard.speaker,
-                                  place != heads_.end() ? *head_from_room_ * place->second : ahead,
-                                  heard.samples});
-            }
-            spatial_->mix(voices, out);
-        } else {
-            mixer_.pull(played_, now);
-            for (std::size_t i = 0; i < played_.size(); ++i)
-                out[2 * i] = out[2 * i + 1] = played_[i];
-        }
-    }
-    for (std::size_t i = 0; i < played_.size(); ++i)
-        played_[i] = (out[2 * i] + out[2 * i + 1]) / 2;
-    if (cleans_)
-        canceller_->played(played_);
+std::unique_ptr<sound::SoundDevice> VoiceLine::open_speaker(const std::string& name) {
+    using Spatial = Options::Spatial;
+    const bool in_space = options_.spatial == Spatial::on ||
+                          (options_.spatial == Spatial::automatic && !sound::is_file(name));
+    const int channels = in_space ? 2 : 1;
+    output_.begin(channels);
+    return sound::open_speaker(
+        name,
+        [this](std::span<float> out) {
+            output_.play(out, steady_now());
+            output_thread_->wake();
+        },
+        channels);
 }
 
 void VoiceLine::place(const Pose& room_from_head, const client::Participant& participant) {
@@ -104,162 +82,105 @@ void VoiceLine::place(const Pose& room_from_head, const client::Participant& par
             const auto& [x, y, z] = pose.head->position;
             heads[id] = {x, y, z};
         }
-    const std::lock_guard lock(mixer_mutex_);
-    head_from_room_ = inverse(room_from_head);
-    heads_ = std::move(heads);
+    output_.place(room_from_head, std::move(heads));
 }
 
 void VoiceLine::hear_by(client::Participant::Options& options) {
-    options.voice = [this](ParticipantId speaker, ByteView packet) { hear(speaker, packet); };
-}
-
-void VoiceLine::hear(ParticipantId speaker, ByteView packet) {
-    const TimePoint now = steady_now();
-    const std::lock_guard lock(mixer_mutex_);
-    speakers_.hear(speaker, packet, now);
-    // Without a loudspeaker nothing would take the packets.
-    if (plays_)
-        mixer_.put(speaker, packet, now);
+    options.voice = [this](ParticipantId speaker, ByteView packet) {
+        output_.hear(speaker, packet, steady_now());
+    };
 }
 
 VoiceLine::Talking::Talking(VoiceLine& line, client::Participant& participant) : line_(line) {
-    {
-        const std::lock_guard lock(line.talker_mutex_);
-        line.talker_ = std::make_unique<voice::Talker>(
-            line.options_.frame_ms,
-            [&participant](ByteView packet) { participant.send_voice(packet); });
-        line.apply();
-    }
-    line.participant_ = &participant;
+    line.input_ = std::make_unique<sound::VoiceInput>(
+        line.options_.frame_ms, [&participant](ByteView packet) { participant.send_voice(packet); },
+        [&participant](TimePoint steady) { return participant.session_time(steady); });
+    line.input_thread_ = std::make_unique<sound::FeedThread>("microphone", [&line] {
+        line.input_->work();
+        return TimePoint::max();
+    });
+    line.apply();
     if (!line.options_.microphone.empty())
         line.use_microphone(line.options_.microphone);
 }
 
 VoiceLine::Talking::~Talking() {
     line_.microphone_.reset();
-    line_.participant_ = nullptr;
-    const std::lock_guard lock(line_.talker_mutex_);
-    line_.talker_.reset();
+    line_.input_thread_.reset();
+    line_.input_.reset();
 }
 
 void VoiceLine::use_microphone(const std::string& name) {
-    if (microphone_) {
-        microphone_->change(name);
+    if (microphone_)
+        return microphone_->change(name);
+    if (!input_)
         return;
-    }
-    const auto open = [this](const std::string& wanted) {
-        using Cleaning = Options::Cleaning;
-        cleans_ = canceller_ && (options_.cleaning == Cleaning::on || !sound::is_file(wanted));
-        return sound::open_microphone(wanted,
-                                      [this](std::span<const float> samples) { take(samples); });
-    };
     microphone_ = std::make_unique<sound::KeptDevice>(
-        "microphone", name, open, [](const std::string& text) { log::say(text); },
-        sound::KeptDevice::usual_interval, options_.usual_instead);
+        "microphone", name, [this](const std::string& wanted) { return open_microphone(wanted); },
+        say_text, sound::KeptDevice::usual_interval, options_.usual_instead);
 }
 
-// The microphone has delivered these samples just now.
-void VoiceLine::take(std::span<const float> samples) {
-    const TimePoint now = participant_->now();
-    if (cleans_) {
-        uncleaned_.insert(uncleaned_.end(), samples.begin(), samples.end());
-        constexpr std::size_t block = sound::EchoCanceller::block;
-        const std::size_t whole = uncleaned_.size() / block * block;
-        for (std::size_t i = 0; i < whole; i += block)
-            canceller_->clean(std::span<float, block>(uncleaned_.data() + i, block));
-        const auto end = uncleaned_.begin() + std::ptrdiff_t(whole);
-        cleaned_.assign(uncleaned_.begin(), end);
-        uncleaned_.erase(uncleaned_.begin(), end);
-        samples = cleaned_;
-    }
-    const std::lock_guard lock(talker_mutex_);
-    talker_->take(samples, now);
+std::unique_ptr<sound::SoundDevice> VoiceLine::open_microphone(const std::string& name) {
+    using Cleaning = Options::Cleaning;
+    cleans_ = canceller_ && (options_.cleaning == Cleaning::on || !sound::is_file(name));
+    input_->clean_by(cleans_ ? canceller_.get() : nullptr);
+    return sound::open_microphone(name, [this](std::span<const float> samples) {
+        input_->take(samples, steady_now());
+        input_thread_->wake();
+    });
 }
 
 bool VoiceLine::has_microphone() const {
     return microphone_ && microphone_->works();
 }
 
-bool VoiceLine::obey(const std::string& line) {
-    std::istringstream words(line);
-    std::string what, value;
-    words >> what >> value;
-    if (what == "talk" && (value == "on" || value == "off")) {
-        {
-            const std::lock_guard lock(talker_mutex_);
-            line_holds_ = value == "on";
-        }
-        hold(false, steady_now());
-        return true;
-    }
-    if (what == "use" && (value == "microphone" || value == "speaker")) {
-        std::string name;
-        std::getline(words >> std::ws, name);
-        if (name.empty())
-            name = "default";
-        if (value == "speaker")
-            use_speaker(name);
-        else if (participant_)
-            use_microphone(name);
-        return true;
-    }
-    if (what != "microphone" || (value != "on" && value != "off" && value != "push"))
-        return false;
-    if (!has_microphone())
-        log::say(theatron::say(Phrase::no_microphone_here));
-    const std::lock_guard lock(talker_mutex_);
-    is_open_ = value != "off";
-    if (is_open_)
-        is_pushed_ = value == "push";
-    apply();
-    return true;
-}
-
 void VoiceLine::apply() {
-    if (talker_)
-        talker_->set_open(is_open_ && (!is_pushed_ || talks_));
+    if (input_)
+        input_->set_open(switch_.talks());
 }
 
 void VoiceLine::hold(bool is_held, TimePoint now) {
-    const std::lock_guard lock(talker_mutex_);
-    is_held = is_held || line_holds_;
-    if (is_held)
-        held_at_ = now;
-    const bool talks = is_held || (talks_ && now - held_at_ < release_time);
-    if (std::exchange(talks_, talks) != talks)
-        apply();
+    switch_.hold(is_held || line_holds_, now);
+    apply();
+}
+
+void VoiceLine::hold_by_line(bool is_held) {
+    line_holds_ = is_held;
+    hold(false, steady_now());
 }
 
 std::string VoiceLine::toggle_push_to_talk() {
-    const std::lock_guard lock(talker_mutex_);
-    is_pushed_ = !is_pushed_;
+    switch_.set_pushes(!switch_.pushes());
     apply();
-    return say(is_pushed_ ? Phrase::push_to_talk : Phrase::open_microphone);
-}
-
-bool VoiceLine::pushes_to_talk() const {
-    const std::lock_guard lock(talker_mutex_);
-    return is_pushed_;
+    return say(switch_.pushes() ? Phrase::push_to_talk : Phrase::open_microphone);
 }
 
 std::string VoiceLine::toggle_microphone() {
     if (!has_microphone())
         return say(Phrase::no_microphone_here);
-    const std::lock_guard lock(talker_mutex_);
-    is_open_ = !is_open_;
+    switch_.set_open(!switch_.is_open());
     apply();
-    return say(!is_open_    ? Phrase::microphone_is_closed
-               : is_pushed_ ? Phrase::push_to_talk
-                            : Phrase::microphone_is_open);
+    return say(!switch_.is_open() ? Phrase::microphone_is_closed
+               : switch_.pushes() ? Phrase::push_to_talk
+                                  : Phrase::microphone_is_open);
+}
+
+void VoiceLine::close_microphone() {
+    switch_.set_open(false);
+    apply();
+}
+
+void VoiceLine::open_microphone(bool pushes) {
+    switch_.set_open(true);
+    switch_.set_pushes(pushes);
+    apply();
 }
 
 void VoiceLine::note(const wire::Standing& standing) {
     const bool may_speak = session::may(standing.role, session::Right::speak);
-    const bool has = has_microphone();
-    const std::lock_guard lock(talker_mutex_);
     is_heard_ = may_speak && !standing.muted;
     // The participant says who is muted.
-    if (!has || may_speak == std::exchange(may_speak_, may_speak))
+    if (!has_microphone() || may_speak == std::exchange(may_speak_, may_speak))
         return;
     log::say(may_speak ? "The others hear you."
                        : "Nobody hears you, because observers do not speak; an operator can give "
@@ -267,26 +188,21 @@ void VoiceLine::note(const wire::Standing& standing) {
 }
 
 std::set<ParticipantId> VoiceLine::speaking() const {
-    const std::lock_guard lock(mixer_mutex_);
-    return speakers_.speaking(steady_now());
+    return output_.speaking(steady_now());
 }
 
 viewer::Voices VoiceLine::voices() const {
     using viewer::Microphone;
     viewer::Voices voices;
     const bool has = has_microphone();
-    {
-        const std::lock_guard lock(talker_mutex_);
-        voices.microphone = !microphone_         ? Microphone::none
-                            : !has || !talker_   ? Microphone::missing
-                            : !is_open_          ? Microphone::closed
-                            : talker_->is_open() ? Microphone::open
-                                                 : Microphone::waits;
-        if (has && talker_)
-            voices.own_level_db = talker_->level_db();
-    }
-    const std::lock_guard lock(mixer_mutex_);
-    voices.speaking = speakers_.levels_db(steady_now());
+    voices.microphone = !microphone_         ? Microphone::none
+                        : !has               ? Microphone::missing
+                        : !switch_.is_open() ? Microphone::closed
+                        : switch_.talks()    ? Microphone::open
+                                             : Microphone::waits;
+    if (has)
+        voices.own_level_db = input_->level_db();
+    voices.speaking = output_.levels_db(steady_now());
     return voices;
 }
 
@@ -301,29 +217,36 @@ viewer::SoundChoices VoiceLine::sound_choices(const sound::DeviceList& devices) 
             microphone_ ? microphone_->name() : "", speaker_ ? speaker_->name() : ""};
 }
 
-nlohmann::json VoiceLine::json() const {
-    nlohmann::json result;
+nlohmann::json VoiceLine::microphone_json() const {
     const bool has = has_microphone();
-    {
-        const std::lock_guard lock(talker_mutex_);
-        const bool talks = has && talker_ && talker_->is_open();
-        result["microphone"] = !has ? "none" : !is_open_ ? "closed" : is_pushed_ ? "push" : "open";
-        result["talks"] = talks;
-        result["heard"] = talks && is_heard_;
-        result["level_db"] = has && talker_ ? talker_->level_db() : -127;
-    }
-    if (has) {
-        result["microphone_name"] = microphone_->name();
-        result["echo_cancellation"] = cleans_.load();
-        if (const auto began = microphone_->began())
-            result["microphone_began_us"] = to_us(*began);
-    }
+    const bool talks = has && switch_.talks();
+    nlohmann::json result{{"microphone", !has                 ? "none"
+                                         : !switch_.is_open() ? "closed"
+                                         : switch_.pushes()   ? "push"
+                                                              : "open"},
+                          {"talks", talks},
+                          {"heard", talks && is_heard_},
+                          {"level_db", has ? input_->level_db() : -127}};
+    if (!has)
+        return result;
+    result["microphone_name"] = microphone_->name();
+    result["echo_cancellation"] = cleans_.load();
+    result["lost_ms"] = to_ms_of(input_->lost());
+    if (const auto began = microphone_->began())
+        result["microphone_began_us"] = to_us(*began);
+    return result;
+}
+
+nlohmann::json VoiceLine::json() const {
+    nlohmann::json result = microphone_json();
+    const sound::VoiceOutput::Figures figures = output_.figures();
     result["speaker"] = speaker_ && speaker_->works();
+    if (result["speaker"])
+        result["lead_ms"] = to_ms(figures.lead);
     if (const auto began = speaker_ ? speaker_->began() : std::nullopt)
         result["speaker_began_us"] = to_us(*began);
     result["speaking"] = result["voices"] = nlohmann::json::array();
-    const std::lock_guard lock(mixer_mutex_);
-    for (const voice::Mixer::Speaker& speaker : mixer_.speakers()) {
+    for (const voice::Mixer::Speaker& speaker : figures.speakers) {
         if (speaker.level_db >= speech_db)
             result["speaking"].push_back(
                 {{"id", std::uint32_t(speaker.id)}, {"level_db", speaker.level_db}});
@@ -334,10 +257,11 @@ nlohmann::json VoiceLine::json() const {
              {"concealed_ms", to_ms_of(speaker.figures.concealed)},
              {"longest_concealed_ms", to_ms_of(speaker.figures.longest_concealed)}});
     }
-    result["unreadable"] = mixer_.unreadable();
-    result["space"] = !spatial_                                    ? "off"
-                      : spatial_->way() == sound::SpatialWay::hrtf ? "hrtf"
-                                                                   : "panning";
+    result["unreadable"] = figures.unreadable;
+    result["missing_ms"] = to_ms_of(figures.missing);
+    result["space"] = !figures.space                              ? "off"
+                      : *figures.space == sound::SpatialWay::hrtf ? "hrtf"
+                                                                  : "panning";
     return result;
 }
 

@@ -4,26 +4,24 @@
 #pragma once
 
 #include <atomic>
-#include <map>
 #include <memory>
-#include <mutex>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <set>
 #include <string>
 
 #include "client/participant.h"
 #include "sound/echo_canceller.h"
+#include "sound/feed_thread.h"
 #include "sound/kept_device.h"
-#include "sound/spatial_voices.h"
+#include "sound/voice_input.h"
+#include "sound/voice_output.h"
 #include "viewer/sound_panel.h"
 #include "viewer/voices.h"
-#include "voice/mixer.h"
-#include "voice/speakers.h"
-#include "voice/talker.h"
+#include "voice/talk_switch.h"
 
 namespace theatron::app {
 
+// All functions from one thread.
 class VoiceLine {
 public:
     struct Options {
@@ -62,25 +60,24 @@ public:
         VoiceLine& line_;
     };
 
-    // Carries out a line: "microphone on", "microphone off", "microphone push" (only while the key
-    // is held), "talk on" or "talk off" (the key), "use microphone NAME" or "use speaker NAME" for
-    // another device. False if it is another one. From the thread that made the Talking.
-    bool obey(const std::string& line);
-
-    // Another device from now on. From the thread that made the Talking.
+    // Another device from now on; a microphone only while somebody talks.
     void use_microphone(const std::string& name);
     void use_speaker(const std::string& name);
+    bool has_microphone() const;
 
-    // The key of push to talk is down, or not. The microphone stays open for release_time, so that
-    // the end of a word is heard. Call it a few times a second.
-    static constexpr Duration release_time = std::chrono::milliseconds(200);
+    // The key of push to talk is down, or not; see voice::TalkSwitch::hold().
     void hold(bool is_held, TimePoint now);
+    // The same by a line (voice_lines.h): held until it says something else.
+    void hold_by_line(bool is_held);
     // Between an open microphone and push to talk. Returns a line about it.
     std::string toggle_push_to_talk();
-    bool pushes_to_talk() const;
+    bool pushes_to_talk() const { return switch_.pushes(); }
 
     // Closes the microphone if it is open, and opens it if it is closed. Returns a line about it.
     std::string toggle_microphone();
+    void close_microphone();
+    // `pushes`: heard only while the key is held.
+    void open_microphone(bool pushes);
 
     // Says once when the host lets nobody hear this person, and when it does again. To be called
     // with the newest standing while joined.
@@ -100,42 +97,34 @@ public:
     // {"microphone":"open"|"closed"|"push"|"none","talks","heard","level_db","speaker","space"
     // ("hrtf", "panning" or "off"),"speaking":[{"id","level_db"}],
     // "microphone_began_us","speaker_began_us" (of files, this machine's steady clock),
-    // "voices":[{"id","delay_ms","seconds","concealed_ms","longest_concealed_ms"}],"unreadable"}
+    // "voices":[{"id","delay_ms","seconds","concealed_ms","longest_concealed_ms"}],"unreadable",
+    // "missing_ms" (of the present loudspeaker), "lead_ms" (while there is one), "lost_ms" (of the
+    // microphone): docs/room.md}
     nlohmann::json json() const;
 
 private:
-    void hear(ParticipantId speaker, ByteView packet);
+    void apply();
+    void rendered(std::span<const float> samples);
+    std::unique_ptr<sound::SoundDevice> open_speaker(const std::string& name);
+    std::unique_ptr<sound::SoundDevice> open_microphone(const std::string& name);
+    nlohmann::json microphone_json() const;
 
     const Options options_;
-    mutable std::mutex talker_mutex_, mixer_mutex_;
-    std::unique_ptr<voice::Talker> talker_;  // while somebody talks
-    bool has_microphone() const;
-    void play(std::span<float> out);
-    void play_in_space(std::span<float> out);
-    void apply();  // with talker_mutex_ held
-    bool is_open_ = true;
-    bool is_pushed_ = false;   // push to talk
-    bool talks_ = false;       // its key is held, or was until just now
-    bool line_holds_ = false;  // by a line
-    TimePoint held_at_;
-    bool may_speak_ = true;     // the role, as it was said last
-    bool is_heard_ = true;      // the role may speak, and nobody has muted this person
-    voice::Speakers speakers_;  // under mixer_mutex_
-    voice::Mixer mixer_;        // under mixer_mutex_
-    // Under mixer_mutex_. Null until a loudspeaker plays in space.
-    std::unique_ptr<sound::SpatialVoices> spatial_;
-    std::optional<Pose> head_from_room_;          // under mixer_mutex_
-    std::map<ParticipantId, Vec3> heads_;         // in the room; under mixer_mutex_
-    client::Participant* participant_ = nullptr;  // of the present Talking
-    std::unique_ptr<sound::KeptDevice>
-        microphone_;  // of the present Talking; its thread uses the talker
-    void take(std::span<const float> samples);
+    voice::TalkSwitch switch_;
+    bool line_holds_ = false;
+    bool may_speak_ = true;  // the role, as it was said last
+    bool is_heard_ = true;   // the role may speak, and nobody has muted this person
+
     std::unique_ptr<sound::EchoCanceller> canceller_;  // null: off
     std::atomic<bool> cleans_ = false;                 // the present microphone is treated
-    std::vector<float> uncleaned_, cleaned_;           // the microphone's thread only
-    std::vector<float> played_;                        // the loudspeaker's thread only
-    std::atomic<bool> plays_ = false;                  // there is a speaker_
-    std::unique_ptr<sound::KeptDevice> speaker_;       // its thread uses the mixer
+    sound::VoiceOutput output_;
+    std::unique_ptr<sound::FeedThread> output_thread_;  // while there is a speaker_
+    std::unique_ptr<sound::KeptDevice> speaker_;
+
+    // The present Talking's.
+    std::unique_ptr<sound::VoiceInput> input_;
+    std::unique_ptr<sound::FeedThread> input_thread_;
+    std::unique_ptr<sound::KeptDevice> microphone_;
 };
 
 }  // namespace theatron::app

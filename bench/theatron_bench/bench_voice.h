@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `theatron bench voice`: from a mouth to an ear through real processes, the host's cost of many
-// speakers, and the jitter buffer's losses.
+// speakers, the jitter buffer's losses, and a loudspeaker's callback on a busy machine.
 //
 // Devices are WAV files with blocks of 10 ms: a sample counts as spoken 10 ms before its block is
 // taken, and as heard 10 ms after its block was asked for, as with a sound card of two blocks.
@@ -38,6 +38,11 @@ nlohmann::json host_cores_of_24(double seconds);
 // {longest_gap_ms,concealed_percent,beyond_lost_percent}: a minute of voice through the jitter
 // buffer, with 5 % of the frames lost and up to 30 ms of delay, in simulated time.
 nlohmann::json lost_5_percent(int frame_ms);
+
+// {p50_us,p99_us,max_us,count,period_us,missing_ms,lead_ms}: the time that a loudspeaker's callback
+// takes with four speakers in space while each processor is also busy with a thread of lower
+// priority; the sound that it asked for in vain; and the lead of rendering at the end.
+nlohmann::json callback_under_load(double seconds);
 
 void add_voice_bench(CLI::App& bench);
 

@@ -3,50 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <cstdlib>
-#include <new>
 #include <random>
 
 #include "base/steady_clock.h"
 #include "image/frame_pool.h"
 #include "send/camera_lane.h"
-
-namespace {
-
-std::atomic<bool> counting{false};
-std::atomic<std::uint64_t> allocations{0}, large_allocations{0};
-
-}  // namespace
-
-// Sanitizers see allocations by an operator new of their own.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define THEATRON_COUNTS_ALLOCATIONS 0
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define THEATRON_COUNTS_ALLOCATIONS 0
-#endif
-#endif
-#ifndef THEATRON_COUNTS_ALLOCATIONS
-#define THEATRON_COUNTS_ALLOCATIONS 1
-
-// The whole test program's; they count while the test below asks for it.
-void* operator new(std::size_t size) {
-    if (counting) {
-        ++allocations;
-        if (size >= 4096)
-            ++large_allocations;
-    }
-    if (void* memory = std::malloc(size))
-        return memory;
-    throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept {
-    std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-    std::free(memory);
-}
-#endif
+#include "testing/counted_allocations.h"
 
 namespace theatron::send {
 namespace {
@@ -83,8 +45,8 @@ private:
 };
 
 TEST(LaneMemory, ARunningLaneAllocatesNoPictures) {
-    if (!THEATRON_COUNTS_ALLOCATIONS)
-        GTEST_SKIP() << "a sanitizer's own operator new is in the place of the one that counts";
+    if (!testing::counts_allocations)
+        GTEST_SKIP() << testing::counts_none;
     // One thread: each makes its scratch memory with its first frame, which may come late.
     Workers workers(1);
     std::atomic<std::uint64_t> messages{0};
@@ -104,10 +66,11 @@ TEST(LaneMemory, ARunningLaneAllocatesNoPictures) {
     };
     ASSERT_GE(wait_for(150), 150u);
     // A hundred frames, each of several pictures and messages.
+    using testing::allocations, testing::large_allocations;
     allocations = large_allocations = 0;
-    counting = true;
+    testing::counting = true;
     const std::uint64_t made = wait_for(300);
-    counting = false;
+    testing::counting = false;
     ASSERT_GE(made, 300u);
     // One picture allocated per frame would make a hundred. On a slow machine a setting may be
     // found dear meanwhile, and the thread that encodes it behind then makes its scratch memory.

@@ -25,23 +25,33 @@ struct Link {
     enum class State { opening, works, failed, gone };
     std::atomic<State> state = State::opening;
 
-    std::mutex gate;
-    AudioSystem::Block block;  // none once the owner has gone
-    std::string problem;
+    const AudioSystem::Block block;  // of the owner; pass() only
+    std::atomic<bool> has_owner = true;
+    std::atomic<int> passing = 0;  // calls of pass() that go on
+
+    std::mutex mutex;
+    std::string problem;  // under mutex
 
     std::optional<AudioSystem::DeviceId> id;  // the audio thread's
 
-    bool has_owner() {
-        const std::lock_guard lock(gate);
-        return bool(block);
-    }
-    // A block that arrives is passed on while the owner is there.
+    explicit Link(AudioSystem::Block b) : block(std::move(b)) {}
+
+    // A block that arrives is passed on while the owner is there. From the system's threads; takes
+    // no lock.
     void pass(std::span<float> samples, bool captures) {
-        const std::lock_guard lock(gate);
-        if (block)
+        ++passing;
+        if (has_owner)
             block(samples);
         else if (!captures)
             std::fill(samples.begin(), samples.end(), 0.0f);
+        --passing;
+        passing.notify_all();
+    }
+    // Waits for a block that is being passed on, not for the system. Behind it none is passed on.
+    void leave() {
+        has_owner = false;
+        for (int calls = passing; calls > 0; calls = passing)
+            passing.wait(calls);
     }
 };
 
@@ -107,17 +117,13 @@ public:
     AskedDevice(std::shared_ptr<Link> link, std::function<void()> close)
         : link_(std::move(link)), close_(std::move(close)) {}
     ~AskedDevice() override {
-        {
-            // Waits for a block that is being passed on, not for the system.
-            const std::lock_guard lock(link_->gate);
-            link_->block = nullptr;
-        }
+        link_->leave();
         close_();
     }
     bool is_opening() const override { return link_->state == Link::State::opening; }
     bool works() const override { return link_->state == Link::State::works; }
     std::string problem() const override {
-        const std::lock_guard lock(link_->gate);
+        const std::lock_guard lock(link_->mutex);
         return link_->problem;
     }
     AskedDevice(const AskedDevice&) = delete;
@@ -146,12 +152,11 @@ AudioThread::~AudioThread() {
 
 std::unique_ptr<SoundDevice> AudioThread::open(AudioSystem::Wanted wanted,
                                                AudioSystem::Block block) {
-    const auto link = std::make_shared<Link>();
-    link->block = std::move(block);
+    const auto link = std::make_shared<Link>(std::move(block));
     shared_->add([shared = shared_.get(), link, wanted = std::move(wanted)](AudioSystem& system) {
         const bool captures = wanted.captures;
         std::string problem;
-        if (!link->has_owner())
+        if (!link->has_owner)
             return;
         const bool is_open = contain("audio", [&] {
             try {
@@ -165,7 +170,7 @@ std::unique_ptr<SoundDevice> AudioThread::open(AudioSystem::Wanted wanted,
         if (!link->id) {
             if (!is_open)
                 problem = "The sound of this machine has a fault. You can take part without it.";
-            const std::lock_guard lock(link->gate);
+            const std::lock_guard lock(link->mutex);
             link->problem = problem;
             link->state = Link::State::failed;
             return;
