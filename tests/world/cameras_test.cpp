@@ -86,6 +86,8 @@ TEST(WorldCameras, APublisherWhoseLinkBreaksGoesOn) {
     stage.begin();
     stage.world.advance(5s);
     stage.carl.path().reset();
+    EXPECT_TRUE(stage.world.until([&] { return stage.carl->status().phase == Phase::lost; }));
+    EXPECT_FALSE(stage.camera.is_published());
     EXPECT_TRUE(stage.world.until([&] { return cameras(stage.anna).empty(); }));
     const auto before = stage.seen.numbers.size();
     EXPECT_TRUE(stage.world.until([&] { return stage.seen.numbers.size() > before + 50; }));

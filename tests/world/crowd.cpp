@@ -229,6 +229,11 @@ std::string Crowd::agreement() {
         names.push_back(person.name());
         there[person.number()] = person.name();
     }
+    for (const Member& member : members_)
+        if (member.person->is_in())
+            for (const auto& [id, pose] : member.person->participant().poses())
+                if (!there.contains(id))
+                    return member.person->name() + " sees a pose of nobody who is there";
     std::sort(names.begin(), names.end());
     if (witness.sees() != names)
         return "the room shows other people than those who are there";

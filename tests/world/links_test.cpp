@@ -126,7 +126,7 @@ TEST(WorldLinks, AHostWithAnotherCertificateIsNotTrusted) {
 TEST(WorldLinks, TwoSessionsOfAPortKnowNothingOfEachOther) {
     World world;
     Person& anna = world.joined("Anna");
-    const auto second = world.further_session("second");
+    auto second = world.further_session("second");
     Person& ben = world.person("Ben");
     ben.join(second->link());
     EXPECT_TRUE(world.until([&] { return ben.is_in(); }));
@@ -134,8 +134,14 @@ TEST(WorldLinks, TwoSessionsOfAPortKnowNothingOfEachOther) {
     EXPECT_EQ(ben.sees(), std::vector<std::string>{"Ben"});
     EXPECT_NE(make_brick(world, ben), ObjectId{});
     EXPECT_TRUE(anna.objects(ObjectKind::brick).empty());
-    EXPECT_EQ(second->participants(), 1u);
+    EXPECT_TRUE(world.until([&] { return second->participants() == 1; }));
     EXPECT_EQ(world.host().participants(), 1u);
+    second.reset();
+    EXPECT_TRUE(world.until([&] { return ben->status().phase == Phase::ended; }));
+    world.advance(1min);
+    EXPECT_EQ(ben.path().connections(), 0u);
+    EXPECT_TRUE(anna.is_in());
+    EXPECT_EQ(anna->status().joins, 1);
 }
 
 }  // namespace

@@ -36,6 +36,8 @@ TEST(WorldPeople, WhoMustAskWaitsUntilAnOperatorDecides) {
     otto.join(Role::observer);
     EXPECT_TRUE(world.until([&] { return chief->visitors().size() == 2; }));
     EXPECT_EQ(anna->status().phase, Phase::waiting);
+    world.advance(1s);
+    EXPECT_EQ(world.host().participants(), 1u);
     EXPECT_TRUE(anna->room().objects.empty());
     const auto visitor = [&](const std::string& name) {
         for (const wire::Visitor& one : chief->visitors())
@@ -120,15 +122,34 @@ TEST(WorldPeople, OnlyOperatorsDecide) {
     EXPECT_FALSE(ben->status().standing.muted);
 }
 
+TEST(WorldPeople, AFormerOperatorNoLongerKnowsWhoWaits) {
+    World world;
+    world.options.asks = true;
+    Person& chief = world.joined("Chief", Role::operator_);
+    Person& deputy = world.joined("Deputy", Role::operator_);
+    world.person("Anna").join();
+    EXPECT_TRUE(world.until([&] { return deputy->visitors().size() == 1; }));
+    EXPECT_EQ(decide(world, chief, ManageAction::set_role, deputy.number(), Role::expert),
+              ManageRefusal::none);
+    EXPECT_TRUE(world.until([&] { return deputy->status().standing.role == Role::expert; }));
+    EXPECT_TRUE(deputy->visitors().empty());
+    EXPECT_EQ(chief->visitors().size(), 1u);
+}
+
 TEST(WorldPeople, ARevokedLinkRemovesAllWhoCameByIt) {
     World world;
     Person& chief = world.joined("Chief", Role::operator_);
     Person& anna = world.joined("Anna");
     Person& otto = world.joined("Otto", Role::observer);
+    const std::string expert = world.link(Role::expert);
     EXPECT_EQ(decide(world, chief, ManageAction::revoke_link, anna.number()), ManageRefusal::none);
     EXPECT_TRUE(world.until([&] { return anna->status().phase == Phase::refused; }));
     EXPECT_TRUE(world.until([&] { return chief.sees().size() == 2; }));
     EXPECT_TRUE(otto.is_in());
+    // The link stays invalid after a restart.
+    const net::Link revoked = net::parse_link(expert);
+    world.restart_host();
+    EXPECT_NE(net::parse_link(world.link(Role::expert)).token, revoked.token);
 }
 
 TEST(WorldPeople, AnOperatorEndsTheSessionForAll) {

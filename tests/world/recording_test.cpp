@@ -53,6 +53,7 @@ TEST(WorldRecording, NoPictureIsMissing) {
     const auto numbers = recorded(recorder);
     EXPECT_EQ(numbers.size(), recorder.recorded());
     EXPECT_EQ(gaps(numbers), 0);
+    EXPECT_EQ(numbers.front(), 0u);  // it is the first who wants the camera
 }
 
 TEST(WorldRecording, TheOthersSeeWhoRecords) {
@@ -71,7 +72,7 @@ TEST(WorldRecording, ASlowLinkDelaysPicturesAndLosesNone) {
     stage.begin();
     stage.world.person("Recorder").path().loss = 0.1;
     stage.world.person("Recorder").path().delay = 200ms;
-    SessionRecorder recorder(stage.world, "Recorder");
+    SessionRecorder recorder(stage.world, "Recorder", "raw");  // more than the network keeps
     stage.world.advance(10s);
     for (int i = 0; i < 5; ++i) {
         recorder.path().cut();
@@ -116,6 +117,18 @@ TEST(WorldRecording, APublisherThatBreaksAndComesBackIsRecordedOn) {
     EXPECT_GT(stage.camera.sent(), before + 190);
     recorder.finish();
     EXPECT_EQ(recorded(recorder).size(), recorder.recorded());
+}
+
+TEST(WorldRecording, NothingIsMissingOfACameraThatHasEnded) {
+    Stage stage;
+    stage.begin();
+    SessionRecorder recorder(stage.world, "Recorder");
+    stage.world.advance(10s);
+    stage.camera.stop();
+    stage.world.advance(20s);
+    recorder.finish();
+    EXPECT_GT(recorder.recorded(), 80u);
+    EXPECT_TRUE(recorder.is_complete());
 }
 
 TEST(WorldRecording, ACameraWhosePersonHasNotAgreedIsNotRecorded) {

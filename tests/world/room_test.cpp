@@ -40,6 +40,7 @@ TEST(WorldRoom, PosesAreSeenByTheOthersAndEndWithTheirPerson) {
     const auto seen = anna->poses().at(ben.number());
     ASSERT_TRUE(seen.head);
     EXPECT_EQ(seen.head->position[0], 0.5f);
+    world.advance(1s);
     EXPECT_TRUE(ben->poses().empty());  // not one's own
     Person& carl = world.joined("Carl");
     EXPECT_TRUE(world.until([&] { return carl->poses().contains(ben.number()); }));

@@ -2,10 +2,19 @@
 #include "world/schedule.h"
 
 #include <algorithm>
+#include <cstdio>
+#include <cstdlib>
 
 #include "base/fault.h"
 
 namespace theatron::world {
+namespace {
+
+// Events without time passing: more are events that cause one another for ever.
+constexpr int most_at_once = 1'000'000;
+int at_once = 0;  // used by the owner
+
+}  // namespace
 
 Schedule& Schedule::instance() {
     static Schedule only;
@@ -61,9 +70,15 @@ bool Schedule::step(TimePoint then) {
             now_ = std::max(now_, then);
             return false;
         }
-        now_ = std::max(now_, events_.begin()->first.first);
+        const TimePoint next = std::max(now_, events_.begin()->first.first);
+        at_once = next > now_ ? 0 : at_once + 1;
+        now_ = next;
         event = std::move(events_.begin()->second);
         events_.erase(events_.begin());
+    }
+    if (at_once > most_at_once) {
+        std::fputs("The World's time stands still: one event causes the next.\n", stderr);
+        std::abort();
     }
     (void)contain("world", event);
     return true;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// An hour of a crowd for each of 20 seeds. SEEDS=1000 takes seeds 1 to 1000, SEED=17 that one alone,
-// MINUTES=5 five minutes of each (docs/testing.md).
+// An hour of a crowd for each of 20 seeds. SEEDS=1000 takes seeds 1 to 1000, SEED=17 that one
+// alone, MINUTES=5 five minutes of each (docs/testing.md).
 #include <gtest/gtest.h>
 
 #include <cstdlib>

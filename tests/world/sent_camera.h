@@ -25,6 +25,8 @@ public:
     // Its participant offers it; also again after stop().
     void start();
     void stop();
+    // The host has given it a number, on this connection.
+    bool is_published() const { return number_.has_value(); }
     // Pictures that were taken while the host wanted them.
     int sent() const { return sent_; }
 

@@ -7,11 +7,13 @@
 
 namespace theatron::world {
 
-SessionRecorder::SessionRecorder(World& world, const std::string& name)
+SessionRecorder::SessionRecorder(World& world, const std::string& name,
+                                 const std::string& depth_codec)
     : file_(world.folder() / (name + ".mkv")), path_(Network::instance().path(name)) {
     net::Link link = net::parse_link(world.link(wire::Role::expert));
     link.host = name;
-    source_ = client::record_session(link, name, file_.string(), {"zstd", "jpeg:quality=85"}, {});
+    source_ =
+        client::record_session(link, name, file_.string(), {depth_codec, "jpeg:quality=85"}, {});
     later();
 }
 

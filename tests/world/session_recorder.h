@@ -13,7 +13,7 @@ namespace theatron::world {
 
 class SessionRecorder {
 public:
-    SessionRecorder(World& world, const std::string& name);
+    SessionRecorder(World& world, const std::string& name, const std::string& depth_codec = "zstd");
     ~SessionRecorder();
 
     // Ends the recording and closes its file. The counts stay.
