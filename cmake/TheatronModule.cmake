@@ -3,10 +3,10 @@
 
 # The optimised build's unit tests are part of `make test` only of these modules: they have kernels for several
 # instruction sets, of which a sanitizer build has one; statistics over many images, which a sanitizer build leaves out;
-# or limits of memory and system calls, which sanitizers exceed. The unit tests of the other modules run once, with
-# sanitizers.
+# limits of memory and system calls, which sanitizers exceed; or hours of made-up time. The unit tests of the other
+# modules run once, with sanitizers.
 set(THEATRON_OPTIMISED_TESTS capture cases codec filter geometry image registration sandbox send simulation
-  synthetic video voice)
+  synthetic video voice world)
 
 # theatron_unit_test(NAME TARGET [ENVIRONMENT variable=value...])
 #

@@ -31,6 +31,11 @@ build() {
     cmake --preset "$1" > /dev/null && cmake --build --preset "$@"
 }
 
+# Compiles three modules anew for it.
+world_with_sanitizers() {
+    cmake --build --preset dev --target world_test && env SEEDS=20 MINUTES=20 build/dev/tests/world/world_test
+}
+
 # Where no root or container can be made, the tool says so and ends with 77.
 may_be_left_out() {
     local code=0
@@ -59,6 +64,9 @@ fi
 if [ "$all" = --all ]; then
     step "Cameras that come and go for ten minutes" tools/test_many.sh release 600
     step "The same for a minute under TSan" tools/test_many.sh tsan 60
+    step "A thousand crowds in the World" env SEEDS=1000 MINUTES=20 \
+        build/release/tests/world/world_test --gtest_filter='WorldSeeds.*'
+    step "The World with assertions, ASan and UBSan" world_with_sanitizers
     step "An hour before fixed cameras without an alarm" env MINUTES=60 \
         build/release/src/registration/registration_test --gtest_filter='Watching.NoAlarm*'
     step "Rates, ages and shaped links" ctest --preset timing

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/clock_wait.h"
 #include "base/fault.h"
 #include "base/hex_text.h"
 #include "base/log.h"
@@ -244,7 +245,7 @@ void Host::Impl::say_goodbye() {
         note_left(nobody);
     });
     std::unique_lock lock(goodbye_mutex);
-    goodbye_changed.wait_for(lock, goodbye_patience, [this] { return all_left; });
+    wait_for(goodbye_changed, lock, goodbye_patience, [this] { return all_left; });
 }
 
 // While every receiver of a camera still waits for its last frame, the next is not even

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/host_port.h"
 
-#include <future>
+#include <condition_variable>
 #include <utility>
 
+#include "base/clock_wait.h"
 #include "base/fault.h"
 #include "base/log.h"
 #include "base/steady_clock.h"
@@ -11,6 +12,12 @@
 #include "host/port_pages.h"
 
 namespace theatron::host {
+namespace {
+
+// The server's thread tells when it is done; nothing depends on this time.
+constexpr Duration look_again = std::chrono::seconds(1);
+
+}  // namespace
 
 HostPort::HostPort(PortOptions options)
     : options_(std::move(options)),
@@ -93,12 +100,21 @@ void HostPort::serve() {
 }
 
 void HostPort::run_there(const std::function<void()>& work) {
-    const auto done = std::make_shared<std::promise<void>>();
+    struct Done {
+        std::mutex mutex;
+        std::condition_variable changed;
+        bool is_done = false;
+    };
+    const auto done = std::make_shared<Done>();
     server_->post([work, done] {
         (void)contain("net", work);
-        done->set_value();
+        const std::lock_guard lock(done->mutex);
+        done->is_done = true;
+        done->changed.notify_all();
     });
-    done->get_future().wait();
+    std::unique_lock lock(done->mutex);
+    while (!wait_for(done->changed, lock, look_again, [&] { return done->is_done; })) {
+    }
 }
 
 net::Link HostPort::link() const {

@@ -35,6 +35,8 @@ public:
 
     // When all that was sent has left its buffer.
     TimePoint free_at() const { return free_at_; }
+    // When the envelope that was sent last arrives.
+    TimePoint newest_arrival() const { return arrives_; }
     // When the next envelope arrives.
     std::optional<TimePoint> next_arrival() const {
         return under_way_.empty() ? std::nullopt : std::optional(under_way_.front().first);
