@@ -36,28 +36,33 @@ function(theatron_unit_test name target)
   set_property(GLOBAL APPEND PROPERTY THEATRON_UNIT_TESTS ${target})
 endfunction()
 
-# theatron_module(NAME [WEB] [PURE] [NATIVE file...] [DEPENDS module...]
+# theatron_module(NAME [WEB] [PURE] [FOLDERS folder...] [NATIVE file...] [DEPENDS module...]
 #                 [NATIVE_DEPENDS module...] [LINK library...])
 #
-# Builds theatron_NAME from the .cpp files of the current folder. Files that end in _test.cpp become one
+# Builds theatron_NAME from the .cpp files of the current folder and of FOLDERS in it. Files that end in _test.cpp become one
 # test program, each _fuzz.cpp a fuzz target of its own. DEPENDS names the other modules that this one
 # may include; tools/check_includes.py reads it too. WEB: also built with em++ (others are left out
 # there). PURE: no exceptions. LINK: outside libraries. A file that ends in _native.cpp is left out of
 # the web build, one that ends in _web.cpp of the native build. NATIVE: further sources that are left
 # out of the web build, NATIVE_DEPENDS: modules that only native sources include.
 function(theatron_module name)
-  cmake_parse_arguments(M "WEB;PURE" "" "NATIVE;DEPENDS;NATIVE_DEPENDS;LINK" ${ARGN})
+  cmake_parse_arguments(M "WEB;PURE" "" "FOLDERS;NATIVE;DEPENDS;NATIVE_DEPENDS;LINK" ${ARGN})
+  list(TRANSFORM M_FOLDERS PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ OUTPUT_VARIABLE folders)
+  list(PREPEND folders ${CMAKE_CURRENT_SOURCE_DIR})
   if(M_WEB)
-    set_property(GLOBAL APPEND PROPERTY THEATRON_WEB_FOLDERS ${CMAKE_CURRENT_SOURCE_DIR})
+    set_property(GLOBAL APPEND PROPERTY THEATRON_WEB_FOLDERS ${folders})
   elseif(EMSCRIPTEN)
     return()
   endif()
 
-  file(GLOB sources CONFIGURE_DEPENDS *.cpp)
-  file(GLOB tests CONFIGURE_DEPENDS *_test.cpp)
-  file(GLOB fuzzers CONFIGURE_DEPENDS *_fuzz.cpp)
-  file(GLOB benches CONFIGURE_DEPENDS *_bench.cpp)
-  list(REMOVE_ITEM sources ${tests} ${fuzzers} ${benches} "")
+  set(patterns ${folders})
+  list(TRANSFORM patterns APPEND /*.cpp)
+  file(GLOB sources CONFIGURE_DEPENDS ${patterns})
+  set(tests ${sources})
+  set(fuzzers ${sources})
+  list(FILTER tests INCLUDE REGEX "_test\\.cpp$")
+  list(FILTER fuzzers INCLUDE REGEX "_fuzz\\.cpp$")
+  list(FILTER sources EXCLUDE REGEX "_(test|fuzz|bench)\\.cpp$")
   if(EMSCRIPTEN)
     list(FILTER sources EXCLUDE REGEX "_native\\.cpp$")
     list(TRANSFORM M_NATIVE PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)

@@ -11,7 +11,7 @@ import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-KEYWORDS = {"WEB", "PURE", "NATIVE", "DEPENDS", "NATIVE_DEPENDS", "LINK"}
+KEYWORDS = {"FOLDERS", "WEB", "PURE", "NATIVE", "DEPENDS", "NATIVE_DEPENDS", "LINK"}
 
 
 PROGRAMS = ("apps", "bench")

@@ -15,7 +15,7 @@
 #include "medical/slice.h"
 #include "medical/window.h"
 #include "viewer/case_actions.h"
-#include "viewer/screen_handling.h"
+#include "viewer/tools/slice.h"
 
 namespace theatron::app {
 namespace {

@@ -9,7 +9,7 @@
 #include "base/log.h"
 #include "session/mark.h"
 #include "session/shared_screen.h"
-#include "viewer/mark_actions.h"
+#include "viewer/tools/mark_actions.h"
 
 namespace theatron::app {
 namespace {

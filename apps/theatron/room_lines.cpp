@@ -24,7 +24,6 @@ namespace request = session::request;
 constexpr double same_place_m = 1e-6;
 const char* const needs_places =
     "It needs numbers of metres, none beyond 1000: for example 'brick 0.2 1.25 0.3'.";
-const char* const no_longer_held = "The object is no longer held.";
 const char* const not_joined = "The room is not known yet.";
 constexpr Duration refusals_interval = std::chrono::seconds(1);
 constexpr Duration pose_repeated_after = std::chrono::milliseconds(500);
@@ -111,18 +110,6 @@ std::string RoomLines::change(const std::string& what, std::istream& words,
             session::ObjectKind::brick, {{}, place}, 1, room::encode_brick({4, 2, next_color_++})});
         return "";
     }
-    if (what == "grab") {
-        std::uint32_t number = 0;
-        words >> number;
-        const auto room = participant.room();
-        const auto found = room.objects.find(session::ObjectId(number));
-        if (!words || found == room.objects.end() ||
-            found->second.kind == session::ObjectKind::person)
-            return "There is no object of this number; --json lists them under \"room\".";
-        held_ = Held{found->first, participant.ask_room(request::Grab{found->first}),
-                     found->second.room_from_object, found->second.scale};
-        return "";
-    }
     if (what == "pin" || what == "unpin" || what == "end") {
         std::uint32_t number = 0;
         words >> number;
@@ -132,77 +119,65 @@ std::string RoomLines::change(const std::string& what, std::istream& words,
                    ? ""
                    : "There is no shared screen of this number; --json lists them under \"room\".";
     }
-    if (const auto mine = mine_in(participant.room());
-        mine && (!held_ || held_->object != mine->object || held_->grip != mine->grip))
-        held_ = mine;
-    return held_ ? change_held(what, words, participant)
-                 : "Nothing is held; 'grab NUMBER' comes first.";
+    return handle(what, words, participant);
 }
 
-std::optional<RoomLines::Held> RoomLines::mine_in(const client::Participant::Room& room) {
-    for (const auto& [id, object] : room.objects)
-        if (object.grip.holder == room.self)
-            return Held{id, object.grip.number, object.room_from_object, object.scale};
-    return std::nullopt;
-}
-
-std::string RoomLines::change_held(const std::string& what, std::istream& words,
-                                   client::Participant& participant) {
+std::string RoomLines::handle(const std::string& what, std::istream& words,
+                              client::Participant& participant) {
+    const client::Participant::Room now = participant.room();
+    const auto people = viewer::people_of(now, {}, participant.now());
+    const auto open = session::case_in_room(now.objects);
+    const viewer::HoldRoom room{now.self, now.objects, people, open};
+    const auto pass = [&](const viewer::HoldStep& step) {
+        viewer::ask(step, participant);
+        return step.requests.empty() ? step.note : "";
+    };
+    if (what == "grab") {
+        std::uint32_t number = 0;
+        words >> number;
+        const auto found = now.objects.find(session::ObjectId(number));
+        if (!words || found == now.objects.end() ||
+            found->second.kind == session::ObjectKind::person)
+            return "There is no object of this number; --json lists them under \"room\".";
+        return pass(hold_.take(room, found->first, true));
+    }
+    if (!hold_.adopt(room))
+        return "Nothing is held; 'grab NUMBER' comes first.";
+    const session::RoomObject& object = now.objects.at(hold_.object());
     if (what == "move") {
         Vec3 place;
         double degrees = 0;
         if (!read(words, place))
             return needs_places;
         words >> degrees;
-        held_->room_from_object = {rotation_about({0, 1, 0}, radians_of(degrees)), place};
+        Pose pose{rotation_about({0, 1, 0}, radians_of(degrees)), place};
         // A screen has y down; unturned it faces the reader at +z.
-        if (const auto room = participant.room();
-            room.objects.contains(held_->object) &&
-            session::is_shared_screen(room.objects.at(held_->object)))
-            held_->room_from_object =
-                held_->room_from_object * Pose{usual_screen_place.rotation, {}};
-        // The pose of a part is relative to its organ.
-        if (const auto open = session::case_in_room(participant.room().objects);
-            open && open->find(held_->object))
-            held_->room_from_object =
-                session::part_in_organ(open->organ_object, held_->room_from_object);
-        if (participant.move_object(held_->object, held_->room_from_object, held_->scale))
-            return "";
-        held_.reset();
-        return no_longer_held;
+        if (session::is_shared_screen(object))
+            pose = pose * Pose{usual_screen_place.rotation, {}};
+        hold_.put(pose);
     }
     if (what == "width") {
         double width_m = 0;
         words >> width_m;
-        const auto room = participant.room();
-        const auto found = room.objects.find(held_->object);
-        if (!words || !session::is_screen_width(width_m) || found == room.objects.end() ||
-            !session::is_shared_screen(found->second))
+        if (!words || !session::is_shared_screen(object) || !hold_.set_scale(room, width_m))
             return "A shared screen that is held can be from 0.1 to 10 m wide.";
-        held_->scale = width_m;
-        if (participant.move_object(held_->object, held_->room_from_object, width_m))
+    }
+    if (what == "move" || what == "width") {
+        const viewer::HoldMove move = *hold_.move(room);
+        if (participant.move_object(move.object, move.room_from_object, move.scale))
             return "";
-        held_.reset();
-        return no_longer_held;
+        hold_.forget();
+        return "The object is no longer held.";
     }
     if (what == "give") {
         std::string name;
         std::getline(words >> std::ws, name);
-        for (const auto& person : viewer::people_of(participant.room(), {}, participant.now()))
-            if (person.name == name) {
-                participant.ask_room(request::HandOver{held_->object, held_->grip, person.id});
-                held_.reset();
-                return "";
-            }
+        for (const auto& person : people)
+            if (person.name == name)
+                return pass(hold_.give(room, person.id));
         return "Nobody of this name is here.";
     }
-    if (what == "release")
-        participant.ask_room(
-            request::Release{held_->object, held_->grip, held_->room_from_object, held_->scale});
-    else
-        participant.ask_room(request::Remove{held_->object});
-    held_.reset();
-    return "";
+    return pass(what == "release" ? hold_.let_go(room) : hold_.remove(room));
 }
 
 // At most one line a second, however many there are.

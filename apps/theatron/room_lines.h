@@ -8,6 +8,7 @@
 #include <string>
 
 #include "client/participant.h"
+#include "viewer/tools/hold.h"
 
 namespace theatron::app {
 
@@ -32,20 +33,11 @@ public:
     void on_tick(client::Participant& participant);
 
 private:
-    struct Held {
-        session::ObjectId object{};
-        std::uint32_t grip = 0;
-        Pose room_from_object;
-        double scale = 1;
-    };
-
     // Both return one sentence about what is wrong; empty if nothing is.
     std::string change(const std::string& what, std::istream& words,
                        client::Participant& participant);
-    std::string change_held(const std::string& what, std::istream& words,
-                            client::Participant& participant);
-    // The object that this participant holds, perhaps because somebody gave it.
-    static std::optional<Held> mine_in(const client::Participant::Room& room);
+    std::string handle(const std::string& what, std::istream& words,
+                       client::Participant& participant);
     void print_refusals(client::Participant& participant, TimePoint now);
 
     wire::PersonPose pose_;
@@ -54,7 +46,7 @@ private:
     TimePoint calls_until_, sent_, refusals_printed_;
     std::uint64_t refused_ = 0;  // not yet printed
     std::string refusal_;        // the newest of these
-    std::optional<Held> held_;
+    viewer::Hold hold_;
     std::uint8_t next_color_ = 0;
 };
 

@@ -6,7 +6,7 @@
 
 #include "phrases/phrase.h"
 #include "viewer/case_actions.h"
-#include "viewer/screen_handling.h"
+#include "viewer/tools/slice.h"
 
 namespace theatron::viewer {
 namespace {

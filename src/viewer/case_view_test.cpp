@@ -5,7 +5,7 @@
 #include <map>
 
 #include "viewer/case_panel.h"
-#include "viewer/screen_handling.h"
+#include "viewer/tools/slice.h"
 
 namespace theatron::viewer {
 namespace {

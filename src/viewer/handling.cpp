@@ -5,63 +5,47 @@
 
 #include "phrases/phrase.h"
 #include "session/shared_screen.h"
-#include "viewer/case_actions.h"
-#include "viewer/refusal_text.h"
 #include "viewer/room_panel.h"
 
 namespace theatron::viewer {
-namespace {
 
-namespace request = session::request;
-
-}  // namespace
-
-void Handling::on_input(xr::WindowInput& input, std::optional<double> surface_m, double aspect,
-                        const render::CameraView& view, Meeting& meeting,
+void Handling::on_input(xr::WindowInput& input, bool part, std::optional<double> surface_m,
+                        double aspect, const render::CameraView& view, Meeting& meeting,
                         client::Participant& participant, TimePoint now) {
-    while (const auto refusal = participant.take_room_refusal())
-        if (const std::string text = text_of(refusal->second); !text.empty())
-            note_ = text;
-    if (!held_)
+    if (!hold_.holds())
         screen_.on_input(input, surface_m, aspect, view, meeting, participant, now);
     if (input.grabbed && input.grabbed_left)
-        grab(*input.grabbed, input.steering.fast, surface_m, view, meeting, participant);
-    // The object was removed or given away, or the host refused the grip.
-    if (held_) {
-        const session::RoomObject* object = meeting.find(held_->object);
-        if (!object || object->grip.holder != participant.room_self())
-            held_.reset();
-        else if (session::is_shared_screen(*object))
-            change_width(input);
-    }
-    if (held_) {
+        grab(*input.grabbed, part, surface_m, view, meeting, participant);
+    const HoldRoom room = meeting.held_room();
+    if (hold_.follow(room)) {
+        if (session::is_shared_screen(room.objects.at(hold_.object())))
+            change_width(input, room);
         input.grabbed.reset();
-        held_->pointer.x += std::exchange(input.steering.turn.x, 0) / aspect;
-        held_->pointer.y += std::exchange(input.steering.turn.y, 0);
+        pointer_.x += std::exchange(input.steering.turn.x, 0) / aspect;
+        pointer_.y += std::exchange(input.steering.turn.y, 0);
         const double clicks = std::exchange(input.steering.approach, 0);
-        held_->grasp.point(render::ray_through(view, held_->pointer));
+        hold_.grasp()->point({render::ray_through(view, pointer_)});
         if (input.steering.fast)
-            held_->grasp.turn(clicks);
+            hold_.grasp()->turn(clicks * Grasp::turn_per_click);
         else
-            held_->grasp.approach(clicks);
-        (void)participant.move_object(
-            held_->object, meeting.stored_pose(held_->object, held_->grasp.room_from_object()),
-            held_->scale);
+            hold_.grasp()->approach(clicks);
+        const HoldMove move = *hold_.move(room);
+        (void)participant.move_object(move.object, move.room_from_object, move.scale);
     }
     for (const xr::KeyPress& key : input.keys)
         on_key(key.action, view, meeting, participant);
-    if (held_ && input.released)
-        release(meeting, participant);
+    if (hold_.holds() && input.released)
+        pass(hold_.let_go(room), participant);
 }
 
 // The keys that change the size of points change the width of the held screen.
-void Handling::change_width(xr::WindowInput& input) {
+void Handling::change_width(xr::WindowInput& input, const HoldRoom& room) {
     std::erase_if(input.keys, [&](const xr::KeyPress& key) {
         const bool larger = key.action == xr::Action::larger_points;
         if (!larger && key.action != xr::Action::smaller_points)
             return false;
-        held_->scale = session::clamped_screen_width(
-            held_->scale * (larger ? screen_width_step : 1 / screen_width_step));
+        const double factor = larger ? screen_width_step : 1 / screen_width_step;
+        (void)hold_.set_scale(room, session::clamped_screen_width(hold_.scale() * factor));
         return true;
     });
 }
@@ -70,77 +54,38 @@ void Handling::grab(Vec2 pointer, bool part, std::optional<double> surface_m,
                     const render::CameraView& view, Meeting& meeting,
                     client::Participant& participant) {
     const render::PickRay ray = render::ray_through(view, pointer);
-    auto hit = meeting.pick(ray, view);
+    const auto hit = meeting.pick(ray, view);
     if (!hit || is_hidden(hit->picked.place, surface_m, view))
         return;
-    if (const auto& open = meeting.case_scene().in_room(); open && !part && open->find(hit->object))
-        hit->object = open->organ_id;
-    const session::RoomObject* object = meeting.find(hit->object);
-    if (!object)
-        return;
-    // A pinned screen is part of the room, around which one turns.
-    if (session::is_pinned(*object))
-        return;
-    if (object->grip.holder != ParticipantId{} && object->grip.holder != participant.room_self()) {
-        note_ = say(Phrase::holds_this, meeting.name_of(object->grip.holder));
-        return;
-    }
-    const std::uint32_t grip = participant.ask_room(request::Grab{hit->object});
-    if (grip == 0)
-        return;
-    held_ = Held{hit->object, grip, Grasp(meeting.shown_pose(hit->object), ray, hit->picked.place),
-                 pointer, object->scale};
+    pass(hold_.take(meeting.held_room(), hit->object, part, Grip{ray}, hit->picked.place),
+         participant);
+    pointer_ = pointer;
     (void)meeting.take(participant);
 }
 
-void Handling::release(const Meeting& meeting, client::Participant& participant) {
-    const Pose pose = meeting.stored_pose(
-        held_->object, meeting.resting(held_->object, held_->grasp.room_from_object()));
-    participant.ask_room(request::Release{held_->object, held_->grip, pose, held_->scale});
-    held_.reset();
+void Handling::pass(const HoldStep& step, client::Participant& participant) {
+    ask(step, participant);
+    if (!step.note.empty())
+        note_ = step.note;
 }
 
 void Handling::on_key(xr::Action action, const render::CameraView& view, const Meeting& meeting,
                       client::Participant& participant) {
-    if (action == xr::Action::new_brick) {
+    if (action == xr::Action::new_brick)
         make_brick(view, participant);
-    } else if (action == xr::Action::remove && held_) {
-        const auto& open = meeting.case_scene().in_room();
-        if (const auto* part = open ? open->find(held_->object) : nullptr) {
-            const std::size_t number = part->facts.part;
-            release(meeting, participant);
-            show_part(participant, number, false);
-            return;
-        }
-        if (const auto* object = meeting.find(held_->object);
-            object && session::is_shared_screen(*object)) {
-            note_ = say(Phrase::use_screens_panel);
-            return;
-        }
-        if (open && (held_->object == open->organ_id ||
-                     (open->screen && held_->object == open->screen->id))) {
-            note_ = say(Phrase::use_case_panel);
-            return;
-        }
-        participant.ask_room(request::Remove{held_->object});
-        held_.reset();
-    } else if (action == xr::Action::give && held_) {
-        const auto to = meeting.nearest_person(held_->grasp.room_from_object().translation);
-        if (!to) {
-            note_ = say(Phrase::nobody_near);
-            return;
-        }
-        participant.ask_room(request::HandOver{held_->object, held_->grip, *to});
-        note_ = say(Phrase::given_to, meeting.name_of(*to));
-        held_.reset();
-    } else if ((action == xr::Action::give || action == xr::Action::remove) && !held_) {
+    else if (action != xr::Action::remove && action != xr::Action::give)
+        return;
+    else if (!hold_.holds())
         note_ = say(Phrase::hold_first);
-    }
+    else if (action == xr::Action::remove)
+        pass(hold_.remove(meeting.held_room()), participant);
+    else
+        pass(hold_.give_to_nearest(meeting.held_room()), participant);
 }
 
 void Handling::make_brick(const render::CameraView& view, client::Participant& participant) {
     const Vec3 ahead = view.room_from_eye * Vec3{0, 0, new_brick_distance_m};
-    participant.ask_room(request::Create{
+    participant.ask_room(session::request::Create{
         session::ObjectKind::brick, {{}, ahead}, 1, room::encode_brick({4, 2, next_color_++})});
 }
 

@@ -7,9 +7,9 @@
 #include <string>
 
 #include "client/participant.h"
-#include "viewer/grasp.h"
 #include "viewer/meeting.h"
-#include "viewer/screen_handling.h"
+#include "viewer/tools/hold.h"
+#include "viewer/tools/slice.h"
 #include "xr/window_input.h"
 
 namespace theatron::viewer {
@@ -23,35 +23,29 @@ public:
     // Removes the input for objects from `input`; the rest steers the eye. `surface_m` is the
     // distance of the cloud at input.grabbed, along the view's axis: an object behind it cannot be
     // grabbed. `aspect` is the picture's width divided by its height.
-    void on_input(xr::WindowInput& input, std::optional<double> surface_m, double aspect,
+    // `part`: a part of an organ is held, not the organ.
+    void on_input(xr::WindowInput& input, bool part, std::optional<double> surface_m, double aspect,
                   const render::CameraView& view, Meeting& meeting,
                   client::Participant& participant, TimePoint now);
 
     // Asks for a new brick before an eye.
     void make_brick(const render::CameraView& view, client::Participant& participant);
 
-    bool holds() const { return held_.has_value(); }
+    bool holds() const { return hold_.holds(); }
 
     // The newest sentence for the user since the last call; may be empty.
     std::string take_note();
 
 private:
-    struct Held {
-        session::ObjectId object{};
-        std::uint32_t grip = 0;  // the number of the request
-        Grasp grasp;
-        Vec2 pointer;  // shares of the picture's width and height
-        double scale = 1;
-    };
-    // `part`: of an organ, not the organ.
     void grab(Vec2 pointer, bool part, std::optional<double> surface_m,
               const render::CameraView& view, Meeting& meeting, client::Participant& participant);
-    void change_width(xr::WindowInput& input);
-    void release(const Meeting& meeting, client::Participant& participant);
+    void change_width(xr::WindowInput& input, const HoldRoom& room);
+    void pass(const HoldStep& step, client::Participant& participant);
     void on_key(xr::Action action, const render::CameraView& view, const Meeting& meeting,
                 client::Participant& participant);
 
-    std::optional<Held> held_;
+    Hold hold_;
+    Vec2 pointer_;  // of the mouse that holds: shares of the picture's width and height
     ScreenHandling screen_;
     std::uint8_t next_color_ = 0;
     std::string note_;

@@ -2,16 +2,13 @@
 #include "viewer/headset.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "phrases/phrase.h"
-#include "session/shared_screen.h"
 #include "viewer/looking_back.h"
-#include "viewer/refusal_text.h"
 
 namespace theatron::viewer {
 namespace {
-
-namespace request = session::request;
 
 constexpr double walking_m_per_s = 1.4;
 // For the sides of the picture to become dark, or clear again.
@@ -20,7 +17,6 @@ constexpr double above_wrist_m = 0.06, before_head_m = 0.55;
 // Cosines of the angle between the palm's direction and that to the face.
 constexpr double palm_turned_to_face = 0.8, palm_turned_away = 0.6;
 constexpr double pushing_m_per_s = 1.2, turning_degrees_per_s = 90;
-constexpr double least_hold_m = 0.05, largest_hold_m = 8;
 // A longer pause was no movement of the person.
 constexpr double longest_step_s = 0.1;
 // An object that is this much behind a measured surface is hidden by it.
@@ -30,7 +26,7 @@ constexpr double hidden_behind_m = 0.03;
 constexpr Pose half_turn{Quat{0, 1, 0, 0}, {}};
 
 render::PickRay ray_of(const Pose& room_from_aim) {
-    return {room_from_aim.translation, rotate(room_from_aim.rotation, {0, 0, -1})};
+    return grip_of_hand(room_from_aim).ray;
 }
 
 // One view that sees what all eyes see, from their middle.
@@ -85,11 +81,8 @@ void Headset::follow_space(LiveScene& scene, client::Participant& participant) {
     places_table_ = true;
 }
 
-void Headset::on_frame(const xr::HeadsetFrame& frame, const MenuFacts& facts, LiveScene& scene,
-                       client::Participant& participant, TimePoint now) {
-    while (const auto refusal = participant.take_room_refusal())
-        if (const std::string text = text_of(refusal->second); !text.empty())
-            note_ = text;
+void Headset::on_frame(const xr::HeadsetFrame& frame, const MenuFacts& facts, Tools& tools,
+                       LiveScene& scene, client::Participant& participant, TimePoint now) {
     const double seconds = std::clamp(to_seconds(now - at_), 0.0, longest_step_s);
     at_ = now;
     floor_from_head_ = frame.floor_from_head;
@@ -99,7 +92,7 @@ void Headset::on_frame(const xr::HeadsetFrame& frame, const MenuFacts& facts, Li
     }
     follow_space(scene, participant);
     const xr::Intents intents =
-        input_.update(frame, {hands_[0].held.has_value(), hands_[1].held.has_value()});
+        input_.update(frame, {hands_[0].hold.holds(), hands_[1].hold.holds()});
     if (places_table_)
         place_table(intents);
     else if (!real_room_)
@@ -112,7 +105,9 @@ void Headset::on_frame(const xr::HeadsetFrame& frame, const MenuFacts& facts, Li
     show_menu(intents, facts);
     arc_.reset();
     for (const xr::Side side : {xr::left_side, xr::right_side})
-        on_hand(intents.hands[side], hands_[side], scene, participant, seconds);
+        on_hand(intents.hands[side], side, tools, scene, participant, seconds);
+    if (!tool_hand_)
+        (void)tools.on_pointer({}, {scene.meeting(), head_, {}, participant, now});
 
     eyes_.clear();
     for (const xr::HeadsetEye& eye : frame.eyes) {
@@ -142,16 +137,18 @@ void Headset::leave(LiveScene& scene, client::Participant& participant) {
     arc_.reset();
     menu_.show(false);
     let_all_go(scene, participant);
+    panel_.show(false);
     tell(scene);
-    scene.set_menu(nullptr, std::nullopt);
+    scene.set_plates({});
 }
 
 void Headset::let_all_go(LiveScene& scene, client::Participant& participant) {
     for (Hand& hand : hands_) {
-        if (hand.held && hand.room_from_aim)
-            let_go(hand, scene.meeting(), participant);
+        if (hand.hold.follow(scene.meeting().held_room()))
+            pass(hand.hold.let_go_by_hand(scene.meeting().held_room()), participant);
         hand = {};
     }
+    tool_hand_.reset();
 }
 
 void Headset::turn(double degrees) {
@@ -217,7 +214,24 @@ void Headset::show_menu(const xr::Intents& intents, const MenuFacts& facts) {
         return;
     const Vec3 place = left.is_present ? grip.translation + Vec3{0, above_wrist_m, 0}
                                        : head * Vec3{0, -0.2, -before_head_m};
-    menu_.set(menu_rows(facts), place, head.translation);
+    menu_rows_ = menu_rows(facts);
+    menu_.set_rows(plate_rows(menu_rows_));
+    menu_.place(place, head.translation);
+}
+
+// The plate stays where it came while the person moves, and goes with them to another place.
+void Headset::show_panels(std::vector<xr::Panel> panels) {
+    constexpr double ahead_m = 0.7, aside_m = 0.3, above_eyes_m = 0.05;
+    if (panels.empty() || panels_.empty() || panels.front().title != panels_.front().title)
+        first_row_ = 0;
+    if (!panel_.is_shown() && !panels.empty()) {
+        const Quat heading = rotation_about({0, 1, 0}, xr::heading_of(floor_from_head_));
+        floor_from_eye_ = floor_from_head_.translation;
+        floor_from_panel_ = floor_from_eye_ + rotate(heading, {-aside_m, above_eyes_m, -ahead_m});
+    }
+    panels_ = std::move(panels);
+    panel_.show(!panels_.empty());
+    panel_.set_rows(plate_rows(panels_, panel_width_m, first_row_));
 }
 
 void Headset::choose(const MenuRow& row) {
@@ -240,26 +254,29 @@ void Headset::choose(const MenuRow& row) {
         case MenuAction::drawing:
         case MenuAction::new_brick:
         case MenuAction::go_to_person:
+        case MenuAction::panel:
         case MenuAction::live:
             wish_ = row;
     }
 }
 
-void Headset::on_hand(const xr::HandIntents& intents, Hand& hand, LiveScene& scene,
+void Headset::on_hand(const xr::HandIntents& intents, xr::Side side, Tools& tools, LiveScene& scene,
                       client::Participant& participant, double seconds) {
+    Hand& hand = hands_[side];
     // The ray meets surfaces of the past, which are not there now.
     hand.points = intents.points && !scene.past_moment();
-    hand.row.reset();
-    const bool has_menu = menu_.is_shown() && &hand == &hands_[xr::left_side] && intents.is_bare;
-    if (hand.room_from_aim && !hand.held && !has_menu)
-        if (const auto hit = menu_.pick(ray_of(*hand.room_from_aim)))
-            hand.row = hit->row;
-    if (intents.takes && hand.row) {
+    hand.plate = nullptr;
+    const bool has_menu = menu_.is_shown() && side == xr::left_side && intents.is_bare;
+    const bool is_free = !hand.hold.holds() && !hand.stretches && tool_hand_ != side && !has_menu;
+    if (hand.room_from_aim && is_free)
+        find_plate(hand);
+    if (intents.takes && hand.plate) {
         hand.chose = true;
-        choose(menu_.rows()[*hand.row]);
-    } else if (intents.takes && !hand.chose && !has_menu) {
-        hand.aims_by_grip =
-            !take(hand, scene, participant) && intents.is_bare && !real_room_ && !places_table_;
+        press(hand);
+    } else if (tool_hand_ == side || (intents.takes && !hand.chose && !has_menu)) {
+        if (!use_tool(intents, side, tools, scene, participant) && intents.takes)
+            hand.aims_by_grip = !take(hand, tools.takes_parts(), scene, participant) &&
+                                intents.is_bare && !real_room_ && !places_table_;
     }
     if (!intents.holds)
         hand.chose = false;
@@ -267,6 +284,46 @@ void Headset::on_hand(const xr::HandIntents& intents, Hand& hand, LiveScene& sce
     aim(intents, hand, scene);
     if (!intents.is_present)
         hand.room_from_aim.reset();
+}
+
+void Headset::find_plate(Hand& hand) {
+    double nearest_m = std::numeric_limits<double>::infinity();
+    for (const Plate* plate : {&menu_, &panel_})
+        if (const auto hit = plate->pick(ray_of(*hand.room_from_aim));
+            hit && hit->distance_m < nearest_m) {
+            nearest_m = hit->distance_m;
+            hand.plate = plate;
+            hand.command = hit->command;
+        }
+}
+
+void Headset::press(const Hand& hand) {
+    if (hand.command == Plate::no_command)
+        return;
+    if (hand.plate == &menu_)
+        return choose(menu_rows_[std::size_t(hand.command)]);
+    if (hand.command == earlier_rows)
+        first_row_ -= std::min(first_row_, rows_in_turn);
+    else if (hand.command == later_rows)
+        first_row_ += rows_in_turn;
+    else
+        pressed_ = hand.command;
+    panel_.set_rows(plate_rows(panels_, panel_width_m, first_row_));
+}
+
+// True if the hand uses the tool, from a press that the tool takes to the release.
+bool Headset::use_tool(const xr::HandIntents& intents, xr::Side side, Tools& tools,
+                       LiveScene& scene, client::Participant& participant) {
+    const bool goes_on = tool_hand_ == side;
+    if (!goes_on && (tool_hand_ || places_table_ || scene.past_moment()))
+        return false;
+    const auto& aim = hands_[side].room_from_aim;
+    const Pointer pointer{aim ? std::optional(ray_of(*aim)) : std::nullopt, !goes_on,
+                          intents.lets_go || !intents.holds};
+    const bool uses =
+        tools.on_pointer(pointer, {scene.meeting(), head_, scene.cloud(), participant, at_});
+    tool_hand_ = uses && !pointer.releases ? std::optional(side) : std::nullopt;
+    return uses || goes_on;
 }
 
 // The one of two hands that aims second wins.
@@ -290,115 +347,86 @@ void Headset::aim(const xr::HandIntents& intents, Hand& hand, const LiveScene& s
 }
 
 // True if the hand's ray met an object, also if it cannot be held.
-bool Headset::take(Hand& hand, LiveScene& scene, client::Participant& participant) {
+bool Headset::take(Hand& hand, bool part, LiveScene& scene, client::Participant& participant) {
     Meeting& meeting = scene.meeting();
-    const render::PickRay ray = ray_of(*hand.room_from_aim);
-    auto hit = meeting.pick(ray, head_);
+    const Grip grip = grip_of_hand(*hand.room_from_aim);
+    const auto hit = meeting.pick(grip.ray, head_);
     if (!hit)
         return false;
-    if (const auto surface = scene.pick_surface(ray);
+    if (const auto surface = scene.pick_surface(grip.ray);
         surface && *surface < hit->picked.distance_m - hidden_behind_m)
-        return false;
-    if (const auto& open = meeting.case_scene().in_room(); open && open->find(hit->object))
-        hit->object = open->organ_id;
-    const session::RoomObject* object = meeting.find(hit->object);
-    if (!object)
         return false;
     if (scene.past_moment()) {
         note_ = say(Phrase::changes_nothing);
         return true;
     }
-    if (object->grip.holder != ParticipantId{} && object->grip.holder != participant.room_self()) {
-        note_ = say(Phrase::holds_this, meeting.name_of(object->grip.holder));
-        return true;
+    const HoldRoom room = meeting.held_room();
+    Hand& other = this->other(hand);
+    if (other.hold.holds() && other.room_from_aim &&
+        other.hold.object() == Hold::taken(room, hit->object, part)) {
+        hand.stretches = other.hold.begin_stretch(
+            room, length(other.room_from_aim->translation - grip.ray.from));
+        if (hand.stretches)
+            return true;
+        other.hold.forget();
     }
-    if (session::is_pinned(*object)) {
-        note_ = text_of(session::Refusal::pinned);
-        return true;
-    }
-    // The other hand may have it.
-    for (Hand& other : hands_)
-        if (other.held && other.held->object == hit->object)
-            other.held.reset();
-    const std::uint32_t grip = participant.ask_room(request::Grab{hit->object});
-    if (grip == 0)
-        return true;
-    hand.held = Held{hit->object, grip,
-                     inverse(*hand.room_from_aim) * meeting.shown_pose(hit->object), object->scale};
+    pass(hand.hold.take(room, hit->object, part, grip, hit->picked.place), participant);
     (void)meeting.take(participant);
     return true;
 }
 
 void Headset::hold(const xr::HandIntents& intents, Hand& hand, Meeting& meeting,
                    client::Participant& participant, double seconds) {
-    if (!hand.held || !hand.room_from_aim)
+    const HoldRoom room = meeting.held_room();
+    if (hand.stretches) {
+        Hand& other = this->other(hand);
+        hand.stretches = intents.holds && other.hold.follow(room) && other.room_from_aim;
+        if (hand.stretches)
+            other.hold.stretch(
+                room, length(other.room_from_aim->translation - hand.room_from_aim->translation));
+        else
+            other.hold.end_stretch();
+    }
+    if (!hand.room_from_aim || !hand.hold.follow(room))
         return;
-    // The object was removed, or the host refused the grip.
-    const session::RoomObject* object = meeting.find(hand.held->object);
-    if (!object || object->grip.holder != participant.room_self())
-        return hand.held.reset();
-    Pose& held = hand.held->aim_from_object;
-    if (intents.pushes_away != 0) {
-        const double distance = std::max(length(held.translation), least_hold_m);
-        const double wanted = std::clamp(distance + intents.pushes_away * pushing_m_per_s * seconds,
-                                         least_hold_m, largest_hold_m);
-        held.translation = held.translation * (wanted / distance);
-    }
-    if (intents.turns_held != 0) {
-        const Pose shown = *hand.room_from_aim * held;
-        const Quat turn = rotation_about(
-            {0, 1, 0}, radians_of(intents.turns_held * turning_degrees_per_s * seconds));
-        held = inverse(*hand.room_from_aim) *
-               Pose{normalized(turn * shown.rotation), shown.translation};
-    }
-    const Pose shown = *hand.room_from_aim * held;
-    (void)participant.move_object(hand.held->object, meeting.stored_pose(hand.held->object, shown),
-                                  hand.held->scale);
-    if (intents.gives) {
-        if (const auto to = meeting.nearest_person(shown.translation))
-            return give(hand, *to, meeting, participant);
-        note_ = say(Phrase::nobody_near);
-    }
-    if (intents.lets_go)
-        let_go(hand, meeting, participant);
+    Grasp& grasp = *hand.hold.grasp();
+    grasp.point(grip_of_hand(*hand.room_from_aim));
+    grasp.push(intents.pushes_away * pushing_m_per_s * seconds);
+    if (intents.turns_held != 0)
+        grasp.turn(intents.turns_held * turning_degrees_per_s * seconds);
+    const HoldMove move = *hand.hold.move(room);
+    (void)participant.move_object(move.object, move.room_from_object, move.scale);
+    if (intents.gives)
+        pass(hand.hold.give_to_nearest(room), participant);
+    if (intents.lets_go && hand.hold.holds())
+        pass(hand.hold.let_go_by_hand(room), participant);
 }
 
-void Headset::let_go(Hand& hand, const Meeting& meeting, client::Participant& participant) {
-    const Pose shown = *hand.room_from_aim * hand.held->aim_from_object;
-    for (const room::RoomPerson& person : meeting.people())
-        for (const auto& part : {person.head, person.left_hand, person.right_hand})
-            if (part && length(part->translation - shown.translation) < gives_within_m)
-                return give(hand, person.id, meeting, participant);
-    const Pose pose =
-        meeting.stored_pose(hand.held->object, meeting.resting(hand.held->object, shown));
-    participant.ask_room(
-        request::Release{hand.held->object, hand.held->grip, pose, hand.held->scale});
-    hand.held.reset();
+void Headset::pass(const HoldStep& step, client::Participant& participant) {
+    ask(step, participant);
+    if (!step.note.empty())
+        note_ = step.note;
 }
 
-void Headset::give(Hand& hand, ParticipantId to, const Meeting& meeting,
-                   client::Participant& participant) {
-    participant.ask_room(request::HandOver{hand.held->object, hand.held->grip, to});
-    note_ = say(Phrase::given_to, meeting.name_of(to));
-    hand.held.reset();
-}
-
-void Headset::tell(LiveScene& scene) const {
+void Headset::tell(LiveScene& scene) {
     Meeting& meeting = scene.meeting();
     meeting.set_arc(arc_);
     meeting.set_own_hands(hands_[0].room_from_aim, hands_[1].room_from_aim);
     std::vector<room::Pointer> rays;
-    std::optional<std::size_t> chosen;
+    menu_.choose(std::nullopt);
+    panel_.choose(std::nullopt);
     for (const Hand& hand : hands_) {
-        if (hand.row)
-            chosen = hand.row;
-        if (hand.room_from_aim && !hand.held && !arc_ && !places_table_) {
+        for (Plate* plate : {&menu_, &panel_})
+            if (hand.plate == plate)
+                plate->choose(hand.command);
+        if (hand.room_from_aim && !hand.hold.holds() && !arc_ && !places_table_) {
             const render::PickRay ray = ray_of(*hand.room_from_aim);
             rays.push_back({meeting.room().self, "", ray.from, ray.direction, std::nullopt});
         }
     }
     scene.set_own_pointers(std::move(rays));
-    scene.set_menu(&menu_, chosen);
+    panel_.place_below(room_from_floor_ * floor_from_panel_, room_from_floor_ * floor_from_eye_);
+    scene.set_plates({&menu_, &panel_});
     scene.set_table_outline(places_table_);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A person with a headset in the room: where they stand, what their hands hold and point at, and
-// their menu.
+// A person with a headset in the room: where they stand, what their hands hold, point at and work
+// with, their menu and their panels.
 //
 // Uses no clock and no runtime of headsets; their frames come as plain values (xr/headset_frame.h).
 #pragma once
@@ -10,6 +10,8 @@
 #include <string>
 
 #include "viewer/live_scene.h"
+#include "viewer/tools/hold.h"
+#include "viewer/tools/tool.h"
 #include "viewer/wrist_menu.h"
 #include "wire/person_pose.h"
 #include "xr/tracking_space.h"
@@ -20,23 +22,26 @@ namespace theatron::viewer {
 // Use from one thread.
 class Headset {
 public:
-    // An object that is let go this near to another person's head or hand is given to them.
-    static constexpr double gives_within_m = 0.3;
-
     // The person begins where `room_from_eye` (z forward, y down) stands and looks. In a real room
     // the person first shows where its table is: a hand over the table's middle, which points to
     // the patient's head, and a grip.
     Headset(const Pose& room_from_eye, bool real_room)
         : begin_(room_from_eye), real_room_(real_room), places_table_(real_room) {}
 
-    // Follows the person's head and hands at `now`, moves what they hold, and tells the scene their
-    // hands, rays and menu, which has these facts.
-    void on_frame(const xr::HeadsetFrame& frame, const MenuFacts& facts, LiveScene& scene,
-                  client::Participant& participant, TimePoint now);
+    // Follows the person's head and hands at `now`, moves what they hold, works with the chosen
+    // tool, and tells the scene their hands, rays, panels and menu, which has these facts.
+    void on_frame(const xr::HeadsetFrame& frame, const MenuFacts& facts, Tools& tools,
+                  LiveScene& scene, client::Participant& participant, TimePoint now);
 
     // A row of the menu that was chosen since the last call, if it concerns others than this class:
-    // microphone, leave, drawing, new_brick, go_to_person.
+    // microphone, leave, drawing, new_brick, go_to_person, panel, live.
     std::optional<MenuRow> take_wish() { return std::exchange(wish_, std::nullopt); }
+
+    // Shows these panels on a plate, which comes before the person where there was none; none: no
+    // plate.
+    void show_panels(std::vector<xr::Panel> panels);
+    // The command of the panels' button that was pressed since the last call, or close_plate.
+    std::optional<int> take_pressed() { return std::exchange(pressed_, std::nullopt); }
 
     // The runtime has moved its tracking space, and its next frame is in the new one;
     // `before_from_now` has the new origin as seen from the old one, if the runtime says it. The
@@ -64,17 +69,14 @@ public:
     std::string take_note() { return std::exchange(note_, ""); }
 
 private:
-    struct Held {
-        session::ObjectId object{};
-        std::uint32_t grip = 0;  // the number of the request
-        Pose aim_from_object;
-        double scale = 1;
-    };
     struct Hand {
-        std::optional<Held> held;
-        std::optional<std::size_t> row;  // of the menu, under the ray
-        bool chose = false;              // by the grip that is still closed
-        bool aims_by_grip = false;       // a bare hand that took nothing aims a teleport
+        Hold hold;
+        bool stretches = false;  // it scales what the other hand holds
+        // A plate under the ray, and the command there.
+        const Plate* plate = nullptr;
+        int command = Plate::no_command;
+        bool chose = false;         // by the grip that is still closed
+        bool aims_by_grip = false;  // a bare hand that took nothing aims a teleport
         std::optional<Pose> room_from_aim;
         bool points = false;
     };
@@ -86,16 +88,19 @@ private:
     void place_table(const xr::Intents& intents);
     void show_menu(const xr::Intents& intents, const MenuFacts& facts);
     void choose(const MenuRow& row);
-    void on_hand(const xr::HandIntents& intents, Hand& hand, LiveScene& scene,
+    void on_hand(const xr::HandIntents& intents, xr::Side side, Tools& tools, LiveScene& scene,
                  client::Participant& participant, double seconds);
+    void find_plate(Hand& hand);
+    void press(const Hand& hand);
+    bool use_tool(const xr::HandIntents& intents, xr::Side side, Tools& tools, LiveScene& scene,
+                  client::Participant& participant);
     void aim(const xr::HandIntents& intents, Hand& hand, const LiveScene& scene);
-    bool take(Hand& hand, LiveScene& scene, client::Participant& participant);
+    bool take(Hand& hand, bool part, LiveScene& scene, client::Participant& participant);
     void hold(const xr::HandIntents& intents, Hand& hand, Meeting& meeting,
               client::Participant& participant, double seconds);
-    void let_go(Hand& hand, const Meeting& meeting, client::Participant& participant);
-    void give(Hand& hand, ParticipantId to, const Meeting& meeting,
-              client::Participant& participant);
-    void tell(LiveScene& scene) const;
+    void pass(const HoldStep& step, client::Participant& participant);
+    Hand& other(const Hand& hand) { return hands_[&hand == &hands_[0] ? 1 : 0]; }
+    void tell(LiveScene& scene);
 
     Pose begin_;
     bool real_room_ = false, places_table_ = false;
@@ -108,8 +113,16 @@ private:
     double heading_ = 0;  // and the direction of the head then
     bool seated_ = false;
     double vignette_ = 0;
-    WristMenu menu_;
+    Plate menu_{menu_width_m};
+    std::vector<MenuRow> menu_rows_;
     std::optional<MenuRow> wish_;
+    static constexpr double panel_width_m = 0.5;
+    Plate panel_{panel_width_m};
+    std::vector<xr::Panel> panels_;
+    std::size_t first_row_ = 0;               // that the plate shows
+    Vec3 floor_from_panel_, floor_from_eye_;  // the plate's upper edge, the head when it came
+    std::optional<int> pressed_;
+    std::optional<xr::Side> tool_hand_;  // that uses the tool
     Pose room_from_floor_;
     Pose floor_from_head_;
     TimePoint at_;

@@ -44,7 +44,7 @@ protected:
         }
         frame.hands[xr::right_side] = hand;
         now_ += 10ms;
-        headset_->on_frame(frame, {}, scene_, participant_, now_);
+        headset_->on_frame(frame, {}, tools_, scene_, participant_, now_);
     }
     void place_table() {
         show(head, hand_at(table));
@@ -72,6 +72,7 @@ protected:
     render::OffscreenContext context_;  // of the scene
     client::Participant participant_{nobody_answers()};
     LiveScene scene_{RoomChoice{}};
+    Tools tools_;
     std::optional<Headset> headset_;
     TimePoint now_{1s};
 };
@@ -140,6 +141,32 @@ TEST_F(HeadsetTest, InARealRoomTheTableIsPlacedAgainWhereTheWayIsNotKnown) {
     }
 }
 
+TEST_F(HeadsetTest, ARayPressesTheButtonsOfThePanels) {
+    headset_.emplace(look_at({0, 1.6, 2}, {0, 1.6, 0}, upwards), false);
+    const Pose upright{{}, {0, 1.6, 0}};
+    show(upright);
+    headset_->show_panels({{"Marks", {{"", "", {{"Undo", 3}}}}}});
+    // The plate is 0.3 m to the left and 0.7 m ahead; the button is in its second row.
+    const Vec3 away = normalized(Vec3{-0.3, 0, -0.7});
+    const Vec3 along{-away.z, 0, away.x};
+    const Vec3 button = Vec3{-0.3, 1.65 - 1.5 * Plate::row_m, -0.7} + along * (0.03 - 0.25);
+    xr::HandState hand;
+    hand.floor_from_aim = {rotation_about(upwards, std::atan2(0.3, 0.7)), button - away * 0.3};
+    show(upright, hand);
+    EXPECT_FALSE(headset_->take_pressed());
+    hand.trigger = 1;
+    show(upright, hand);
+    EXPECT_EQ(headset_->take_pressed(), 3);
+    show(upright, hand);
+    EXPECT_FALSE(headset_->take_pressed()) << "the trigger was not let go";
+    headset_->show_panels({});
+    hand.trigger = 0;
+    show(upright, hand);
+    hand.trigger = 1;
+    show(upright, hand);
+    EXPECT_FALSE(headset_->take_pressed()) << "there is no plate";
+}
+
 TEST_F(HeadsetTest, WalkingByStickDarkensTheSidesUntilOneStands) {
     headset_.emplace(look_at({0, 1.6, 2}, {0, 1.6, 0}, upwards), false);
     const auto walk = [&](double ahead, int frames) {
@@ -150,7 +177,7 @@ TEST_F(HeadsetTest, WalkingByStickDarkensTheSidesUntilOneStands) {
             frame.hands[xr::left_side] = frame.hands[xr::right_side] = hand_at({0, 1, 0});
             frame.hands[xr::left_side]->stick.y = ahead;
             now_ += 10ms;
-            headset_->on_frame(frame, {}, scene_, participant_, now_);
+            headset_->on_frame(frame, {}, tools_, scene_, participant_, now_);
         }
     };
     walk(0, 2);

@@ -254,13 +254,13 @@ std::vector<CloudCamera> LiveScene::cloud() const {
     std::vector<CloudCamera> cameras;
     for (const auto& [id, frame] : newest_)
         if (const auto known = calibrations_.find(id);
-            known != calibrations_.end() && !left_out_.contains(id))
+            !real_room_ && known != calibrations_.end() && !left_out_.contains(id))
             cameras.push_back({std::uint32_t(id), &known->second, frame->depth.view()});
     return cameras;
 }
 
 std::optional<double> LiveScene::pick_surface(const render::PickRay& ray) const {
-    const auto point = real_room_ ? std::nullopt : pick_cloud(cloud(), ray);
+    const auto point = pick_cloud(cloud(), ray);
     return point ? std::optional(point->distance_m) : std::nullopt;
 }
 
@@ -293,7 +293,7 @@ void LiveScene::add_pointers() {
     pointers_.insert(pointers_.end(), own_pointers_.begin(), own_pointers_.end());
     if (pointers_.empty())
         return;
-    const std::vector<CloudCamera> cameras = real_room_ ? std::vector<CloudCamera>{} : cloud();
+    const std::vector<CloudCamera> cameras = cloud();
     for (room::Pointer& pointer : pointers_) {
         const render::PickRay ray{pointer.from, pointer.direction};
         pointer.twin.reset();
@@ -392,8 +392,8 @@ const render::SceneFrame* LiveScene::scene_for(const render::CameraView& view) {
         meeting_.set_faces(faces_.pictures());
         meeting_.add_to(frame_, view);
         add_pointers();
-        if (menu_)
-            menu_->add_to(frame_, chosen_row_);
+        for (const Plate* plate : plates_)
+            plate->add_to(frame_);
         if (shows_table_)
             add_table_outline();
         if (!real_room_)

@@ -17,10 +17,10 @@
 #include "viewer/face_pictures.h"
 #include "viewer/head_text.h"
 #include "viewer/meeting.h"
+#include "viewer/panels/plate.h"
 #include "viewer/person_clouds.h"
 #include "viewer/same_moment.h"
 #include "viewer/shared_screens.h"
-#include "viewer/wrist_menu.h"
 
 namespace theatron::viewer {
 
@@ -84,7 +84,8 @@ public:
     bool is_without_cameras() const { return generation_ > 0 && calibrations_.empty(); }
     const std::optional<room::FreeSpace>& free_space() const { return room_.free_space(); }
     const std::map<CameraId, Calibration>& calibrations() const { return calibrations_; }
-    // The newest pictures of those that are drawn, for cloud_pick.h; valid until take().
+    // The newest pictures of those that are drawn, for cloud_pick.h; valid until take(). None with
+    // the real room around.
     std::vector<CloudCamera> cloud() const;
     // The distance of the measured surface that a ray meets, in metres; none where the clouds are
     // not drawn.
@@ -93,12 +94,8 @@ public:
     void set_own_pointers(std::vector<room::Pointer> pointers) {
         own_pointers_ = std::move(pointers);
     }
-    // The menu of a person with a headset, until the next call, and its row under a ray; null:
-    // none.
-    void set_menu(const WristMenu* menu, std::optional<std::size_t> chosen) {
-        menu_ = menu;
-        chosen_row_ = chosen;
-    }
+    // The menu and the panels of a person with a headset, until the next call.
+    void set_plates(std::vector<const Plate*> plates) { plates_ = std::move(plates); }
     // A line below the middle of the view, for a person with a headset; may be empty.
     void set_headset_text(std::string text) { headset_text_ = std::move(text); }
     // A plate before the eyes says so while all cameras stand still (still_cover.h), or not: with a
@@ -179,8 +176,7 @@ private:
     room::VirtualRoom room_;
     Meeting meeting_;
     std::vector<room::Pointer> own_pointers_;
-    const WristMenu* menu_ = nullptr;
-    std::optional<std::size_t> chosen_row_;
+    std::vector<const Plate*> plates_;
     std::string headset_text_;
     bool shows_cover_ = false;
     std::string cover_;                         // as judged last; empty: none

@@ -201,21 +201,10 @@ void Meeting::add_holder(render::SceneFrame& frame, session::ObjectId id,
     double above_m = label_above_m;
     if (const auto screen = session::decode_shared_screen(object.kind, object.properties))
         above_m += 0.5 * session::place_of(object, *screen).height_m;
-    Pose place = room::facing(shown_pose(id).translation + Vec3{0, above_m, 0}, eye);
+    Pose place = room::facing(shown_pose(held_room(), id).translation + Vec3{0, above_m, 0}, eye);
     place.translation =
         place * Vec3{-0.5 * label_height_m * letter_width * double(text.size()), 0, 0};
     frame.texts.push_back({text, place, label_height_m, {235, 240, 240}});
-}
-
-Pose Meeting::shown_pose(session::ObjectId object) const {
-    if (const auto shown = case_.shown_pose(object))
-        return *shown;
-    const session::RoomObject* found = find(object);
-    return found ? found->room_from_object : Pose{};
-}
-
-Pose Meeting::stored_pose(session::ObjectId object, const Pose& room_from_shown) const {
-    return case_.stored_pose(object, room_from_shown).value_or(room_from_shown);
 }
 
 void Meeting::add_teleports(render::SceneFrame& frame) {
@@ -244,38 +233,6 @@ std::optional<Meeting::Hit> Meeting::pick(const render::PickRay& ray,
     if (!picked)
         return std::nullopt;
     return Hit{session::ObjectId(std::uint32_t(picked->id)), *picked};
-}
-
-const session::RoomObject* Meeting::find(session::ObjectId object) const {
-    const auto found = room_.objects.find(object);
-    return found == room_.objects.end() ? nullptr : &found->second;
-}
-
-Pose Meeting::resting(session::ObjectId object, const Pose& released) const {
-    const session::RoomObject* moved = find(object);
-    const auto brick = moved && moved->kind == session::ObjectKind::brick
-                           ? room::decode_brick(moved->properties)
-                           : std::nullopt;
-    if (!brick)
-        return released;
-    std::vector<room::PlacedBrick> others;
-    for (const auto& [id, other] : room_.objects)
-        if (id != object && other.kind == session::ObjectKind::brick)
-            if (const auto placed = room::decode_brick(other.properties))
-                others.push_back({*placed, other.room_from_object});
-    return room::snapped(*brick, released, others);
-}
-
-std::optional<ParticipantId> Meeting::nearest_person(Vec3 place) const {
-    std::optional<ParticipantId> nearest;
-    double distance = 0;
-    for (const room::RoomPerson& person : people_)
-        for (const auto& part : {person.head, person.left_hand, person.right_hand})
-            if (part && (!nearest || length(part->translation - place) < distance)) {
-                nearest = person.id;
-                distance = length(part->translation - place);
-            }
-    return nearest;
 }
 
 const room::RoomPerson* Meeting::person(ParticipantId id) const {

@@ -20,6 +20,7 @@
 #include "viewer/case_scene.h"
 #include "viewer/room_past.h"
 #include "viewer/shared_screens.h"
+#include "viewer/tools/hold.h"
 #include "viewer/worn_headsets.h"
 
 namespace theatron::viewer {
@@ -85,17 +86,11 @@ public:
     CaseScene& case_scene() { return case_; }
     const CaseScene& case_scene() const { return case_; }
 
-    // Where an object is drawn, and the pose that it has in the room's state there: they differ for
-    // parts of an organ. Needs an object that can be held.
-    Pose shown_pose(session::ObjectId object) const;
-    Pose stored_pose(session::ObjectId object, const Pose& room_from_shown) const;
+    // The room for holding; valid until take().
+    HoldRoom held_room() const {
+        return {room_.self, room_.objects, people_, case_.in_room(), &case_};
+    }
 
-    // Null if there is no object with this number. Valid until take().
-    const session::RoomObject* find(session::ObjectId object) const;
-    // The pose of an object after its release at `released`: bricks snap together.
-    Pose resting(session::ObjectId object, const Pose& released) const;
-    // The other person whose head or hand is nearest to a place of the room.
-    std::optional<ParticipantId> nearest_person(Vec3 place) const;
     // The name of another participant; empty if it is not in the room.
     std::string name_of(ParticipantId id) const;
 

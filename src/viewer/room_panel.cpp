@@ -89,10 +89,10 @@ RoomPanel room_panel(const RoomPanelFacts& facts) {
     xr::Panel who{say(Phrase::people), {}};
     for (const room::RoomPerson& person : facts.people) {
         xr::PanelRow row{person.name, doing(facts, person), {}};
-        if (person.head) {
+        if (person.head && facts.may_go)
             row.buttons.push_back(button(Phrase::go_to, GoToPerson{person.id}));
+        if (person.head && facts.may_look_through)
             row.buttons.push_back(button(Phrase::see_through, LookThrough{person.id}));
-        }
         who.rows.push_back(std::move(row));
         const auto known = facts_of(facts.room, person.id);
         if (!facts.is_operator || !known || session::is_recorded(person.id))

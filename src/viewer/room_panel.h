@@ -8,11 +8,11 @@
 #include <variant>
 #include <vector>
 
-#include "session/mark.h"
 #include "viewer/meeting.h"
 #include "viewer/own_face.h"
 #include "viewer/places.h"
 #include "viewer/sheet.h"
+#include "viewer/tools/tool.h"
 #include "viewer/voices.h"
 #include "xr/overlay_content.h"
 #include "xr/window_input.h"
@@ -45,8 +45,8 @@ struct LeaveClosed {};  // it is not
 struct ChangeCase {     // false: there is no such case any more
     std::function<bool(client::Participant&)> change;
 };
-struct ChooseMarkTool {
-    session::MarkKind tool{};
+struct ChooseTool {
+    ToolKind tool{};
 };
 struct ChangeMarks {  // false: there is no such mark
     std::function<bool(client::Participant&)> change;
@@ -97,7 +97,7 @@ struct ShowSheet {
 };
 using RoomCommand =
     std::variant<GoToPerson, LookThrough, GoToPlace, Decide, AskToOpen, OpenOffered, LeaveClosed,
-                 ChangeCase, ChooseMarkTool, ChangeMarks, Call, AnswerCall, ShowLarge, AdjustStep,
+                 ChangeCase, ChooseTool, ChangeMarks, Call, AnswerCall, ShowLarge, AdjustStep,
                  PlayStep, ChangeScreen, ShowFace, LookBackTo, UseSound, PressKey, ShowSheet>;
 
 struct RoomPanel {
@@ -117,6 +117,8 @@ struct RoomPanelFacts {
     OwnFace own_face = OwnFace::none;
     // The decision of which the button was pressed once; carried out by the second press.
     std::optional<Decide> asked = {};
+    // The user can be brought to another place, and look through other eyes.
+    bool may_go = true, may_look_through = true;
 };
 RoomPanel room_panel(const RoomPanelFacts& facts);
 

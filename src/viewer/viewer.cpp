@@ -8,9 +8,9 @@
 #include "phrases/phrase.h"
 #include "session/permissions.h"
 #include "session/whose_camera.h"
-#include "viewer/mark_actions.h"
-#include "viewer/mark_panel.h"
+#include "viewer/refusal_text.h"
 #include "viewer/screen_panel.h"
+#include "viewer/tools/mark_actions.h"
 #include "wire/manage_text.h"
 
 namespace theatron::viewer {
@@ -53,18 +53,20 @@ void Viewer::on_input(xr::WindowInput input, std::optional<double> grabbed_m, Si
                       TimePoint now) {
     mouse_ = input.pointer_covered ? std::nullopt : input.pointer;
     picture_ = picture;
+    tell_refusals(now);
     const bool is_past = scene_.past_moment().has_value();
     if (is_past)
         keep_present(input, now);
     else
         draw_region(input, picture, now);
-    mark(input, picture);
+    use_tool(input, picture, now);
     if (points_ && !is_past && !input.pointer_covered)
         input.points = true;
     point(input, picture);
     if (eye_.is_placed() && (!is_past || handling_.holds()))
-        handling_.on_input(input, grabbed_m, double(picture.width) / picture.height,
-                           eye_.view(picture), scene_.meeting(), participant_, now);
+        handling_.on_input(input, input.steering.fast || tools_.takes_parts(), grabbed_m,
+                           double(picture.width) / picture.height, eye_.view(picture),
+                           scene_.meeting(), participant_, now);
     if (const std::string text = handling_.take_note(); !text.empty())
         note(text, now);
     scene_changed_ = scene_changed_ || input.redraw;
@@ -80,6 +82,12 @@ void Viewer::on_input(xr::WindowInput input, std::optional<double> grabbed_m, Si
         eye_.grab(*input.grabbed, *grabbed_m, picture);
     if (eye_.steer(input.steering, picture, now))
         scene_changed_ = true;
+}
+
+void Viewer::tell_refusals(TimePoint now) {
+    while (const auto refusal = participant_.take_room_refusal())
+        if (const std::string text = text_of(refusal->second); !text.empty())
+            note(text, now);
 }
 
 void Viewer::on_key(const xr::KeyPress& key, Size picture, TimePoint now) {
@@ -103,8 +111,8 @@ void Viewer::carry_out(const xr::KeyPress& key, Size picture, TimePoint now) {
             break;
         case xr::Action::point:
             points_ = !points_;
-            if (points_ && marking_.tool()) {  // the mouse does one of both
-                marking_.choose(std::nullopt, scene_.meeting());
+            if (points_ && tools_.chosen() != ToolKind::none) {  // the mouse does one of both
+                tools_.choose(ToolKind::none, scene_.meeting());
                 scene_changed_ = true;
             }
             break;
@@ -128,9 +136,8 @@ void Viewer::carry_out(const xr::KeyPress& key, Size picture, TimePoint now) {
             break;
         case xr::Action::marks:
             points_ = false;
-            marking_.choose(
-                marking_.tool() ? std::nullopt : std::optional(session::MarkKind::stroke),
-                scene_.meeting());
+            tools_.choose(tools_.chosen() == ToolKind::none ? ToolKind::stroke : ToolKind::none,
+                          scene_.meeting());
             scene_changed_ = true;
             break;
         case xr::Action::undo_mark:
@@ -235,93 +242,8 @@ void Viewer::aim_teleport(const xr::WindowInput& input, Size picture) {
 }
 
 void Viewer::press(int command, TimePoint now) {
-    if (command < 0 || command >= int(commands_.size()))
-        return;
-    const RoomCommand chosen = commands_[std::size_t(command)];
-    if (const auto* key = std::get_if<PressKey>(&chosen)) {
-        // The panel of the rest has done its work.
-        if (sheet_ == Sheet::more && key->action != xr::Action::more)
-            open_sheet(Sheet::none);
-        return pressed_.push_back({key->action});
-    }
-    if (const auto* opened = std::get_if<ShowSheet>(&chosen))
-        return open_sheet(opened->sheet);
-    if (!eye_.is_placed())
-        return;
-    if (const auto* decision = std::get_if<Decide>(&chosen)) {
-        if (removal_.is_meant(*decision, now))
-            participant_.manage(decision->action, decision->person, decision->role);
-        return;
-    }
-    if (const auto* change = std::get_if<ChangeCase>(&chosen)) {
-        if (!change->change(participant_))
-            note(say(Phrase::not_in_room_any_more), now);
-        return;
-    }
-    if (const auto* step = std::get_if<AdjustStep>(&chosen)) {
-        slides_playback_ = false;
-        return adjusting_.carry_out(*step);
-    }
-    if (const auto* face = std::get_if<ShowFace>(&chosen)) {
-        face_wish_ = face->shown;
-        return;
-    }
-    if (const auto* sound = std::get_if<UseSound>(&chosen)) {
-        sound_wish_ = *sound;
-        return;
-    }
-    if (const auto* step = std::get_if<PlayStep>(&chosen))
-        return play(*step, now);
-    if (const auto* screen = std::get_if<ChangeScreen>(&chosen)) {
-        if (!change_screen(*screen, participant_))
-            note(say(Phrase::not_in_room_any_more), now);
-        return;
-    }
-    if (const auto* moment = std::get_if<LookBackTo>(&chosen))
-        return look_back(moment->ago, now);
-    if (const auto* tool = std::get_if<ChooseMarkTool>(&chosen))
-        return marking_.choose(tool->tool, scene_.meeting());
-    if (const auto* change = std::get_if<ChangeMarks>(&chosen)) {
-        if (!change->change(participant_))
-            note(say(Phrase::no_such_mark), now);
-        return;
-    }
-    if (const auto* offer = std::get_if<AskToOpen>(&chosen))
-        return ask_to_open(offer->offered);
-    if (std::holds_alternative<LeaveClosed>(chosen))
-        return asked_case_.reset();
-    if (const auto* offer = std::get_if<OpenOffered>(&chosen))
-        return open_before_eye(offer->offered);
-    if (const auto* large = std::get_if<ShowLarge>(&chosen)) {
-        large_ = large_ == *large ? std::nullopt : std::optional(*large);
-        return;
-    }
-    if (const auto* calls = std::get_if<Call>(&chosen))
-        return call(calls->begins, now);
-    if (const auto* answer = std::get_if<AnswerCall>(&chosen))
-        return answer_call(answer->person, answer->comes, now);
-    if (const auto* person = std::get_if<GoToPerson>(&chosen))
-        return go_to_person(person->person, now);
-    if (const auto* place = std::get_if<GoToPlace>(&chosen))
-        return go_to_place(place->place, now);
-    look_through(std::get<LookThrough>(chosen).person, now);
-}
-
-void Viewer::go_to_place(const Place& place, TimePoint now) {
-    stop_following();
-    scene_changed_ = true;
-    eye_.go_to(place.room_from_eye);
-    note(place.name, now);
-}
-
-void Viewer::look_through(ParticipantId id, TimePoint now) {
-    stop_following();
-    scene_changed_ = true;
-    const room::RoomPerson* person = scene_.meeting().person(id);
-    if (!person)
-        return note(say(Phrase::person_has_left), now);
-    followed_ = id;
-    note(say(Phrase::through_eyes_of, person->name), now);
+    if (command >= 0 && command < int(commands_.size()))
+        carry_out(RoomCommand(commands_[std::size_t(command)]), now);
 }
 
 void Viewer::stop_following() {
@@ -542,21 +464,20 @@ Facts Viewer::facts(TimePoint now) {
     facts.past = past(now);
     facts.played = played(now);
     // A question about a case is asked anew when its panel opens again, and over a new connection.
-    if (!shows_case_ || !facts.past.empty() ||
+    if ((!shows_case_ && plate_ != Sheet::patient_case) || !facts.past.empty() ||
         facts.received.status.phase != client::Participant::Phase::joined)
         asked_case_.reset();
     if (options_.one_panel) {
         add_tools(facts, panel, now);
         add_offers(facts, panel, now);
-        add_sheet(facts, panel, now);
+        add_sheet(sheet(), facts, panel, now);
     } else {
         add_open_panels(facts, panel, now);
     }
     facts.rectangle = adjusting_.rectangle();
     facts.bar = playing_.bar(participant_, may(session::Right::play), now, panel);
-    if (marking_.tool() && !options_.one_panel)
-        add_mark_panel(marking_.tool(),
-                       facts.received.status.standing.role == wire::Role::operator_, panel);
+    if (tools_.chosen() != ToolKind::none && !options_.one_panel)
+        add_tool_choice(facts, panel);
     add_camera_pictures(facts, panel, now);
     facts.pointed = pointed_text();
     facts.panels = std::move(panel.panels);
@@ -576,6 +497,8 @@ RoomPanelFacts Viewer::people_facts(const Facts& facts, TimePoint now) const {
     people.is_calling = is_calling(now);
     people.speaking = voices_.speaking;
     people.asked = removal_.asked(now);
+    people.may_go = !scene_.has_real_room();
+    people.may_look_through = !headset_;
     return people;
 }
 

@@ -25,7 +25,6 @@
 #include "viewer/headset.h"
 #include "viewer/live_scene.h"
 #include "viewer/looking_back.h"
-#include "viewer/marking.h"
 #include "viewer/notice.h"
 #include "viewer/playing.h"
 #include "viewer/removal_question.h"
@@ -33,6 +32,7 @@
 #include "viewer/sheet.h"
 #include "viewer/shown_moment.h"
 #include "viewer/sound_panel.h"
+#include "viewer/tools/tool.h"
 #include "xr/drawing_pace.h"
 #include "xr/drawing_rest.h"
 #include "xr/window_input.h"
@@ -173,6 +173,7 @@ public:
     const SameMoment& same_moment() const { return scene_.same_moment(); }
 
 private:
+    void tell_refusals(TimePoint now);
     void on_key(const xr::KeyPress& key, Size picture, TimePoint now);
     void carry_out(const xr::KeyPress& key, Size picture, TimePoint now);
     void go_home(const xr::KeyPress& key, Size picture, TimePoint now);
@@ -192,22 +193,48 @@ private:
     void begin_pace(std::vector<xr::DrawingWay> ways);
     void send_own_pose(Size picture, TimePoint now);
     void follow_wish(const MenuRow& wish, TimePoint now);
+    void open_plate(Sheet sheet);
+    void show_plate(TimePoint now);
+    void press_plate(int command, TimePoint now);
+    Pose own_eye() const;
+    void bring(const Pose& room_from_eye);
     void draw_eyes(const render::CameraView& head, std::vector<render::EyePicture> eyes,
                    TimePoint now);
     void aim_teleport(const xr::WindowInput& input, Size picture);
     void look_through_followed(TimePoint now);
     void stop_following();
     std::optional<Pose> place_beside(ParticipantId id) const;
-    void go_to_place(const Place& place, TimePoint now);
     void go_to_person(ParticipantId id, TimePoint now);
-    void look_through(ParticipantId id, TimePoint now);
+    // Commands of the panels' buttons.
+    void carry_out(const RoomCommand& command, TimePoint now);
+    void on(const PressKey& key, TimePoint now);
+    void on(const ShowSheet& opened, TimePoint now);
+    void on(const Decide& decision, TimePoint now);
+    void on(const ChangeCase& change, TimePoint now);
+    void on(const AdjustStep& step, TimePoint now);
+    void on(const ShowFace& face, TimePoint now);
+    void on(const UseSound& sound, TimePoint now);
+    void on(const PlayStep& step, TimePoint now);
+    void on(const ChangeScreen& change, TimePoint now);
+    void on(const LookBackTo& moment, TimePoint now);
+    void on(const ChooseTool& chosen, TimePoint now);
+    void on(const ChangeMarks& change, TimePoint now);
+    void on(const AskToOpen& asked, TimePoint now);
+    void on(const LeaveClosed& left, TimePoint now);
+    void on(const OpenOffered& opened, TimePoint now);
+    void on(const ShowLarge& shown, TimePoint now);
+    void on(const Call& call, TimePoint now);
+    void on(const AnswerCall& answer, TimePoint now);
+    void on(const GoToPerson& person, TimePoint now);
+    void on(const GoToPlace& place, TimePoint now);
+    void on(const LookThrough& person, TimePoint now);
     void call(bool begins, TimePoint now);
     void answer_call(ParticipantId person, bool comes, TimePoint now);
     void forget_answered();
     std::vector<room::RoomPerson> callers() const;  // whom the user has not answered
     bool is_calling(TimePoint now) const { return now < calls_until_; }
     std::optional<Pose> meeting_place() const;
-    void mark(xr::WindowInput& input, Size picture);
+    void use_tool(xr::WindowInput& input, Size picture, TimePoint now);
     void point(const xr::WindowInput& input, Size picture);
     void add_pointing(wire::PersonPose& pose);
     void on_camera_key(const xr::KeyPress& key, Size picture, TimePoint now);
@@ -216,7 +243,6 @@ private:
     // Once, when the cameras have sent pictures: a person of the options who is not where they say.
     void note_unseen_people(TimePoint now);
     void draw_region(xr::WindowInput& input, Size picture, TimePoint now);
-    void play(const PlayStep& play, TimePoint now);
     bool look_back(const xr::KeyPress& key, TimePoint now);
     void keep_present(xr::WindowInput& input, TimePoint now);
     void look_back(Duration ago, TimePoint now);
@@ -235,11 +261,10 @@ private:
     void add_screens(const Facts& facts, RoomPanel& panel) const;
     void add_look_back(const Facts& facts, RoomPanel& panel, TimePoint now) const;
     void add_open_panels(const Facts& facts, RoomPanel& panel, TimePoint now);
-    void add_sheet(const Facts& facts, RoomPanel& panel, TimePoint now);
+    void add_sheet(Sheet sheet, const Facts& facts, RoomPanel& panel, TimePoint now);
+    void add_tool_choice(const Facts& facts, RoomPanel& panel) const;
     void show_slice_at(const xr::WindowInput& input, Size picture, TimePoint now);
     void add_case(RoomPanel& panel) const;
-    void ask_to_open(const ContentHash& offered);
-    void open_before_eye(const ContentHash& offered);
     Pose at_eye_height(Pose room_from_eye) const;
     std::string camera_text(CameraId camera) const;
     // With the person whose it is.
@@ -252,10 +277,13 @@ private:
     Eye eye_;
     std::optional<Headset> headset_;  // while the person wears it
     std::optional<MenuAction> headset_wish_;
+    Sheet plate_ = Sheet::none;                // that the person with a headset sees
+    std::vector<RoomCommand> plate_commands_;  // of its buttons
+    TimePoint plate_made_;
     std::unique_ptr<render::Vignette> vignette_;  // made when first needed
     bool microphone_open_ = false;
     Handling handling_;
-    Marking marking_;
+    Tools tools_;
     AdjustPanel adjusting_;
     Playing playing_;
     LookingBack looking_back_;

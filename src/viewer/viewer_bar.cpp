@@ -5,7 +5,7 @@
 #include "phrases/phrase.h"
 #include "session/permissions.h"
 #include "viewer/bar_items.h"
-#include "viewer/mark_panel.h"
+#include "viewer/panels/tool_panel.h"
 #include "viewer/screen_panel.h"
 #include "viewer/viewer.h"
 #include "wire/sentence.h"
@@ -43,11 +43,11 @@ xr::PanelButton button(RoomPanel& panel, Phrase label, RoomCommand command) {
 }  // namespace
 
 Sheet Viewer::sheet() const {
-    return shows_panels_           ? Sheet::people
-           : shows_case_           ? Sheet::patient_case
-           : marking_.tool()       ? Sheet::draw
-           : adjusting_.is_shown() ? Sheet::adjust
-                                   : sheet_;
+    return shows_panels_                       ? Sheet::people
+           : shows_case_                       ? Sheet::patient_case
+           : tools_.chosen() != ToolKind::none ? Sheet::draw
+           : adjusting_.is_shown()             ? Sheet::adjust
+                                               : sheet_;
 }
 
 bool Viewer::shows_sound() const {
@@ -58,8 +58,8 @@ bool Viewer::shows_sound() const {
 void Viewer::open_sheet(Sheet sheet) {
     shows_panels_ = sheet == Sheet::people;
     shows_case_ = sheet == Sheet::patient_case;
-    if (sheet != Sheet::draw && marking_.tool()) {
-        marking_.choose(std::nullopt, scene_.meeting());
+    if (sheet != Sheet::draw && tools_.chosen() != ToolKind::none) {
+        tools_.choose(ToolKind::none, scene_.meeting());
         scene_changed_ = true;
     }
     if (sheet != Sheet::adjust)
@@ -71,7 +71,7 @@ void Viewer::open_sheet(Sheet sheet) {
 void Viewer::keep_one_panel(Sheet before) {
     if (!options_.one_panel)
         return;
-    const bool is_open[] = {shows_panels_, shows_case_, marking_.tool().has_value(),
+    const bool is_open[] = {shows_panels_, shows_case_, tools_.chosen() != ToolKind::none,
                             adjusting_.is_shown(), sheet_ != Sheet::none};
     const Sheet sheets[] = {Sheet::people, Sheet::patient_case, Sheet::draw, Sheet::adjust, sheet_};
     for (std::size_t i = 0; i < std::size(sheets); ++i)
@@ -105,7 +105,7 @@ void Viewer::add_tools(Facts& facts, RoomPanel& panel, TimePoint now) const {
     bar.microphone = voices_.microphone;
     bar.own_face = own_face_;
     bar.points = points_;
-    bar.draws = marking_.tool().has_value();
+    bar.draws = tools_.chosen() != ToolKind::none;
     bar.shows_case = shows_case_;
     bar.shows_people = shows_panels_;
     bar.shows_more = sheet_ != Sheet::none && sheet_ != Sheet::details;
@@ -158,39 +158,55 @@ void Viewer::add_more_panel(RoomPanel& panel) const {
         more.rows.push_back(
             {say(text), "", {button(panel, Phrase::more_open, std::move(command))}});
     };
-    row(Phrase::more_help, PressKey{xr::Action::help});
+    if (!headset_)
+        row(Phrase::more_help, PressKey{xr::Action::help});
     row(Phrase::sound, ShowSheet{Sheet::sound});
-    row(Phrase::more_pictures, PressKey{xr::Action::camera_pictures});
+    if (!headset_)
+        row(Phrase::more_pictures, PressKey{xr::Action::camera_pictures});
     row(Phrase::places, ShowSheet{Sheet::places});
     row(Phrase::screens, ShowSheet{Sheet::screens});
     if (participant_.can_look_back())
         row(Phrase::look_back_alone, ShowSheet{Sheet::look_back});
-    row(Phrase::more_details, PressKey{xr::Action::facts});
-    row(Phrase::more_home, PressKey{xr::Action::own_view});
-    row(Phrase::more_full_screen, PressKey{xr::Action::full_screen});
-    row(Phrase::more_save, PressKey{xr::Action::save_picture});
+    if (!headset_) {
+        row(Phrase::more_details, PressKey{xr::Action::facts});
+        row(Phrase::more_home, PressKey{xr::Action::own_view});
+        row(Phrase::more_full_screen, PressKey{xr::Action::full_screen});
+        row(Phrase::more_save, PressKey{xr::Action::save_picture});
+    }
     if (may(session::Right::adjust))
         row(Phrase::more_adjust, PressKey{xr::Action::adjust_cameras});
     panel.panels.push_back(std::move(more));
 }
 
-// The one that is open.
-void Viewer::add_sheet(const Facts& facts, RoomPanel& panel, TimePoint now) {
-    const wire::Role role = facts.received.status.standing.role;
-    switch (sheet()) {
+void Viewer::add_tool_choice(const Facts& facts, RoomPanel& panel) const {
+    add_tool_panel(
+        {tools_.chosen(), scene_.meeting().case_scene().in_room().has_value(), headset_.has_value(),
+         facts.received.status.standing.role == wire::Role::operator_},
+        panel);
+}
+
+void Viewer::add_sheet(Sheet sheet, const Facts& facts, RoomPanel& panel, TimePoint now) {
+    switch (sheet) {
         case Sheet::none:
         case Sheet::details:  // overlay_of() adds it
             break;
-        case Sheet::people:
-            panel = joined(std::move(panel), room_panel(people_facts(facts, now)));
+        case Sheet::people: {
+            RoomPanelFacts people = people_facts(facts, now);
+            if (headset_) {  // it has no offers above the picture
+                people.visitors = facts.visitors;
+                panel = joined(std::move(panel), call_panel(callers()));
+            }
+            panel = joined(std::move(panel), room_panel(people));
             break;
+        }
         case Sheet::patient_case:
             // Its buttons would change the present by what is shown of the past.
             if (facts.past.empty())
                 add_case(panel);
             break;
         case Sheet::draw:
-            add_mark_panel(marking_.tool(), role == wire::Role::operator_, panel);
+            if (facts.past.empty())
+                add_tool_choice(facts, panel);
             break;
         case Sheet::adjust:
             adjusting_.add_panel(panel);

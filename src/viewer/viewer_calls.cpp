@@ -25,13 +25,23 @@ std::optional<Pose> Viewer::place_beside(ParticipantId id) const {
     return beside(*person->head, heads);
 }
 
+// The person then stands at this eye, except in a real room, which does not move.
+void Viewer::bring(const Pose& room_from_eye) {
+    if (headset_) {
+        if (!scene_.has_real_room())
+            headset_->go_to(room_from_eye);
+        return;
+    }
+    stop_following();
+    scene_changed_ = true;
+    eye_.go_to(room_from_eye);
+}
+
 void Viewer::go_to_person(ParticipantId id, TimePoint now) {
     const auto place = place_beside(id);
     if (!place || !eye_.is_placed())
         return note(say(Phrase::person_has_left), now);
-    stop_following();
-    scene_changed_ = true;
-    eye_.go_to(*place);
+    bring(*place);
     note(say(Phrase::beside, scene_.meeting().name_of(id)), now);
 }
 

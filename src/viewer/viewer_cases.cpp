@@ -3,52 +3,23 @@
 #include "phrases/phrase.h"
 #include "viewer/case_actions.h"
 #include "viewer/case_panel.h"
-#include "viewer/screen_handling.h"
+#include "viewer/tools/slice.h"
 #include "viewer/viewer.h"
 
 namespace theatron::viewer {
-namespace {
-
-// A case is opened at this distance in front of the eye.
-constexpr double new_case_distance_m = 0.9;
-
-}  // namespace
 
 void Viewer::show_slice_at(const xr::WindowInput& input, Size picture, TimePoint now) {
     if (!eye_.is_placed() || !input.pointer)
         return;
-    Meeting& meeting = scene_.meeting();
     const render::CameraView view = eye_.view(picture);
-    const auto hit = meeting.pick(render::ray_through(view, *input.pointer), view);
-    const auto& open = meeting.case_scene().in_room();
-    const auto place =
-        hit ? meeting.case_scene().patient_point(hit->object, hit->picked.place) : std::nullopt;
-    if (!open || !open->screen)
-        return note(say(Phrase::point_at_organ), now);
-    const session::CaseScreen& screen = open->screen->facts;
-    if (place)
-        return void(set_screen(participant_, through(screen, *place)));
-    const bool is_screen = hit && hit->object == open->screen->id;
-    const auto on_slice =
-        is_screen ? meeting.case_scene().monitor().patient_point(*open, hit->picked.place)
-                  : std::nullopt;
-    if (!on_slice)
-        return note(say(Phrase::point_at_slice), now);
-    session::CaseScreen next = screen;
-    next.orientation = std::uint8_t((screen.orientation + 1) % session::CaseScreen::orientations);
-    set_screen(participant_, through(next, *on_slice));
-}
-
-void Viewer::ask_to_open(const ContentHash& offered) {
-    asked_case_ = offered;
-    patient_is_asked_ = participant_.ask_patient(offered);
-}
-
-void Viewer::open_before_eye(const ContentHash& offered) {
-    asked_case_.reset();
-    constexpr Size any{16, 9};
-    const Pose eye = eye_.view(any).room_from_eye;
-    open_case(participant_, offered, eye * Vec3{0, 0.1, new_case_distance_m}, eye.translation);
+    const CaseScene& scene = scene_.meeting().case_scene();
+    if (!scene.in_room() || !scene.in_room()->screen)
+        note(say(Phrase::point_at_organ), now);
+    else if (const auto hit =
+                 slice_at(render::ray_through(view, *input.pointer), view, scene_.meeting()))
+        set_screen(participant_, hit->screen);
+    else
+        note(say(Phrase::point_at_slice), now);
 }
 
 void Viewer::add_case(RoomPanel& panel) const {

@@ -14,6 +14,8 @@ void Viewer::enter_headset(bool real_room, double pictures_per_s, TimePoint now)
     scene_.set_cover_shown(true);
     headset_.emplace(eye_.view(any).room_from_eye, real_room);
     headset_wish_.reset();
+    open_plate(Sheet::none);
+    tools_.choose(ToolKind::none, scene_.meeting());
     pace_limits_ = xr::limits_of_display(pictures_per_s);
     window_pace_ = pace_;
     begin_pace(pace_.ways());
@@ -24,6 +26,8 @@ void Viewer::enter_headset(bool real_room, double pictures_per_s, TimePoint now)
 void Viewer::leave_headset() {
     if (!headset_)
         return;
+    open_plate(Sheet::none);
+    tools_.choose(ToolKind::none, scene_.meeting());
     headset_->leave(scene_, participant_);
     // Heads are tilted; the eye of a window stays upright.
     const Pose head = headset_->head().room_from_eye;
@@ -46,6 +50,7 @@ void Viewer::leave_headset() {
 void Viewer::on_headset(const xr::HeadsetFrame& frame, TimePoint now) {
     if (!headset_)
         return;
+    tell_refusals(now);
     MenuFacts facts;
     facts.microphone_open = microphone_open_;
     facts.muted = participant_.status().standing.muted;
@@ -56,7 +61,12 @@ void Viewer::on_headset(const xr::HeadsetFrame& frame, TimePoint now) {
                         : way().renderer;
     facts.people = scene_.meeting().people();
     facts.past = past(now);
-    headset_->on_frame(frame, facts, scene_, participant_, now);
+    if (scene_.past_moment() && tools_.chosen() != ToolKind::none)
+        tools_.choose(ToolKind::none, scene_.meeting());
+    show_plate(now);
+    headset_->on_frame(frame, facts, tools_, scene_, participant_, now);
+    if (const auto command = headset_->take_pressed())
+        press_plate(*command, now);
     if (const auto wish = headset_->take_wish())
         follow_wish(*wish, now);
     if (const std::string text = headset_->take_note(); !text.empty())
@@ -89,13 +99,48 @@ void Viewer::follow_wish(const MenuRow& wish, TimePoint now) {
     } else if (wish.action == MenuAction::live) {
         look_back(Duration(0), now);
     } else if (wish.action == MenuAction::go_to_person) {
-        if (scene_.has_real_room())
-            return;  // the room cannot be moved to another person
         if (const auto place = place_beside(wish.person))
-            headset_->go_to(*place);
+            bring(*place);
+    } else if (wish.action == MenuAction::panel) {
+        open_plate(wish.panel);
     } else {
         headset_wish_ = wish.action;
     }
+}
+
+Pose Viewer::own_eye() const {
+    constexpr Size any{16, 9};
+    return headset_ ? headset_->head().room_from_eye : eye_.view(any).room_from_eye;
+}
+
+void Viewer::open_plate(Sheet sheet) {
+    plate_ = sheet;
+    plate_made_ = {};
+    adjusting_.show(sheet == Sheet::adjust && may(session::Right::adjust));
+}
+
+// A panel changes with the session, but not with each picture.
+void Viewer::show_plate(TimePoint now) {
+    constexpr Duration every = std::chrono::milliseconds(100);
+    if (now - plate_made_ < every)
+        return;
+    plate_made_ = now;
+    Facts facts;
+    facts.received.status = participant_.status();
+    facts.visitors = participant_.visitors();
+    facts.past = past(now);
+    RoomPanel panel;
+    add_sheet(plate_, facts, panel, now);
+    plate_commands_ = std::move(panel.commands);
+    headset_->show_panels(std::move(panel.panels));
+}
+
+void Viewer::press_plate(int command, TimePoint now) {
+    plate_made_ = {};
+    if (command == close_plate)
+        open_plate(Sheet::none);
+    else if (command >= 0 && command < int(plate_commands_.size()))
+        carry_out(RoomCommand(plate_commands_[std::size_t(command)]), now);
 }
 
 void Viewer::draw_headset(const xr::HeadsetFrame& frame, unsigned framebuffer, TimePoint now) {

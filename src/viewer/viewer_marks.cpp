@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Marks and pointing of the person at the window.
+// The tools and pointing of the person at the window.
 #include <cmath>
 
 #include "viewer/viewer.h"
@@ -15,12 +15,23 @@ Pose look_along(Vec3 place, Vec3 direction) {
 
 }  // namespace
 
-void Viewer::mark(xr::WindowInput& input, Size picture) {
-    if (!marking_.tool() || !eye_.is_placed())
+void Viewer::use_tool(xr::WindowInput& input, Size picture, TimePoint now) {
+    // With a headset the hands have the tool.
+    if (tools_.chosen() == ToolKind::none || !eye_.is_placed() || headset_)
         return;
-    if (marking_.on_input(input, eye_.view(picture), scene_.meeting(), scene_.cloud(),
-                          participant_))
+    const render::CameraView view = eye_.view(picture);
+    const std::vector<CloudCamera> cloud = scene_.cloud();
+    const ToolScene scene{scene_.meeting(), view, cloud, participant_, now};
+    if (input.grabbed && input.grabbed_left &&
+        tools_.on_pointer({render::ray_through(view, *input.grabbed), true, false}, scene))
+        input.grabbed.reset();
+    Pointer pointer{std::nullopt, false, input.released};
+    if (input.pointer)
+        pointer.ray = render::ray_through(view, *input.pointer);
+    if (tools_.on_pointer(pointer, scene)) {
+        input.steering.turn = {};
         scene_changed_ = true;
+    }
 }
 
 // The ray begins below the eye, so that its owner sees it from the side.
@@ -30,8 +41,8 @@ void Viewer::point(const xr::WindowInput& input, Size picture) {
     pointer_.reset();
     if (input.points && input.pointer && eye_.is_placed()) {
         const render::CameraView view = eye_.view(picture);
-        const auto at = surface_at(*input.pointer, view, scene_.meeting(), scene_.cloud());
         const render::PickRay ray = render::ray_through(view, *input.pointer);
+        const auto at = surface_at(ray, view, scene_.meeting(), scene_.cloud());
         const Vec3 to =
             at ? at->place : ray.from + normalized(ray.direction) * room::Pointers::free_reach_m;
         const Vec3 from = view.room_from_eye * hand_from_eye;

@@ -108,14 +108,6 @@ void Viewer::slide(double value) {
         adjusting_.slide(value);
 }
 
-void Viewer::play(const PlayStep& play, TimePoint now) {
-    slides_playback_ = play.what == PlayStep::What::slide;
-    if (!may(session::Right::play))
-        return note(wire::text_of(wire::ManageRefusal::playing_role), now);
-    if (!playing_.carry_out(play, participant_, now))
-        note(wire::text_of(wire::ManageRefusal::nothing_to_play), now);
-}
-
 // The recording that a host plays is moved for all; without one a person looks back alone. False:
 // the key is not meant so.
 bool Viewer::look_back(const xr::KeyPress& key, TimePoint now) {
@@ -140,8 +132,7 @@ void Viewer::look_back(Duration ago, TimePoint now) {
 
 // Looking back, a person changes nothing of the present by what is shown of the past.
 void Viewer::keep_present(xr::WindowInput& input, TimePoint now) {
-    if (marking_.tool())
-        marking_.choose(std::nullopt, scene_.meeting());
+    tools_.choose(ToolKind::none, scene_.meeting());
     const std::size_t count = input.keys.size();
     const auto last =
         std::remove_if(input.keys.begin(), input.keys.end(), [](const xr::KeyPress& key) {
@@ -193,11 +184,11 @@ void Viewer::on_camera_key(const xr::KeyPress& key, Size picture, TimePoint now)
     if (look_back(key, now))
         return;
     if (key.action == xr::Action::pause_recording)
-        play({PlayStep::What::toggle}, now);
+        on(PlayStep{PlayStep::What::toggle}, now);
     else if (key.action == xr::Action::seek_back)
-        play({PlayStep::What::back}, now);
+        on(PlayStep{PlayStep::What::back}, now);
     else if (key.action == xr::Action::seek_forward)
-        play({PlayStep::What::forward}, now);
+        on(PlayStep{PlayStep::What::forward}, now);
     else
         adjust_cameras(key, picture, now);
 }
@@ -348,7 +339,9 @@ void Viewer::add_camera_pictures(Facts& facts, RoomPanel& panel, TimePoint now) 
 std::string Viewer::pointed_text() {
     if (!mouse_ || !eye_.is_placed())
         return "";
-    const auto at = surface_at(*mouse_, eye_.view(picture_), scene_.meeting(), scene_.cloud());
+    const render::CameraView view = eye_.view(picture_);
+    const auto at =
+        surface_at(render::ray_through(view, *mouse_), view, scene_.meeting(), scene_.cloud());
     if (!at)
         return say(Phrase::no_surface);
     if (!at->measured)

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// The menu of a person with a headset: a panel at the left wrist whose rows the other hand's ray
-// chooses.
+// The menu of a person with a headset: a plate at the left wrist whose rows the other hand's ray
+// presses.
 #pragma once
 
-#include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "render/pick.h"
 #include "room/people.h"
+#include "viewer/panels/plate.h"
+#include "viewer/sheet.h"
 
 namespace theatron::viewer {
 
@@ -24,6 +23,7 @@ enum class MenuAction {
     new_brick,
     place_table,  // with the real room around
     go_to_person,
+    panel,
     live,  // ends looking back
 };
 
@@ -31,6 +31,7 @@ struct MenuRow {
     MenuAction action{};
     std::string text;
     ParticipantId person{};  // of go_to_person
+    Sheet panel{};           // of panel
     bool operator==(const MenuRow&) const = default;
 };
 
@@ -47,35 +48,8 @@ struct MenuFacts {
 inline constexpr std::size_t most_menu_people = 6;
 std::vector<MenuRow> menu_rows(const MenuFacts& facts);
 
-// Use from one thread; add_to() with the same GL context current.
-class WristMenu {
-public:
-    static constexpr double width_m = 0.28, row_m = 0.03;
-
-    void show(bool shown) { shown_ = shown; }
-    bool is_shown() const { return shown_; }
-
-    // Its rows, and the middle of its lower edge in the room, from where it faces the eye.
-    void set(std::vector<MenuRow> rows, Vec3 place, Vec3 eye);
-    const std::vector<MenuRow>& rows() const { return rows_; }
-
-    // Where a ray meets the panel.
-    struct Hit {
-        std::size_t row = 0;
-        double distance_m = 0;
-    };
-    std::optional<Hit> pick(const render::PickRay& ray) const;
-
-    // `chosen` is the row under the ray.
-    void add_to(render::SceneFrame& frame, std::optional<std::size_t> chosen) const;
-
-private:
-    double height() const { return row_m * double(rows_.size()); }
-
-    bool shown_ = false;
-    std::vector<MenuRow> rows_;
-    Pose room_from_panel_;  // of its upper left corner: x right, y down, z away from the reader
-    mutable std::unique_ptr<render::SceneMesh> row_mesh_;
-};
+// Each row is one button, whose command is the row's number.
+inline constexpr double menu_width_m = 0.28;
+std::vector<PlateRow> plate_rows(const std::vector<MenuRow>& rows);
 
 }  // namespace theatron::viewer

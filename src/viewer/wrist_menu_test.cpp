@@ -92,21 +92,24 @@ TEST(WristMenu, ManyPeopleAreCountedAndLeavingStaysTheLastRow) {
     EXPECT_EQ(rows[rows.size() - 2].person, ParticipantId{6});
 }
 
-TEST(WristMenu, ARayChoosesTheRowThatItMeetsFromTheFront) {
-    WristMenu menu;
-    const std::vector<MenuRow> rows(4);
-    menu.set(rows, {0, 1, -0.5}, {0, 1.6, 0});
-    const double second_from_below = 1 + 1.5 * WristMenu::row_m;
-    const render::PickRay ray{{0, second_from_below, 0}, {0, 0, -2}};
-    EXPECT_FALSE(menu.pick(ray));  // it is not shown
-    menu.show(true);
-    const auto hit = menu.pick(ray);
-    ASSERT_TRUE(hit);
-    EXPECT_EQ(hit->row, 2u);
-    EXPECT_NEAR(hit->distance_m, 0.5, 1e-9);
-    EXPECT_FALSE(menu.pick({{0, second_from_below, -1}, {0, 0, 1}}));
-    EXPECT_FALSE(menu.pick({{WristMenu::width_m, second_from_below, 0}, {0, 0, -1}}));
-    EXPECT_FALSE(menu.pick({{0, 1 + 4.5 * WristMenu::row_m, 0}, {0, 0, -1}}));
+TEST(WristMenu, HasThePanels) {
+    for (const Sheet panel : {Sheet::draw, Sheet::patient_case, Sheet::people, Sheet::more}) {
+        const std::vector<MenuRow> rows = menu_rows({});
+        EXPECT_TRUE(std::any_of(rows.begin(), rows.end(), [&](const MenuRow& row) {
+            return row.action == MenuAction::panel && row.panel == panel;
+        }));
+    }
+}
+
+TEST(WristMenu, EachRowIsAButton) {
+    MenuFacts facts;
+    const std::vector<MenuRow> rows = menu_rows(facts);
+    const std::vector<PlateRow> plate = plate_rows(rows);
+    ASSERT_EQ(plate.size(), rows.size());
+    for (std::size_t i = 0; i < plate.size(); ++i) {
+        EXPECT_EQ(plate[i].buttons.at(0).command, int(i));
+        EXPECT_EQ(plate[i].buttons.at(0).text, rows[i].text);
+    }
 }
 
 }  // namespace

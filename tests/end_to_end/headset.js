@@ -127,6 +127,13 @@ headset.aim_at_row = (row, rows) => {
     const { x, y, z } = headset.left_grip;
     headset.aim("right", [x + 0.1, y + 0.1, z + 0.3], [x, y + 0.06 + (rows - row - 0.5) * 0.03, z]);
 };
+// The right ray onto a row of the panels' plate, this far from its left edge (src/viewer/panels/plate.h). The plate came while
+// the head was at rest.
+headset.aim_at_plate = (row, at) => {
+    const away = [-0.3, -0.7].map(way => way / Math.hypot(0.3, 0.7));
+    const [x, y, z] = [-0.3 - away[1] * (at - 0.25), 1.65 - (row + 0.5) * 0.03, -0.7 + away[0] * (at - 0.25)];
+    headset.aim("right", [x - 0.4 * away[0], y, z - 0.4 * away[1]], [x, y, z]);
+};
 headset.grip = (side, closed) => {
     if (device.primaryInputMode === "hand")
         device.hands[side].poseId = closed ? "pinch" : "default";

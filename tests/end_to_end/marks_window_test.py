@@ -74,7 +74,7 @@ class MarksWindow(unittest.TestCase):
                 self.assertAlmostEqual(found["cases"]["open"]["screen"]["position_mm"], -33, delta=6)
             with self.subTest("a stroke is drawn onto the organ"):
                 do("key", "z")
-                wait_until(lambda: len(self.buttons()) == 6)
+                wait_until(lambda: len(self.buttons()) == 9)
                 self.drag(ORGAN, ORGAN_RIGHT)
                 stroke = marks(anna.wait_for(lambda f: len(marks(f)) == 1))[0]
                 self.assertEqual((stroke["kind"], stroke["object"], stroke["initials"]), ("stroke", shell, "WD"))

@@ -2,9 +2,12 @@
 """The browser client with a simulated headset (iwer): controllers, hands and AR among native participants."""
 import os
 import pathlib
+import shutil
+import tempfile
 import time
 import unittest
 
+from case_test import has_all, write_case
 from page_case import PageCase
 from theatron_process import Process, read_png, run, wait_until
 
@@ -25,6 +28,10 @@ class WebHeadset(PageCase):
 
     @classmethod
     def setUpClass(cls):
+        cases = pathlib.Path(tempfile.mkdtemp(prefix="theatron_headset_"))
+        cls.addClassCleanup(shutil.rmtree, cases)
+        write_case(cases / "liver")
+        cls.options = ("--cases", cases)
         super().setUpClass()
         cls.ben = cls.stack.enter_context(Process("join", cls.link, "--name", "Ben", "--every", "0.1"))
         cls.page = cls.browser.open("about:blank", SIZE)
@@ -103,10 +110,39 @@ class WebHeadset(PageCase):
         self.headset("device.controllers.left.updateButtonValue('y-button', 1)")
         self.headset("device.controllers.left.updateButtonValue('y-button', 0)")
 
+    def press(self, row, labels, label):
+        """A button of the panels' plate, by the right controller: the buttons of its row, which stand at the right."""
+        widths = [0.0084 * len(each) + 0.024 for each in labels]
+        left = 0.5 - 0.012 - sum(width + 0.006 for width in widths[labels.index(label):])
+        self.headset(f"aim_at_plate({row}, {left + widths[labels.index(label)] / 2})")
+        self.picture(f"headset_press_{label}")
+        self.click()
+
+    def click(self):
+        self.headset("grip('right', true)")
+        self.headset("grip('right', false)")
+
+    def choose_tool(self, row, labels, label):
+        self.choose(1, 13)
+        self.press(row, labels, label)
+        self.page.wait_for(f"theatron.state.overlay.notice.includes('{label}')")
+
+    def draw(self, *places):
+        """From place to place with the trigger pressed."""
+        self.headset(f"aim('right', [0.2, 1.3, -0.2], {list(places[0])})")
+        self.headset("grip('right', true)")
+        for place in places[1:]:
+            self.headset(f"aim('right', [0.2, 1.3, -0.2], {list(place)})")
+        self.picture("headset_draws")
+        self.headset("grip('right', false)")
+
+    def marks(self, facts):
+        return [o["mark"] for o in facts["room"]["objects"] if o["kind"] == "mark"]
+
     def make_brick(self):
         """A brick 0.8 m ahead of the head."""
         before = len(self.bricks(self.ben.newest_json()))
-        self.choose(5, 9)
+        self.choose(9, 13)
         made = self.ben.wait_for(lambda f: len(self.bricks(f)) > before)
         return self.bricks(made)[-1]["id"]
 
@@ -197,7 +233,7 @@ class WebHeadset(PageCase):
         self.frames(4)
         self.assertGreater(self.light_of_corners("headset_stopped"), standing / 2)
         self.headset("device.position.set(0, 1.2, 0)")
-        self.choose(2, 9)
+        self.choose(6, 13)
         self.ada_when(lambda ada: abs(ada["head"][1] - 1.65) < 0.02)
         self.headset("device.position.set(0, 1.6, 0)")
 
@@ -337,6 +373,88 @@ class WebHeadset(PageCase):
         self.headset("aim('right', [0.2, 1.3, -0.2], [0.5, 1.6, -0.8])")
         self.headset("grip('right', false)")
         self.wait_for_holder(number, None)
+
+    def test_a_controller_marks_measures_slices_cuts_and_presses_panels(self):
+        self.enter()
+        wait_until(lambda: min(self.colors_of_eyes()) > 200)
+        tools = ["Stroke", "Arrow", "Pin", "Distance"]
+        self.choose_tool(2, tools, "Stroke")
+        # The side of the drape, below the camera's axis.
+        line = [(0.2 + x / 25, 0.7, -1.5) for x in range(7)]
+        self.draw(*line)
+        stroke = self.marks(self.ben.wait_for(self.marks))[0]
+        self.assertEqual((stroke["kind"], stroke["surface"], stroke["initials"]), ("stroke", "cloud", "A"))
+        self.choose_tool(2, ["[Stroke]", *tools[1:]], "Distance")
+        self.draw(line[0], line[-1])
+        distance_mark = self.marks(self.ben.wait_for(lambda f: len(self.marks(f)) == 2))[1]
+        self.assertEqual(distance_mark["kind"], "distance")
+        self.assertGreater(distance_mark["length_m"], 0.1)
+        self.picture("headset_marks")
+        # The newest one goes, then all.
+        self.choose(1, 13)
+        self.press(3, ["Undo", "Clear mine"], "Undo")
+        self.ben.wait_for(lambda f: len(self.marks(f)) == 1)
+        self.press(3, ["Undo", "Clear mine"], "Clear mine")
+        self.ben.wait_for(lambda f: not self.marks(f))
+        self.press(0, ["Close"], "Close")
+
+        # An organ 0.8 m before the head.
+        number = self.make_brick()
+        place = self.brick(number)["position"]
+        self.remove_bricks()
+        self.ben.say("case open --yes Made liver")
+        organ = self.ben.wait_for(has_all)["cases"]["open"]["object"]
+        self.ben.say(f"grab {organ}")
+        self.ben.say("move {} {} {}".format(*place))
+        self.ben.say("release")
+        self.addCleanup(self.ben.say, "case close")
+
+        def slice_when(condition):
+            return self.ben.wait_for(lambda f: condition(f["cases"]["open"]["screen"]))["cases"]["open"]["screen"]
+        before = slice_when(lambda screen: True)
+        of_case = ["Slice", "Cut", "Parts"]
+        self.choose_tool(4, of_case, "Slice")
+
+        def slices():
+            """Once the organ's surface has come to the page."""
+            self.draw((0, 1.62, -0.8))
+            return self.ben.newest_json()["cases"]["open"]["screen"]["position_mm"] != before["position_mm"]
+        wait_until(slices)
+        at = slice_when(lambda screen: True)
+        self.assertLess(abs(at["position_mm"]), 80)
+        # It goes with the ray.
+        self.draw((0, 1.6, -0.8), (0, 1.64, -0.8))
+        higher = slice_when(lambda screen: screen["position_mm"] > at["position_mm"] + 5)
+        self.assertLess(higher["position_mm"], 80)
+        self.choose_tool(4, ["[Slice]", *of_case[1:]], "Cut")
+        self.draw((0, 1.6, -0.8))
+        self.ben.wait_for(lambda f: f["cases"]["open"]["cut"])
+        self.frames(3)
+        self.picture("headset_cut")
+        self.draw((1.5, 1.6, -0.8))
+        self.ben.wait_for(lambda f: not f["cases"]["open"]["cut"])
+        # One part is taken out of the organ, then the organ as a whole.
+        self.choose_tool(4, ["Slice", "[Cut]", "Parts"], "Parts")
+        self.headset("aim('right', [0.2, 1.3, -0.2], [0, 1.6, -0.8])")
+        self.headset("grip('right', true)")
+        shell = self.ben.newest_json()["cases"]["open"]["parts"][0]["object"]
+        held = self.ben.wait_for(lambda f: any(o["held_by"] for o in f["room"]["objects"]))
+        self.assertEqual([o["id"] for o in held["room"]["objects"] if o["held_by"]], [shell])
+        self.headset("grip('right', false)")
+        self.choose_tool(1, ["Hold"], "Hold")
+        self.headset("aim('right', [0.2, 1.3, -0.2], [0, 1.6, -0.8])")
+        self.headset("grip('right', true)")
+        held = self.ben.wait_for(lambda f: any(o["held_by"] and o["id"] != shell for o in f["room"]["objects"]))
+        self.assertEqual([o["id"] for o in held["room"]["objects"] if o["held_by"]], [organ])
+        self.headset("grip('right', false)")
+
+        # The panel of people goes to one of them.
+        start = self.ada_when(lambda ada: True)["head"]
+        self.ben.say(f"stand {start[0] + 3} 1.6 {start[2]} {start[0]} 1.6 {start[2]}")
+        self.page.wait_for("theatron.state.people.some(p => p.name === 'Ben' && p.head)")
+        self.choose(3, 13)
+        self.press(1, ["Go to"], "Go to")
+        self.ada_when(lambda ada: distance(ada["head"], start) > 1)
 
     def test_a_pinch_takes_a_brick_and_lets_it_go(self):
         self.enter()

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "viewer/marking.h"
+#include "viewer/tools/mark.h"
 
 #include <utility>
 
-#include "viewer/mark_actions.h"
 #include "viewer/placed_marks.h"
+#include "viewer/tools/mark_actions.h"
 
 namespace theatron::viewer {
 namespace {
@@ -34,49 +34,27 @@ std::optional<MarkPoint> point_at(const SurfacePoint& at, const Meeting& meeting
 
 }  // namespace
 
-std::optional<SurfacePoint> surface_at(Vec2 pointer, const render::CameraView& view,
-                                       Meeting& meeting, const std::vector<CloudCamera>& cloud) {
-    const render::PickRay ray = render::ray_through(view, pointer);
-    const auto hit = meeting.pick(ray, view);
-    const auto measured = pick_cloud(cloud, ray);
-    if (measured && (!hit || measured->distance_m < length(hit->picked.place - ray.from)))
-        return SurfacePoint{
-            MarkedSurface::cloud, {}, measured->place, measured->normal, measured->measured};
-    const auto& open = meeting.case_scene().in_room();
-    if (!hit || !open)
-        return std::nullopt;
-    const bool is_screen = open->screen && hit->object == open->screen->id;
-    if (is_screen && !meeting.case_scene().monitor().patient_point(*open, hit->picked.place))
-        return std::nullopt;
-    if (!is_screen && !open->find(hit->object))
-        return std::nullopt;
-    return SurfacePoint{is_screen ? MarkedSurface::slice : MarkedSurface::organ, hit->object,
-                        hit->picked.place, hit->picked.normal, std::nullopt};
-}
-
-void Marking::choose(std::optional<MarkKind> tool, Meeting& meeting) {
-    tool_ = tool;
+void MarkTool::end(Meeting& meeting) {
     draft_.reset();
     meeting.set_new_mark(std::nullopt);
 }
 
-bool Marking::begin(const SurfacePoint& at, const Meeting& meeting) {
+void MarkTool::begin(const SurfacePoint& at, const Meeting& meeting) {
     const auto point = point_at(at, meeting);
     if (!point)
-        return false;
+        return;
     Draft draft{at, at, {}};
-    draft.mark.kind = *tool_;
+    draft.mark.kind = kind_;
     draft.mark.surface = at.surface;
     draft.mark.object = std::uint32_t(at.object);
-    draft.mark.number = *tool_ == MarkKind::pin ? 1 : 0;
-    draft.mark.points.assign(*tool_ == MarkKind::pin ? 1 : 2, *point);
+    draft.mark.number = kind_ == MarkKind::pin ? 1 : 0;
+    draft.mark.points.assign(kind_ == MarkKind::pin ? 1 : 2, *point);
     if (!sign_mark(meeting.room(), draft.mark))
-        return false;
+        return;
     draft_ = std::move(draft);
-    return true;
 }
 
-void Marking::go_on(const SurfacePoint& at, const Meeting& meeting) {
+void MarkTool::go_on(const SurfacePoint& at, const Meeting& meeting) {
     Mark& mark = draft_->mark;
     // Two parts of an organ: both ends are in the organ's frame, as if the parts were in place.
     const bool two_parts = mark.surface == MarkedSurface::organ &&
@@ -102,7 +80,7 @@ void Marking::go_on(const SurfacePoint& at, const Meeting& meeting) {
             float(distance_between(*draft_->first.measured, *at.measured).deviation_m);
 }
 
-bool Marking::is_worth_keeping() const {
+bool MarkTool::is_worth_keeping() const {
     const Mark& mark = draft_->mark;
     if (mark.kind == MarkKind::pin)
         return true;
@@ -111,31 +89,28 @@ bool Marking::is_worth_keeping() const {
     return length(mark.points[1].position - mark.points[0].position) >= least_length_m;
 }
 
-bool Marking::on_input(xr::WindowInput& input, const render::CameraView& view, Meeting& meeting,
-                       const std::vector<CloudCamera>& cloud, client::Participant& participant) {
-    if (!tool_)
-        return false;
-    if (input.grabbed && input.grabbed_left && !draft_)
-        if (const auto at = surface_at(*input.grabbed, view, meeting, cloud);
-            at && begin(*at, meeting))
-            input.grabbed.reset();
+bool MarkTool::on_pointer(const Pointer& pointer, const ToolScene& scene) {
+    if (pointer.presses || draft_)
+        if (const auto at = pointer.ray
+                                ? surface_at(*pointer.ray, scene.view, scene.meeting, scene.cloud)
+                                : std::nullopt) {
+            if (draft_)
+                go_on(*at, scene.meeting);
+            else
+                begin(*at, scene.meeting);
+        }
     if (!draft_)
         return false;
-    input.steering.turn = {};
-    if (input.pointer)
-        if (const auto at = surface_at(*input.pointer, view, meeting, cloud))
-            go_on(*at, meeting);
-    if (!input.released) {
+    if (!pointer.releases) {
         // As the host will have it: shorter, with the same ends.
         Mark preview = draft_->mark;
         simplify_stroke(preview);
-        meeting.set_new_mark(std::move(preview));
+        scene.meeting.set_new_mark(std::move(preview));
         return true;
     }
     if (is_worth_keeping())
-        (void)make_mark(participant, draft_->mark);
-    draft_.reset();
-    meeting.set_new_mark(std::nullopt);
+        (void)make_mark(scene.participant, draft_->mark);
+    end(scene.meeting);
     return true;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "viewer/screen_handling.h"
+#include "viewer/tools/slice.h"
 
 #include <algorithm>
 #include <cmath>
@@ -78,12 +78,78 @@ session::CaseScreen stepped(const session::CaseScreen& screen, int count, double
     return next;
 }
 
-void ScreenHandling::send(client::Participant& participant, TimePoint now) {
+std::optional<SliceHit> slice_at(const render::PickRay& ray, const render::CameraView& view,
+                                 Meeting& meeting) {
+    const CaseScene& scene = meeting.case_scene();
+    const auto& open = scene.in_room();
+    const auto hit = meeting.pick(ray, view);
+    if (!open || !open->screen || !hit)
+        return std::nullopt;
+    const session::CaseScreen& screen = open->screen->facts;
+    const double distance_m = length(hit->picked.place - ray.from);
+    if (hit->object == open->screen->id) {
+        const auto on_slice = scene.monitor().patient_point(*open, hit->picked.place);
+        if (!on_slice)
+            return std::nullopt;
+        session::CaseScreen next = screen;
+        next.orientation =
+            std::uint8_t((screen.orientation + 1) % session::CaseScreen::orientations);
+        return SliceHit{through(next, *on_slice), {}, distance_m};
+    }
+    const auto place = scene.patient_point(hit->object, hit->picked.place);
+    return place ? std::optional(SliceHit{through(screen, *place), hit->object, distance_m})
+                 : std::nullopt;
+}
+
+void WantedScreen::send(client::Participant& participant, TimePoint now) {
     if (!waiting_ || now - sent_ < send_interval)
         return;
     set_screen(participant, *waiting_);
     waiting_.reset();
     sent_ = now;
+}
+
+bool SliceTool::on_pointer(const Pointer& pointer, const ToolScene& scene) {
+    bool uses = held_.has_value();
+    if (pointer.ray && pointer.presses)
+        uses = begin(*pointer.ray, scene);
+    else if (pointer.ray && held_)
+        move(*pointer.ray, scene);
+    if (pointer.releases)
+        held_.reset();
+    wanted_.send(scene.participant, scene.now);
+    return uses;
+}
+
+bool SliceTool::begin(const render::PickRay& ray, const ToolScene& scene) {
+    held_.reset();
+    const auto& open = scene.meeting.case_scene().in_room();
+    const auto hit = slice_at(ray, scene.view, scene.meeting);
+    const auto cloud = pick_cloud(scene.cloud, ray);
+    if (!hit || (cloud && cloud->distance_m < hit->distance_m)) {
+        if (!cuts_ || !open || !open->organ.cut || scene.meeting.pick(ray, scene.view))
+            return false;
+        return cut_at_slice(scene.participant, false);
+    }
+    wanted_.want(hit->screen);
+    if (cuts_ && !open->organ.cut)
+        (void)cut_at_slice(scene.participant, true);
+    held_ = hit;
+    return true;
+}
+
+// The place of the organ that was met stays at its distance on the ray.
+void SliceTool::move(const render::PickRay& ray, const ToolScene& scene) {
+    const CaseScene& shown = scene.meeting.case_scene();
+    const auto place =
+        shown.patient_point(held_->part, ray.from + normalized(ray.direction) * held_->distance_m);
+    if (!place || !shown.in_room()->screen)
+        return;
+    session::CaseScreen next = through(shown.in_room()->screen->facts, *place);
+    if (const medical::Volume* volume = shown.monitor().volume())
+        next = scrolled(next, *volume, 0);
+    if (next != shown.in_room()->screen->facts)
+        wanted_.want(next);
 }
 
 void ScreenHandling::on_input(xr::WindowInput& input, std::optional<double> surface_m,
@@ -94,7 +160,7 @@ void ScreenHandling::on_input(xr::WindowInput& input, std::optional<double> surf
     const medical::Volume* volume = scene.monitor().volume();
     if (!open || !open->screen || (!volume && scene.monitor().pictures() == 0)) {
         drags_window_ = false;
-        waiting_.reset();
+        wanted_.forget();
         return;
     }
     const auto picks_picture = [&](Vec2 pointer) {
@@ -103,7 +169,7 @@ void ScreenHandling::on_input(xr::WindowInput& input, std::optional<double> surf
                scene.monitor().shows_at(*open, hit->picked.place) &&
                !is_hidden(hit->picked.place, surface_m, view);
     };
-    session::CaseScreen next = waiting_.value_or(open->screen->facts);
+    session::CaseScreen next = wanted_.waiting().value_or(open->screen->facts);
     const session::CaseScreen before = next;
     if (input.grabbed && input.grabbed_left && !next.picture && picks_picture(*input.grabbed)) {
         drags_window_ = true;
@@ -129,8 +195,8 @@ void ScreenHandling::on_input(xr::WindowInput& input, std::optional<double> surf
             next = scrolled(next, *volume, steps);
     }
     if (next != before)
-        waiting_ = next;
-    send(participant, now);
+        wanted_.want(next);
+    wanted_.send(participant, now);
 }
 
 }  // namespace theatron::viewer

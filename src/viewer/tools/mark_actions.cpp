@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "viewer/mark_actions.h"
+#include "viewer/tools/mark_actions.h"
 
 #include <utility>
 
