@@ -165,10 +165,13 @@ nlohmann::json bench_pipeline(const PipelineBench& bench) {
 
     std::vector<std::unique_ptr<ChildProcess>> viewers;
     for (int i = 0; i < bench.viewers; ++i)
-        viewers.push_back(std::make_unique<ChildProcess>(std::vector<std::string>{
-            "join", link_text, "--json", "--depth-codec", bench.depth_codec, "--color-codec",
-            bench.color_codec, "--target-latency", "0", "--warmup",
-            std::to_string(bench.warmup_seconds), "--seconds", std::to_string(bench.seconds)}));
+        viewers.push_back(std::make_unique<ChildProcess>(
+            std::vector<std::string>{
+                "join", link_text, "--json", "--depth-codec", bench.depth_codec, "--color-codec",
+                bench.color_codec, "--target-latency", "0", "--warmup",
+                std::to_string(bench.warmup_seconds), "--seconds", std::to_string(bench.seconds)},
+            // A person of its own: one person has few views of a session.
+            (folder.path / ("viewer" + std::to_string(i))).string()));
 
     // Samples lie slightly inside the interval in which the viewers measure.
     const auto sleep_for = [](double s) {
