@@ -102,7 +102,8 @@ nlohmann::json measure_face(const FaceFlags& flags) {
         {face::Source::xr_htc, "training for HTC"}};
     std::optional<face::Network> network;
     for (const auto& [source, what] : sources) {
-        network = face::train_synthetic(source, {}, [&](double done) { progress(what, done); });
+        network = face::train_synthetic(
+            source, {}, [&progress, what = what](double done) { progress(what, done); });
         const face::Recording others =
             face::synthetic_recording(source, flags.persons, held_out_seed);
         const std::string name(face::source_name(source));
