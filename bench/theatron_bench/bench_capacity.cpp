@@ -144,8 +144,7 @@ void add_capacity_bench(CLI::App& bench) {
     command->add_option("--seconds", flags->seconds, "Measured time of a run")
         ->capture_default_str()
         ->check(cli::number_from_to(2, 3600));
-    command->add_option("--json", flags->json,
-                        "Write the result to this file; - prints it instead of the table");
+    add_json_option(*command, flags->json);
     command->callback([flags] {
         if (flags->cameras.empty())
             flags->cameras = {"synthetic:room,seconds=2,camera=0",

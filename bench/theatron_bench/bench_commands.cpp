@@ -91,8 +91,7 @@ CLI::App* add_codec_bench(CLI::App& bench, const char* name, const char* help, C
     command->add_option("--frames", flags.frames, "Most frames of each")
         ->capture_default_str()
         ->check(CLI::Range(1, 100000));
-    command->add_option("--json", flags.json,
-                        "Write the result to this file; - prints it instead of the table");
+    add_json_option(*command, flags.json);
     command->add_option("--plot", flags.plot, "Draw size against speed into this SVG file");
     return command;
 }
@@ -224,8 +223,7 @@ void add_pipeline(CLI::App& bench) {
     command->add_option("--color-codec", flags->bench.color_codec, "Of all viewers")
         ->capture_default_str();
     command->add_option("--filter", flags->bench.filter, "Of all cameras")->capture_default_str();
-    command->add_option("--json", flags->json,
-                        "Write the result to this file; - prints it instead of the table");
+    add_json_option(*command, flags->json);
     command->callback([flags] {
         PipelineBench b = flags->bench;
         for (std::size_t i = 0; b.cameras.size() < std::size_t(flags->cameras); ++i)
@@ -309,8 +307,7 @@ void add_interaction(CLI::App& bench) {
         ->check(CLI::Range(0, 16));
     command->add_flag("--draw", b.draws,
                       "One more participant draws all cameras in a window, which needs a display");
-    command->add_option("--json", flags->json,
-                        "Write the result to this file; - prints it instead of the table");
+    add_json_option(*command, flags->json);
     command->callback([flags] {
         for (int i = 0; i < flags->generated; ++i)
             flags->bench.cameras.push_back("synthetic:color=depth,preload=1");
@@ -367,8 +364,7 @@ void add_render(CLI::App& bench) {
                      "does that is too slow otherwise")
         ->capture_default_str()
         ->check(CLI::Range(1, 8));
-    command->add_option("--json", flags->json,
-                        "Write the result to this file; - prints it instead of the table");
+    add_json_option(*command, flags->json);
     command->callback([flags] {
         RenderBench b;
         b.cameras = generated_render_cameras(flags->cameras);
@@ -418,8 +414,7 @@ void add_view(CLI::App& bench) {
         ->capture_default_str()
         ->check(cli::number_from_to(0.3, 1.0));
     command->add_option("--pictures", flags->pictures, "Write the pictures to this folder");
-    command->add_option("--json", flags->json,
-                        "Write the result to this file; - prints it instead of the table");
+    add_json_option(*command, flags->json);
     command->callback([flags] {
         for (const std::string& renderer : flags->renderers)
             render::check_renderer_name(renderer);
@@ -482,8 +477,7 @@ void add_registration(CLI::App& bench) {
         "40 images, 2 seeds and 5 frames: whether all works, in a minute; says little of errors");
     for (CLI::Option* amount : amounts)
         quick->excludes(amount);
-    command->add_option("--json", flags->json,
-                        "Write the result to this file; - prints it instead of the table");
+    add_json_option(*command, flags->json);
     command->callback([flags] {
         if (flags->quick) {
             const int threads = flags->options.threads;

@@ -76,8 +76,7 @@ void add_compare_bench(CLI::App& bench) {
     command->add_option(
         "--page", flags->page,
         "Write a page with the pictures to this file, HTML that needs no other file");
-    command->add_option("--json", flags->json,
-                        "Write the result to this file; - prints it instead of the table");
+    add_json_option(*command, flags->json);
     command->callback([flags] { run_compare(*flags); });
 }
 

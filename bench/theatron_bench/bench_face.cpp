@@ -159,8 +159,7 @@ void add_face_bench(CLI::App& bench) {
     command->add_option("--persons", flags->persons, "Made-up persons")
         ->capture_default_str()
         ->check(CLI::Range(2, 1000));
-    command->add_option("--json", flags->json,
-                        "Write the result to this file; - prints it instead of the table");
+    add_json_option(*command, flags->json);
     command->callback([flags] {
         const nlohmann::json result = measure_face(*flags);
         report(result, flags->json, [&] { print_face(result); });

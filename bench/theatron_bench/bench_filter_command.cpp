@@ -170,8 +170,7 @@ void add_filter_bench(CLI::App& bench) {
         "rendered once, which takes minutes");
     command->add_flag("--stereo", flags->stereo,
                       "With --quality: the generated scenes as a stereo camera sees them");
-    command->add_option("--json", flags->json,
-                        "Write the result to this file; - prints it instead of the table");
+    add_json_option(*command, flags->json);
     command->callback([flags] { run(*flags); });
 }
 

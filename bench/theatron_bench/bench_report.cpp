@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench_report.h"
 
+#include <CLI/CLI.hpp>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
@@ -20,6 +21,11 @@ void report(const nlohmann::json& result, const std::string& file,
     if (file.empty())
         return;
     files::write_file(file, as_bytes(files::json_text(result, 2) + "\n"));
+}
+
+void add_json_option(CLI::App& command, std::string& file) {
+    command.add_option("--json", file,
+                       "Write the result to this file; - prints it instead of the table");
 }
 
 void require_outputs(std::initializer_list<std::string> files) {

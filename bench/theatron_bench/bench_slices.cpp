@@ -113,8 +113,7 @@ void add_slices_bench(CLI::App& bench) {
         "slices", "A case's images: time from another slice to its finished picture");
     command->footer("Example: theatron bench slices my-case --json -");
     command->add_option("CASE", flags->folder, "A case's folder")->required();
-    command->add_option("--json", flags->json,
-                        "Write the result to this file; - prints it instead of the table");
+    add_json_option(*command, flags->json);
     command->callback([flags] {
         ScreenBench screen(flags->folder);
         nlohmann::json r{{"gl_renderer", screen.renderer_name()},

@@ -78,8 +78,7 @@ void add_table1_bench(CLI::App& bench) {
     command->add_option("--csv", flags->csv, "Write the rows to this file as CSV");
     command->add_option("--page", flags->page,
                         "Write a page with plots to this file, HTML that needs no other file");
-    command->add_option("--json", flags->json,
-                        "Write the result to this file; - prints it instead of the table");
+    add_json_option(*command, flags->json);
     command->callback([flags] { run(*flags); });
 }
 

@@ -291,8 +291,7 @@ void add_voice_bench(CLI::App& bench) {
                         "The speaker's camera, with whose colour the voice is compared");
     command->add_option("--cases", flags->bench.cases,
                         "A folder of cases, of which the listener fetches the first meanwhile");
-    command->add_option("--json", flags->json,
-                        "Write the result to this file; - prints it instead of the table");
+    add_json_option(*command, flags->json);
     command->callback([flags] {
         const VoiceBench& b = flags->bench;
         nlohmann::json r{{"frame_ms", b.frame_ms},

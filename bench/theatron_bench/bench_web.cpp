@@ -227,8 +227,7 @@ void add_web_bench(CLI::App& bench) {
         ->check(CLI::IsMember({"page"}));
     command->add_option("--color", flags->bench.color,
                         "The codec of colour that the page asks for; by itself if empty");
-    command->add_option("--json", flags->json,
-                        "Write the result to this file; - prints it instead of the table");
+    add_json_option(*command, flags->json);
     command->callback([flags] {
         Size& size = flags->bench.size;
         if (flags->bench.full && !flags->bench.cameras.empty())

@@ -18,4 +18,11 @@ bool wait_for(std::condition_variable& changed, std::unique_lock<std::mutex>& lo
     return changed.wait_for(lock, patience, condition);
 }
 
+// The same without a bound.
+template <class Condition>
+void wait(std::condition_variable& changed, std::unique_lock<std::mutex>& lock,
+          Condition condition) {
+    changed.wait(lock, condition);
+}
+
 }  // namespace theatron

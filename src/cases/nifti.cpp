@@ -254,6 +254,14 @@ Bytes first_bytes(ByteView file, bool packed, std::size_t size) {
     return head;
 }
 
+// The bytes of the longer of both headers, zeros where the file has fewer; empty if it is too short
+// for either.
+Bytes head_of(ByteView file, bool packed) {
+    Bytes head = first_bytes(file, packed, header_size_2);
+    head.resize(head.size() < header_size ? 0 : header_size_2);
+    return head;
+}
+
 bool is_packed(ByteView file) {
     return file.size() > 2 && file[0] == std::byte(0x1f) && file[1] == std::byte(0x8b);
 }
@@ -261,20 +269,18 @@ bool is_packed(ByteView file) {
 }  // namespace
 
 bool is_nifti_head(ByteView file) {
-    Bytes head = first_bytes(file, is_packed(file), header_size_2);
-    if (head.size() < header_size)
+    const Bytes head = head_of(file, is_packed(file));
+    if (head.empty())
         return false;
-    head.resize(header_size_2);
     const Header header(head);
     return header.version() != 0 && header.is_apart();
 }
 
 ParsedLabels parse_nifti(ByteView file, ByteView samples) {
     const bool packed = is_packed(file);
-    Bytes head = first_bytes(file, packed, header_size_2);
-    if (head.size() < header_size)
+    const Bytes head = head_of(file, packed);
+    if (head.empty())
         return {{}, "is no NIfTI file, or cut off"};
-    head.resize(header_size_2);
     const Header header(head);
     if (header.version() == 0)
         return {{}, "is no NIfTI file of version 1 or 2", true};

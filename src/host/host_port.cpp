@@ -12,12 +12,6 @@
 #include "host/port_pages.h"
 
 namespace theatron::host {
-namespace {
-
-// The server's thread tells when it is done; nothing depends on this time.
-constexpr Duration look_again = std::chrono::seconds(1);
-
-}  // namespace
 
 HostPort::HostPort(PortOptions options)
     : options_(std::move(options)),
@@ -113,8 +107,7 @@ void HostPort::run_there(const std::function<void()>& work) {
         done->changed.notify_all();
     });
     std::unique_lock lock(done->mutex);
-    while (!wait_for(done->changed, lock, look_again, [&] { return done->is_done; })) {
-    }
+    wait(done->changed, lock, [&] { return done->is_done; });
 }
 
 net::Link HostPort::link() const {

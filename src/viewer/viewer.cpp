@@ -111,7 +111,7 @@ void Viewer::carry_out(const xr::KeyPress& key, Size picture, TimePoint now) {
             break;
         case xr::Action::point:
             points_ = !points_;
-            if (points_ && tools_.chosen() != ToolKind::none) {  // the mouse does one of both
+            if (points_ && tools_.any()) {  // the mouse does one of both
                 tools_.choose(ToolKind::none, scene_.meeting());
                 scene_changed_ = true;
             }
@@ -136,8 +136,7 @@ void Viewer::carry_out(const xr::KeyPress& key, Size picture, TimePoint now) {
             break;
         case xr::Action::marks:
             points_ = false;
-            tools_.choose(tools_.chosen() == ToolKind::none ? ToolKind::stroke : ToolKind::none,
-                          scene_.meeting());
+            tools_.choose(tools_.any() ? ToolKind::none : ToolKind::stroke, scene_.meeting());
             scene_changed_ = true;
             break;
         case xr::Action::undo_mark:
@@ -476,7 +475,7 @@ Facts Viewer::facts(TimePoint now) {
     }
     facts.rectangle = adjusting_.rectangle();
     facts.bar = playing_.bar(participant_, may(session::Right::play), now, panel);
-    if (tools_.chosen() != ToolKind::none && !options_.one_panel)
+    if (tools_.any() && !options_.one_panel)
         add_tool_choice(facts, panel);
     add_camera_pictures(facts, panel, now);
     facts.pointed = pointed_text();

@@ -43,11 +43,11 @@ xr::PanelButton button(RoomPanel& panel, Phrase label, RoomCommand command) {
 }  // namespace
 
 Sheet Viewer::sheet() const {
-    return shows_panels_                       ? Sheet::people
-           : shows_case_                       ? Sheet::patient_case
-           : tools_.chosen() != ToolKind::none ? Sheet::draw
-           : adjusting_.is_shown()             ? Sheet::adjust
-                                               : sheet_;
+    return shows_panels_           ? Sheet::people
+           : shows_case_           ? Sheet::patient_case
+           : tools_.any()          ? Sheet::draw
+           : adjusting_.is_shown() ? Sheet::adjust
+                                   : sheet_;
 }
 
 bool Viewer::shows_sound() const {
@@ -58,7 +58,7 @@ bool Viewer::shows_sound() const {
 void Viewer::open_sheet(Sheet sheet) {
     shows_panels_ = sheet == Sheet::people;
     shows_case_ = sheet == Sheet::patient_case;
-    if (sheet != Sheet::draw && tools_.chosen() != ToolKind::none) {
+    if (sheet != Sheet::draw && tools_.any()) {
         tools_.choose(ToolKind::none, scene_.meeting());
         scene_changed_ = true;
     }
@@ -71,8 +71,8 @@ void Viewer::open_sheet(Sheet sheet) {
 void Viewer::keep_one_panel(Sheet before) {
     if (!options_.one_panel)
         return;
-    const bool is_open[] = {shows_panels_, shows_case_, tools_.chosen() != ToolKind::none,
-                            adjusting_.is_shown(), sheet_ != Sheet::none};
+    const bool is_open[] = {shows_panels_, shows_case_, tools_.any(), adjusting_.is_shown(),
+                            sheet_ != Sheet::none};
     const Sheet sheets[] = {Sheet::people, Sheet::patient_case, Sheet::draw, Sheet::adjust, sheet_};
     for (std::size_t i = 0; i < std::size(sheets); ++i)
         if (is_open[i] && sheets[i] != before)
@@ -105,7 +105,7 @@ void Viewer::add_tools(Facts& facts, RoomPanel& panel, TimePoint now) const {
     bar.microphone = voices_.microphone;
     bar.own_face = own_face_;
     bar.points = points_;
-    bar.draws = tools_.chosen() != ToolKind::none;
+    bar.draws = tools_.any();
     bar.shows_case = shows_case_;
     bar.shows_people = shows_panels_;
     bar.shows_more = sheet_ != Sheet::none && sheet_ != Sheet::details;
@@ -158,21 +158,21 @@ void Viewer::add_more_panel(RoomPanel& panel) const {
         more.rows.push_back(
             {say(text), "", {button(panel, Phrase::more_open, std::move(command))}});
     };
-    if (!headset_)
-        row(Phrase::more_help, PressKey{xr::Action::help});
+    const auto row_of_window = [&](Phrase text, xr::Action key) {
+        if (!headset_)
+            row(text, PressKey{key});
+    };
+    row_of_window(Phrase::more_help, xr::Action::help);
     row(Phrase::sound, ShowSheet{Sheet::sound});
-    if (!headset_)
-        row(Phrase::more_pictures, PressKey{xr::Action::camera_pictures});
+    row_of_window(Phrase::more_pictures, xr::Action::camera_pictures);
     row(Phrase::places, ShowSheet{Sheet::places});
     row(Phrase::screens, ShowSheet{Sheet::screens});
     if (participant_.can_look_back())
         row(Phrase::look_back_alone, ShowSheet{Sheet::look_back});
-    if (!headset_) {
-        row(Phrase::more_details, PressKey{xr::Action::facts});
-        row(Phrase::more_home, PressKey{xr::Action::own_view});
-        row(Phrase::more_full_screen, PressKey{xr::Action::full_screen});
-        row(Phrase::more_save, PressKey{xr::Action::save_picture});
-    }
+    row_of_window(Phrase::more_details, xr::Action::facts);
+    row_of_window(Phrase::more_home, xr::Action::own_view);
+    row_of_window(Phrase::more_full_screen, xr::Action::full_screen);
+    row_of_window(Phrase::more_save, xr::Action::save_picture);
     if (may(session::Right::adjust))
         row(Phrase::more_adjust, PressKey{xr::Action::adjust_cameras});
     panel.panels.push_back(std::move(more));

@@ -61,7 +61,7 @@ void Viewer::on_headset(const xr::HeadsetFrame& frame, TimePoint now) {
                         : way().renderer;
     facts.people = scene_.meeting().people();
     facts.past = past(now);
-    if (scene_.past_moment() && tools_.chosen() != ToolKind::none)
+    if (scene_.past_moment() && tools_.any())
         tools_.choose(ToolKind::none, scene_.meeting());
     show_plate(now);
     headset_->on_frame(frame, facts, tools_, scene_, participant_, now);
@@ -116,13 +116,15 @@ Pose Viewer::own_eye() const {
 void Viewer::open_plate(Sheet sheet) {
     plate_ = sheet;
     plate_made_ = {};
+    if (sheet == Sheet::none && headset_)
+        headset_->show_panels({});
     adjusting_.show(sheet == Sheet::adjust && may(session::Right::adjust));
 }
 
 // A panel changes with the session, but not with each picture.
 void Viewer::show_plate(TimePoint now) {
     constexpr Duration every = std::chrono::milliseconds(100);
-    if (now - plate_made_ < every)
+    if (plate_ == Sheet::none || now - plate_made_ < every)
         return;
     plate_made_ = now;
     Facts facts;

@@ -17,7 +17,7 @@ Pose look_along(Vec3 place, Vec3 direction) {
 
 void Viewer::use_tool(xr::WindowInput& input, Size picture, TimePoint now) {
     // With a headset the hands have the tool.
-    if (tools_.chosen() == ToolKind::none || !eye_.is_placed() || headset_)
+    if (!tools_.any() || !eye_.is_placed() || headset_)
         return;
     const render::CameraView view = eye_.view(picture);
     const std::vector<CloudCamera> cloud = scene_.cloud();

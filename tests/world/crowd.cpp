@@ -5,6 +5,7 @@
 
 #include "base/fault.h"
 #include "wire/person_pose.h"
+#include "wire/protocol.h"
 
 namespace theatron::world {
 namespace {
@@ -42,7 +43,7 @@ Crowd::Crowd(unsigned seed) : world_(seed), random_(seed), faults_before_(fault_
         person.path().delay = Duration(1000 * (1 + number(200)));
         person.path().loss = number(3) == 0 ? 0.05 : 0;
         if (number(2) == 0)
-            person.options.person = Bytes(32, std::byte(1 + members_.size()));
+            person.options.person = Bytes(wire::person_id_size, std::byte(1 + members_.size()));
         members_.push_back({&person, role, {}});
     }
 }

@@ -2,6 +2,7 @@
 // Roles, and what operators decide on people.
 #include <gmock/gmock.h>
 
+#include "wire/protocol.h"
 #include "world/acts.h"
 
 namespace theatron::world {
@@ -31,7 +32,8 @@ TEST(WorldPeople, WhoMustAskWaitsUntilAnOperatorDecides) {
     Person& chief = world.joined("Chief", Role::operator_);
     Person& anna = world.person("Anna");
     Person& otto = world.person("Otto");
-    anna.options.person = Bytes(32, std::byte(9));  // by which the host knows her again
+    anna.options.person =
+        Bytes(wire::person_id_size, std::byte(9));  // by which the host knows her again
     anna.join();
     otto.join(Role::observer);
     EXPECT_TRUE(world.until([&] { return chief->visitors().size() == 2; }));
@@ -101,7 +103,7 @@ TEST(WorldPeople, WhoIsRemovedStaysOut) {
     World world;
     Person& chief = world.joined("Chief", Role::operator_);
     Person& anna = world.person("Anna");
-    anna.options.person = Bytes(32, std::byte(9));
+    anna.options.person = Bytes(wire::person_id_size, std::byte(9));
     (void)world.joined("Anna");
     EXPECT_EQ(decide(world, chief, ManageAction::remove, anna.number()), ManageRefusal::none);
     EXPECT_TRUE(world.until([&] { return anna->status().phase == Phase::refused; }));

@@ -2,8 +2,8 @@
 // A host and its people in one process, over links that the test delays, cuts and breaks, in a time
 // that passes only while the test lets it (docs/testing.md).
 //
-// What is compiled for it are the product's own sources; docs/decisions/world.md names the few that
-// have a stand-in. Tests speak to the public surface alone: host::Host and client::Participant.
+// The product's own sources are compiled for it; docs/decisions/world.md names the few that have a
+// stand-in. Tests speak to the public surface alone: host::Host and client::Participant.
 #pragma once
 
 #include <deque>

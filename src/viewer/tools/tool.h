@@ -70,6 +70,7 @@ Phrase name_of(ToolKind kind);
 class Tools {
 public:
     ToolKind chosen() const { return chosen_; }
+    bool any() const { return chosen_ != ToolKind::none; }  // is chosen
     void choose(ToolKind kind, Meeting& meeting);
     // Single parts of an organ are held instead of the organ.
     bool takes_parts() const { return chosen_ == ToolKind::part; }

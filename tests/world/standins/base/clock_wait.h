@@ -28,5 +28,13 @@ bool wait_for(std::condition_variable& changed, std::unique_lock<std::mutex>& lo
     return condition();
 }
 
+template <class Condition>
+void wait(std::condition_variable& changed, std::unique_lock<std::mutex>& lock,
+          Condition condition) {
+    constexpr Duration some_events = std::chrono::seconds(1);
+    while (!wait_for(changed, lock, some_events, condition)) {
+    }
+}
+
 }  // namespace world_time
 }  // namespace theatron
