@@ -70,6 +70,7 @@ set(THEATRON_COMPILED_ALONE
   src/net/door.cpp
   src/net/link_test.cpp
   src/net/sha256.cpp
+  src/net/way_to_host.cpp
   src/record/intake_test.cpp
   src/record/remarks.cpp
   src/record/segment_info.cpp
@@ -115,7 +116,8 @@ set(THEATRON_COMPILED_ALONE
 )
 
 # Options, JSON and handshakes: what they do takes no time, and the compiler takes the longest of all with them.
-set(THEATRON_COMPILED_QUICKLY src/net/client.cpp src/net/door.cpp src/net/https_get.cpp)
+set(THEATRON_COMPILED_QUICKLY src/net/client.cpp src/net/door.cpp src/net/https_get.cpp
+  src/net/way_to_host.cpp)
 
 # theatron_compile_together(TARGET SOURCE...): the sources of TARGET, but for those of the lists above.
 function(theatron_compile_together target)

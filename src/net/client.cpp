@@ -2,13 +2,14 @@
 #include "net/client.h"
 
 #include <openssl/x509.h>
-#include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
 
+#include "base/error.h"
 #include "base/fault.h"
 #include "net/certificate.h"
 #include "net/connection.h"
+#include "net/way_to_host.h"
 #include "phrases/phrase.h"
 
 namespace theatron::net {
@@ -16,7 +17,6 @@ namespace {
 
 namespace asio = boost::asio;
 namespace beast = boost::beast;
-using asio::ip::tcp;
 
 std::string fingerprint_of_peer(SSL* ssl) {
     X509* certificate = SSL_get1_peer_certificate(ssl);
@@ -35,9 +35,10 @@ struct Client::Impl {
     Duration patience = std::chrono::seconds(10);
     asio::io_context io{1};
     asio::ssl::context tls{asio::ssl::context::tls_client};
-    tcp::resolver resolver{io};
     asio::steady_timer timer{io};
     std::unique_ptr<WebSocket> socket;
+    std::optional<OutgoingProxy> proxy;
+    std::unique_ptr<WayToHost> way;
     std::shared_ptr<Connection> connection;
     End end;
 
@@ -48,23 +49,22 @@ struct Client::Impl {
         io.stop();
     }
 
-    void resolve() {
-        resolver.async_resolve(
-            link.host, std::to_string(link.port),
-            [this](beast::error_code error, tcp::resolver::results_type found) {
-                if (error)
-                    return finish(say(Phrase::host_unknown, link.host, error.message()));
-                connect(found);
-            });
-    }
-
-    void connect(const tcp::resolver::results_type& found) {
+    void connect() {
+        try {
+            proxy = proxy_for(link.host, proxy_settings_of_environment());
+        } catch (const Error& wrong) {
+            return finish(wrong.what(), true);
+        }
         socket = std::make_unique<WebSocket>(io, tls);
-        auto& tcp_stream = beast::get_lowest_layer(*socket);
-        tcp_stream.expires_after(patience);
-        tcp_stream.async_connect(found, [this](beast::error_code error, const tcp::endpoint&) {
-            if (error)
-                return finish(say(Phrase::no_host_answers_because, where(), error.message()));
+        way = std::make_unique<WayToHost>(beast::get_lowest_layer(*socket), link.host, link.port,
+                                          proxy);
+        way->open(patience, [this](const std::optional<Unreached>& unreached) {
+            if (unreached && unreached->what == Unreached::What::host_unknown)
+                return finish(say(Phrase::host_unknown, link.host, unreached->because));
+            if (unreached)
+                return finish(
+                    say(Phrase::no_host_answers_because, where(), text_of(*unreached, proxy)),
+                    unreached->what == Unreached::What::proxy_wants_name);
             tune_socket(beast::get_lowest_layer(*socket).socket());
             set_receive_buffer(beast::get_lowest_layer(*socket).socket(), viewer_receive_buffer);
             handshake();
@@ -81,7 +81,9 @@ struct Client::Impl {
                 // been sent yet.
                 const std::string shown = fingerprint_of_peer(socket->next_layer().native_handle());
                 if (!equal_secrets(shown, link.fingerprint))
-                    return finish(say(Phrase::other_certificate, where()), true);
+                    return finish(proxy ? say(Phrase::proxy_opens_tls, where(), proxy->where())
+                                        : say(Phrase::other_certificate, where()),
+                                  true);
                 upgrade();
             });
     }
@@ -135,7 +137,7 @@ Client::~Client() = default;
 
 Client::End Client::run() {
     const bool ended = contain("net", [this] {
-        impl_->resolve();
+        impl_->connect();
         impl_->tick();
         impl_->io.run();
     });

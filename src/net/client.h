@@ -35,8 +35,9 @@ public:
 
     // The reason for the end of run().
     struct End {
-        std::string why;     // one sentence, empty after stop()
-        bool final = false;  // another attempt is useless: the certificate is another one
+        std::string why;  // one sentence, empty after stop()
+        bool final =
+            false;  // another attempt is useless: another certificate, a proxy without a password
     };
 
     // Connects and serves until the connection ends or stop() is called. Not in a browser.

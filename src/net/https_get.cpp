@@ -2,12 +2,12 @@
 #include "net/https_get.h"
 
 #include <openssl/ssl.h>
-#include <boost/asio/ip/tcp.hpp>
 #include <boost/beast/http.hpp>
 
 #include "base/error.h"
 #include "net/certificate.h"
 #include "net/connection.h"
+#include "net/way_to_host.h"
 
 namespace theatron::net {
 namespace {
@@ -15,7 +15,6 @@ namespace {
 namespace asio = boost::asio;
 namespace beast = boost::beast;
 namespace http = beast::http;
-using asio::ip::tcp;
 
 constexpr std::size_t max_answer = std::size_t(16) << 20;
 
@@ -25,14 +24,19 @@ struct Exchange {
     Duration timeout;
     asio::io_context io{1};
     asio::ssl::context tls{asio::ssl::context::tls_client};
-    tcp::resolver resolver{io};
     TlsStream stream{io, tls};
+    std::optional<OutgoingProxy> proxy;
+    WayToHost way;
     http::request<http::empty_body> request;
     http::response_parser<http::string_body> answer;
     beast::flat_buffer buffer;
     std::string problem = "no answer came in time";
 
-    Exchange(const Link& l, const std::string& target, Duration t) : link(l), timeout(t) {
+    Exchange(const Link& l, const std::string& target, Duration t)
+        : link(l),
+          timeout(t),
+          proxy(proxy_for(l.host, proxy_settings_of_environment())),
+          way(beast::get_lowest_layer(stream), l.host, l.port, proxy) {
         SSL_CTX_set_min_proto_version(tls.native_handle(), TLS1_3_VERSION);
         // The pinned fingerprint is checked by hand after the handshake.
         tls.set_verify_mode(asio::ssl::verify_none);
@@ -57,16 +61,12 @@ struct Exchange {
     }
 
     void run() {
-        resolver.async_resolve(link.host, std::to_string(link.port),
-                               [this](beast::error_code error, tcp::resolver::results_type found) {
-                                   if (error) {
-                                       problem = error.message();
-                                       return;
-                                   }
-                                   beast::get_lowest_layer(stream).expires_after(timeout);
-                                   beast::get_lowest_layer(stream).async_connect(
-                                       found, then([this] { handshake(); }));
-                               });
+        way.open(timeout, [this](const std::optional<Unreached>& unreached) {
+            if (unreached)
+                problem = text_of(*unreached, proxy);
+            else
+                handshake();
+        });
         io.run_for(timeout + 1s);
     }
     void handshake() {
@@ -74,7 +74,7 @@ struct Exchange {
                                    if (shows_the_right_certificate())
                                        ask();
                                    else
-                                       problem = "it shows another certificate than the link names";
+                                       problem = wrong_certificate();
                                }));
     }
     bool shows_the_right_certificate() {
@@ -84,6 +84,11 @@ struct Exchange {
         const std::string shown = certificate_fingerprint(certificate);
         X509_free(certificate);
         return equal_secrets(shown, link.fingerprint);
+    }
+    std::string wrong_certificate() const {
+        return proxy ? "another certificate than the link names comes through the proxy " +
+                           proxy->where() + ", which may open encrypted connections"
+                     : "it shows another certificate than the link names";
     }
     void ask() {
         http::async_write(stream, request, then([this] {

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// Connects a stream to a host by TCP: directly, or through the tunnel of an outgoing proxy.
+#pragma once
+
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/beast/core/tcp_stream.hpp>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "base/time.h"
+#include "net/outgoing_proxy.h"
+
+namespace theatron::net {
+
+// The reason why a host was not reached.
+struct Unreached {
+    // host_unknown: its name has no address.
+    enum class What {
+        host_unknown,
+        host_silent,
+        proxy_unknown,
+        proxy_silent,
+        proxy_wants_name,
+        proxy_refuses
+    };
+    What what{};
+    std::string because;  // the system's or the proxy's words
+};
+
+// A sentence without a full stop and without the host's name, in the person's language.
+std::string text_of(const Unreached& unreached, const std::optional<OutgoingProxy>& proxy);
+
+// One attempt. Used on the stream's thread; the stream must outlive it.
+class WayToHost {
+public:
+    WayToHost(boost::beast::tcp_stream& stream, std::string host, std::uint16_t port,
+              std::optional<OutgoingProxy> proxy);
+    ~WayToHost();
+
+    // Calls `done` once, unless this or the stream is destroyed before: with nullopt when bytes
+    // that are written to the stream reach the host. The stream's time runs out after `patience`,
+    // which the caller may then set anew.
+    void open(Duration patience, std::function<void(std::optional<Unreached>)> done);
+
+private:
+    // The longest answer of a proxy, bytes.
+    static constexpr unsigned max_answer = 16 << 10;
+
+    struct Answer;
+    void connect(const boost::asio::ip::tcp::resolver::results_type& found);
+    void ask_for_tunnel();
+    void take_answer();
+
+    boost::beast::tcp_stream& stream_;
+    std::string host_;
+    std::uint16_t port_;
+    std::optional<OutgoingProxy> proxy_;
+    boost::asio::ip::tcp::resolver resolver_;
+    Duration patience_{};
+    std::function<void(std::optional<Unreached>)> done_;
+    std::string request_;
+    std::unique_ptr<Answer> answer_;
+};
+
+}  // namespace theatron::net
