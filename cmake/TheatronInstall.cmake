@@ -44,6 +44,7 @@ install(FILES ${packaging}/theatron.metainfo.xml DESTINATION ${CMAKE_INSTALL_DAT
 install(FILES ${packaging}/theatron-host@.service DESTINATION lib/systemd/system COMPONENT server)
 install(FILES ${packaging}/theatron-or-screen.service DESTINATION lib/systemd/user COMPONENT server)
 install(PROGRAMS ${packaging}/theatron-acme-hook DESTINATION ${CMAKE_INSTALL_DATADIR}/theatron RENAME acme-hook COMPONENT server)
+install(PROGRAMS ${packaging}/theatron-restart-hosts DESTINATION ${CMAKE_INSTALL_DATADIR}/theatron RENAME restart-hosts COMPONENT server)
 install(FILES ${packaging}/theatron.sysusers DESTINATION lib/sysusers.d RENAME theatron.conf COMPONENT server)
 install(FILES ${packaging}/theatron.tmpfiles DESTINATION lib/tmpfiles.d RENAME theatron.conf COMPONENT server)
 install(FILES ${packaging}/theatron.rules DESTINATION lib/udev/rules.d RENAME 60-theatron.rules COMPONENT server)

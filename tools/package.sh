@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Builds the source package and, from it alone and without a network, the Debian packages into build/packages, and lets lintian
-# and the validators of their parts look at them.
-# Usage: package.sh
+# and the validators of their parts look at them. --twice: builds them again, in another time zone and language, and compares the bytes.
+# Usage: package.sh [--twice]
 set -euo pipefail
 cd "$(dirname "$0")/.."
 tools/setup.sh packages_package.txt
@@ -35,19 +35,39 @@ mkdir "$tree"
 git ls-files -z | tar --create --null --files-from=- libraries | tar --extract --directory="$tree"
 (cd "$folder" && dpkg-source --build "$tree")
 rm -rf "$tree"
-(cd "$folder" && dpkg-source --extract "theatron_$version.dsc" "$tree")
 
 # Where namespaces can be made, the build has no network. ccache has the objects of a build before.
 offline=()
 unshare --net true 2> /dev/null && offline=(unshare --net)
 [ ${#offline[@]} -gt 0 ] || echo "package: no namespace can be made here, so the build could reach the network"
-(cd "$tree" && THEATRON_DEB_FOLDER=$folder "${offline[@]}" dpkg-buildpackage --build=binary --unsigned-changes --unsigned-buildinfo \
-    --buildinfo-option="-u$folder" --changes-option="-u$folder" \
-    --buildinfo-file="$folder/theatron.buildinfo" --changes-file="$folder/theatron.changes")
-web=$tree/build/web/apps/web
-[ -s "$web/page/files.txt" ] || fail "the packages have no page: $web/page/files.txt is missing"
-[ -z "$(tr -d '[:space:]' < "$web/missing.txt")" ] ||
-    fail "the page lacks $(cat "$web/missing.txt"), which tools/library_sources.sh fetches"
+
+# build_into FOLDER [NAME=VALUE...]: the packages, from the source package alone and with these words in the environment.
+build_into() {
+    local into=$1
+    shift
+    (cd "$folder" && dpkg-source --extract "theatron_$version.dsc" "$tree")
+    (cd "$tree" && env THEATRON_DEB_FOLDER="$into" "$@" "${offline[@]}" dpkg-buildpackage --build=binary --unsigned-changes --unsigned-buildinfo \
+        --buildinfo-option="-u$into" --changes-option="-u$into" \
+        --buildinfo-file="$into/theatron.buildinfo" --changes-file="$into/theatron.changes")
+    local web=$tree/build/web/apps/web
+    [ -s "$web/page/files.txt" ] || fail "the packages have no page: $web/page/files.txt is missing"
+    [ -z "$(tr -d '[:space:]' < "$web/missing.txt")" ] ||
+        fail "the page lacks $(cat "$web/missing.txt"), which tools/library_sources.sh fetches"
+    rm -rf "$tree"
+}
+
+build_into "$folder"
 lintian --fail-on error "$folder"/*.deb "$folder"/*.dsc
-rm -rf "$tree"
+if [ "${1:-}" = --twice ]; then
+    again=$folder/again
+    mkdir "$again"
+    build_into "$again" TZ=Pacific/Kiritimati LC_ALL=C LANGUAGE=de
+    differ=()
+    for package in "$folder"/*.deb; do
+        cmp --quiet "$package" "$again/${package##*/}" || differ+=("${package##*/}")
+    done
+    [ ${#differ[@]} -eq 0 ] || fail "two builds differ in ${differ[*]}; the second ones are in $again (diffoscope compares them)"
+    rm -rf "$again"
+    echo "package: two builds are the same bytes"
+fi
 ls -l "$folder"/*.deb

@@ -5,6 +5,7 @@
 # Usage: setup.sh [LIST=packages.txt]
 set -euo pipefail
 cd "$(dirname "$0")"
+[ -f "${1:-packages.txt}" ] || { echo "setup: there is no list '$1' beside setup.sh (usage: setup.sh [LIST=packages.txt])" >&2; exit 2; }
 
 # A simulated headset and rules of accessibility for tests; without npm or a network those are left out.
 tests=../tests/end_to_end

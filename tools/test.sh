@@ -70,7 +70,7 @@ if [ "$all" = --all ]; then
     step "An hour before fixed cameras without an alarm" env MINUTES=60 \
         build/release/src/registration/registration_test --gtest_filter='Watching.NoAlarm*'
     step "Rates, ages and shaped links" ctest --preset timing
-    step "Debian packages" tools/package.sh
+    step "Debian packages, twice" tools/package.sh --twice
     step "Packages in a Debian that has nothing else" may_be_left_out tools/packages_root.sh
     step "A container of the packages" may_be_left_out tools/container.sh
     step "Frame rate beside strangers and expensive guests" env PYTHONPATH=tests/end_to_end \
