@@ -19,6 +19,7 @@
 #include "capture/source_camera.h"
 #include "capture/strip_camera.h"
 #include "capture/synthetic_camera.h"
+#include "capture/uneven_camera.h"
 #include "capture/video_camera.h"
 #include "capture/watched_camera.h"
 
@@ -51,12 +52,15 @@ std::unique_ptr<Camera> open(const Kind& kind, Options& options, const Progress&
     try {
         const CropOptions crop = take_crop_options(options);
         const std::optional<FaultPlan> faults = take_fault_options(options);
+        const std::optional<Unevenness> unevenness = take_uneven_options(options);
         const std::optional<Pose> place = take_place_option(options);
         std::unique_ptr<Camera> camera = kind.open(options, progress);
         if (place)
             camera = make_placed_camera(std::move(camera), *place);
         if (crop.any())
             camera = make_cropped_camera(std::move(camera), crop);
+        if (unevenness)
+            camera = make_uneven_camera(std::move(camera), *unevenness, steady_clock().sleep);
         if (faults) {
             const Clock clock = steady_clock();
             camera = make_faulty_camera(std::move(camera), *faults, clock.now, clock.sleep);
@@ -113,6 +117,7 @@ std::vector<std::string> camera_kinds() {
     lines.push_back(crop_help);
     lines.push_back(place_help);
     lines.push_back(faults_help);
+    lines.push_back(uneven_help);
     return lines;
 }
 
