@@ -6,6 +6,7 @@
 #include "base/steady_clock.h"
 #include "client/participant_figures.h"
 #include "client/participant_shared.h"
+#include "geometry/screen.h"
 #include "wire/sentence.h"
 
 namespace theatron::client {
@@ -100,7 +101,9 @@ void Participant::on_cameras() {
         for (const Camera& camera : cameras)
             if (without(shared_->cameras, camera.description.id) && !is_face(camera))
                 shared_->add_remark(news, publisher_of(camera),
-                                    say(Phrase::camera_joined, camera.description.name));
+                                    say(is_screen(camera.calibration) ? Phrase::screen_joined
+                                                                      : Phrase::camera_joined,
+                                        camera.description.name));
         for (const Camera& camera : shared_->cameras)
             if (without(cameras, camera.description.id) && !is_face(camera))
                 shared_->add_remark(news, publisher_of(camera),

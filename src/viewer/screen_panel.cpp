@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer/screen_panel.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <utility>
 
@@ -34,6 +35,11 @@ std::string state_of(const session::RoomObject& object, const session::SharedScr
 
 }  // namespace
 
+Pose in_front_of(const ScreenPlace& screen) {
+    const double distance_m = std::max(screen.width_m, 1.3 * screen.height_m);
+    return screen.room_from_screen * Pose{Quat{}, {0, 0, -distance_m}};
+}
+
 bool may_decide_on_screen(const session::RoomObject& screen, ParticipantId self, wire::Role role) {
     return session::may(role, session::Right::manage) ||
            (screen.creator == self && session::may(role, session::Right::handle));
@@ -51,6 +57,12 @@ void add_screen_panel(const ScreenPanelFacts& facts, RoomPanel& panel) {
             panel.commands.push_back(ChangeScreen{what, number});
             row.buttons.push_back({say(label), int(panel.commands.size()) - 1});
         };
+        // Nobody gets the pictures of an own screen.
+        if (object.creator != facts.self) {
+            panel.commands.push_back(
+                GoToPlace{{screen->name, in_front_of(place_of(object, *screen))}});
+            row.buttons.push_back({say(Phrase::show), int(panel.commands.size()) - 1});
+        }
         if (session::may(facts.role, session::Right::handle) && !screen->pinned &&
             object.grip.holder == ParticipantId{}) {
             add(Phrase::smaller, What::smaller);

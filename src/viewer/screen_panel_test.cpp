@@ -41,6 +41,8 @@ std::optional<Shown> shown(const session::RoomObject& object, wire::Role role) {
     Shown result{row.detail, {}, {}};
     for (const xr::PanelButton& button : row.buttons) {
         result.labels.push_back(button.label);
+        if (std::holds_alternative<GoToPlace>(panel.commands.at(std::size_t(button.command))))
+            continue;
         result.commands.push_back(
             std::get<ChangeScreen>(panel.commands.at(std::size_t(button.command))));
         EXPECT_EQ(result.commands.back().screen, scope);
@@ -65,11 +67,11 @@ TEST(ScreenPanel, TheSharerPinsAndEndsTheirShare) {
 
 TEST(ScreenPanel, OthersScaleItAndOperatorsDoAll) {
     EXPECT_EQ(shown(shared_by(other_sharer), wire::Role::expert)->labels,
-              (Labels{"Smaller", "Larger"}));
+              (Labels{"Show", "Smaller", "Larger"}));
     EXPECT_EQ(shown(shared_by(other_sharer), wire::Role::operator_)->labels,
-              (Labels{"Smaller", "Larger", "Pin in place", "End share"}));
-    EXPECT_EQ(shown(shared_by(other_sharer), wire::Role::observer)->labels, Labels{});
-    EXPECT_EQ(shown(shared_by(other_sharer, true), wire::Role::expert)->labels, Labels{});
+              (Labels{"Show", "Smaller", "Larger", "Pin in place", "End share"}));
+    EXPECT_EQ(shown(shared_by(other_sharer), wire::Role::observer)->labels, Labels{"Show"});
+    EXPECT_EQ(shown(shared_by(other_sharer, true), wire::Role::expert)->labels, Labels{"Show"});
 }
 
 TEST(ScreenPanel, AHeldScreenSaysByWhom) {
@@ -77,7 +79,22 @@ TEST(ScreenPanel, AHeldScreenSaysByWhom) {
     held.grip.holder = other_sharer;
     const auto row = shown(held, wire::Role::expert);
     EXPECT_EQ(row->detail, "shared by Ben, 1.20 m wide, Ben holds it");
-    EXPECT_EQ(row->labels, Labels{});
+    EXPECT_EQ(row->labels, Labels{"Show"});
+}
+
+TEST(ScreenPanel, ShowGoesWhereTheWholeScreenIsSeen) {
+    for (const double aspect : {16.0 / 9, 9.0 / 16}) {
+        const Pose room_from_screen{Quat{0, 1, 0, 0}, {0.5, 1.6, -1}};  // it faces z
+        const ScreenPlace screen{room_from_screen, 1.2, 1.2 / aspect};
+        const Pose eye = in_front_of(screen);
+        const Vec3 middle = inverse(eye) * room_from_screen.translation;
+        EXPECT_NEAR(middle.x, 0, 1e-9);
+        EXPECT_NEAR(middle.y, 0, 1e-9);
+        EXPECT_GT(eye.translation.z, room_from_screen.translation.z);
+        // Within 60 degrees of height and of width.
+        EXPECT_LE(screen.width_m / 2, middle.z * 0.58);
+        EXPECT_LE(screen.height_m / 2, middle.z * 0.58);
+    }
 }
 
 TEST(ScreenPanel, AScreenWhoseSourceIsAwayIsNotListed) {

@@ -193,13 +193,16 @@ class Screens(unittest.TestCase):
             x11.do("mousemove", 700, 600, "key", "shift+Tab", "key", "Return")
             window.wait_until(lambda: len(buttons()) >= 6)
             x11.do(*["key", "Tab"] * 5, "key", "Return", "key", "Escape")
-            # Smaller, Larger, Pin in place, End share: the first row of four.
-            four = lambda: wait_until(lambda: len(row := row_of(buttons(), 4)) == 4 and row)
-            x11.click_until(lambda: four()[2], ben, lambda f: scope(f)["screen"]["pinned"])
+            # Show, Smaller, Larger, Pin in place, End share: the first row of five.
+            five = lambda: wait_until(lambda: len(row := row_of(buttons(), 5)) == 5 and row)
+            x11.click_until(lambda: five()[3], ben, lambda f: scope(f)["screen"]["pinned"])
             x11.do("mousemove", 440, 380, "mousedown", 1, "sleep", 0.2, "mousemove", 400, 380, "sleep", 0.2, "mouseup", 1)
             self.assertEqual(scope(ben.newest_json())["position"], moved["position"])
-            two = lambda: wait_until(lambda: len(row := row_of(buttons(), 2)) == 2 and row)
-            x11.click_until(lambda: two()[1], ben, lambda f: not scope(f))
+            # Show goes to it: its picture is wide then.
+            three = lambda: wait_until(lambda: len(row := row_of(buttons(), 3)) == 3 and row)
+            x11.do("mousemove", *three()[0], "click", 1)
+            wait_until(lambda: is_shown(width // 2, height // 2) and is_shown(width // 4, height // 2))
+            x11.click_until(lambda: three()[2], ben, lambda f: not scope(f))
             self.assertEqual(cart.end(), 0)
             x11.do("key", "Escape", "key", "Escape")
             self.assertEqual(window.end(), 0, "".join(window.errors))
