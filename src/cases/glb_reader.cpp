@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // glTF 2.0 in one file: https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -24,6 +25,11 @@ bool is_harmless(const std::string& name) {
         if (name.starts_with(begin))
             return true;
     return name == "KHR_mesh_quantization";
+}
+
+bool is_read(const std::string& name) {
+    return is_harmless(name) || name == glb::draco || name == glb::meshopt ||
+           name == glb::meshopt_successor;
 }
 
 // Columns as glTF has them.
@@ -66,15 +72,29 @@ bool read_numbers(const Json& node, const char* name, std::array<double, count>&
     return true;
 }
 
-bool read_place(const Json& node, Matrix& out) {
+// Returns the name of a property that cannot be; nothing where all are good.
+const char* read_place(const Json& node, Matrix& out) {
     out = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    constexpr double rounding = 1e-6;
     if (node.contains("matrix"))
-        return read_numbers(node, "matrix", out);
+        return read_numbers(node, "matrix", out) && std::abs(out[3]) <= rounding &&
+                       std::abs(out[7]) <= rounding && std::abs(out[11]) <= rounding &&
+                       std::abs(out[15] - 1) <= rounding
+                   ? nullptr
+                   : "matrix";
     std::array<double, 3> t{}, s{1, 1, 1};
     std::array<double, 4> q{0, 0, 0, 1};
-    if (!read_numbers(node, "translation", t) || !read_numbers(node, "rotation", q) ||
-        !read_numbers(node, "scale", s))
-        return false;
+    if (!read_numbers(node, "translation", t))
+        return "translation";
+    if (!read_numbers(node, "scale", s))
+        return "scale";
+    // Its length is 1, as far as its digits allow.
+    const bool are_numbers = read_numbers(node, "rotation", q);
+    const double size = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    if (!are_numbers || !(size > rounding) || !std::isfinite(size))
+        return "rotation";
+    for (double& part : q)
+        part /= size;
     const auto [x, y, z, w] = q;
     out = {(1 - 2 * (y * y + z * z)) * s[0],
            2 * (x * y + z * w) * s[0],
@@ -92,7 +112,7 @@ bool read_place(const Json& node, Matrix& out) {
            t[1],
            t[2],
            1};
-    return true;
+    return nullptr;
 }
 
 class Scene {
@@ -124,16 +144,15 @@ private:
         const std::size_t scene = glb::index_of(root_, "scene").value_or(0);
         if (scene < scenes.size()) {
             for (const Json& node : glb::list_of(scenes[scene], "nodes"))
-                if (node.is_number_unsigned())
-                    first.push_back(node.get<std::size_t>());
+                first.push_back(glb::whole_of(node));
             return first;
         }
         // Without a scene: all that are no children.
         std::vector<bool> is_child(nodes.size());
         for (const Json& node : nodes)
             for (const Json& child : glb::list_of(node, "children"))
-                if (child.is_number_unsigned() && child.get<std::size_t>() < nodes.size())
-                    is_child[child.get<std::size_t>()] = true;
+                if (const std::size_t at = glb::whole_of(child); at < nodes.size())
+                    is_child[at] = true;
         for (std::size_t i = 0; i < nodes.size(); ++i)
             if (!is_child[i])
                 first.push_back(i);
@@ -147,8 +166,10 @@ private:
         visited_[at] = true;
         const Json& node = nodes[at];
         Matrix local;
-        if (!read_place(node, local))
-            return Answer::unreadable;
+        if (const char* const impossible = read_place(node, local)) {
+            extension_ = impossible;
+            return Answer::property;
+        }
         if (glb::has_extension(node, "EXT_mesh_gpu_instancing")) {
             extension_ = "EXT_mesh_gpu_instancing";
             return Answer::extension;
@@ -158,13 +179,13 @@ private:
             const Json& meshes = glb::list_of(root_, "meshes");
             if (*mesh >= meshes.size())
                 return Answer::unreadable;
+            if (node.contains("skin"))
+                return Answer::skin;
             if (const Answer sent = send_mesh(node, meshes[*mesh], place); sent != Answer::content)
                 return sent;
         }
         for (const Json& child : glb::list_of(node, "children")) {
-            if (!child.is_number_unsigned())
-                return Answer::unreadable;
-            if (const Answer sent = send(nodes, child.get<std::size_t>(), place, depth + 1);
+            if (const Answer sent = send(nodes, glb::whole_of(child), place, depth + 1);
                 sent != Answer::content)
                 return sent;
         }
@@ -176,8 +197,10 @@ private:
         named.name = glb::text_of(node, "name");
         if (named.name.empty())
             named.name = glb::text_of(mesh, "name");
+        const Json& weights = glb::list_of(node.contains("weights") ? node : mesh, "weights");
         for (const Json& primitive : glb::list_of(mesh, "primitives"))
-            if (const Answer added = add(primitive, place, named.mesh); added != Answer::content)
+            if (const Answer added = add(primitive, weights, place, named.mesh);
+                added != Answer::content)
                 return added;
         if (named.mesh.triangles.empty())
             return Answer::content;
@@ -197,11 +220,40 @@ private:
         return Answer::content;
     }
 
-    Answer add(const Json& primitive, const Matrix& place, medical::Mesh& mesh) {
+    // Moves the corners as far as the weights of other shapes ("morph targets") say.
+    Answer move(const Json& primitive, const Json& weights, std::vector<Vec3>& corners) {
+        const Json& targets = glb::list_of(primitive, "targets");
+        for (std::size_t i = 0; i < std::min(targets.size(), weights.size()); ++i) {
+            if (!weights[i].is_number()) {
+                extension_ = "weights";
+                return Answer::property;
+            }
+            const auto weight = weights[i].get<double>();
+            const auto steps_at = glb::index_of(targets[i], "POSITION");
+            if (!steps_at || weight == 0)
+                continue;
+            std::vector<Vec3> steps;
+            if (const Answer read = accessors_.read_positions(*steps_at, steps);
+                read != Answer::content)
+                return read;
+            if (steps.size() != corners.size())
+                return Answer::unreadable;
+            for (std::size_t k = 0; k < corners.size(); ++k)
+                corners[k] = corners[k] + steps[k] * weight;
+        }
+        return Answer::content;
+    }
+
+    Answer add(const Json& primitive, const Json& weights, const Matrix& place,
+               medical::Mesh& mesh) {
         constexpr std::size_t triangles = 4, strip = 5, fan = 6;
         const std::size_t mode = glb::index_of(primitive, "mode").value_or(triangles);
-        if (mode < triangles || mode > fan)
+        if (mode < triangles)
             return Answer::content;  // points and lines
+        if (mode > fan) {
+            extension_ = "mode";
+            return Answer::property;
+        }
         const Json& attributes =
             primitive.contains("attributes") ? primitive["attributes"] : glb::no_list();
         const auto position = glb::index_of(attributes, "POSITION");
@@ -215,6 +267,8 @@ private:
                                     : read_plain(primitive, *position, read);
         if (found != Answer::content)
             return found;
+        if (const Answer moved = move(primitive, weights, read.corners); moved != Answer::content)
+            return moved;
         const auto& [corners, indices] = read;
         const std::size_t first = mesh.positions.size();
         if (first + corners.size() > max_loose_vertices ||
@@ -280,8 +334,7 @@ Answer read_glb(ByteView file, const TakeMesh& take, std::string& extension,
     if (!root.is_object())
         return Answer::unreadable;
     for (const Json& name : glb::list_of(root, "extensionsRequired"))
-        if (name.is_string() && !is_harmless(name.get<std::string>()) &&
-            name.get<std::string>() != glb::draco && name.get<std::string>() != glb::meshopt) {
+        if (name.is_string() && !is_read(name.get<std::string>())) {
             extension = name.get<std::string>();
             return Answer::extension;
         }

@@ -47,9 +47,12 @@ def meshio_reads(path):
 
 
 def vtk_reads(path):
-    import vtk
-    makers = {".stl": vtk.vtkSTLReader, ".ply": vtk.vtkPLYReader, ".obj": vtk.vtkOBJReader, ".nrrd": vtk.vtkNrrdReader,
-              ".nhdr": vtk.vtkNrrdReader, ".nii": vtk.vtkNIFTIImageReader, ".gz": vtk.vtkNIFTIImageReader}
+    # The package "vtk" as a whole puts a reader for MPI in place of that for NRRD, which reads nothing without MPI.
+    from vtkmodules.vtkIOGeometry import vtkOBJReader, vtkSTLReader
+    from vtkmodules.vtkIOImage import vtkNIFTIImageReader, vtkNrrdReader
+    from vtkmodules.vtkIOPLY import vtkPLYReader
+    makers = {".stl": vtkSTLReader, ".ply": vtkPLYReader, ".obj": vtkOBJReader, ".nrrd": vtkNrrdReader,
+              ".nhdr": vtkNrrdReader, ".nii": vtkNIFTIImageReader, ".gz": vtkNIFTIImageReader}
     reader = makers[path.suffix.lower()]()
     reader.SetFileName(str(path))
     reader.Update()
@@ -80,7 +83,7 @@ def assimp_reads(path):
 
 READERS = (("gdcm", gdcm_reads, "gdcm", ("DICOM",)), ("dcmtk", dcmtk_reads, "dcm2pnm", ("DICOM",)),
            ("dcm2niix", dcm2niix_reads, "dcm2niix", ("DICOM",)),
-           ("nibabel", nibabel_reads, "nibabel", ("NIfTI",)), ("vtk", vtk_reads, "vtk", ("NIfTI", "NRRD", "STL", "PLY", "OBJ")),
+           ("nibabel", nibabel_reads, "nibabel", ("NIfTI",)), ("vtk", vtk_reads, "vtkmodules", ("NIfTI", "NRRD", "STL", "PLY", "OBJ")),
            ("meshio", meshio_reads, "meshio", ("STL", "PLY", "OBJ")), ("assimp", assimp_reads, "assimp", ("STL", "PLY", "GLB", "OBJ")))
 
 
