@@ -15,6 +15,7 @@ import importlib.util
 import os
 import pathlib
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -23,7 +24,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import foreign_test  # noqa: E402
 from expected import problem  # noqa: E402
 
-LONGEST = 60  # seconds for a reader and an input
+LONGEST = 10  # seconds for a reader and an input
 KINDS = (("DICOM", ("dicom",)), ("NIfTI", ("nifti",)), ("NRRD", ("nrrd",)), ("STL", ("stl",)), ("PLY", ("ply",)),
          ("GLB", ("glb",)), ("OBJ", ("obj",)))
 
@@ -92,9 +93,10 @@ def is_there(what):
 
 
 def in_process(read, path):
-    """Readers may end their process, or print what they like."""
+    """Readers may end their process, read without end, or print what they like."""
     child = os.fork()
     if child == 0:
+        signal.alarm(LONGEST)
         null = os.open(os.devnull, os.O_WRONLY)
         os.dup2(null, 1)
         os.dup2(null, 2)
