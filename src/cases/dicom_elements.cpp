@@ -211,7 +211,8 @@ int DicomSet::integer(DicomTag tag, int fallback) const {
     });
     const bool is_text =
         !is_said && has_digits && std::all_of(value.begin(), value.end(), [](std::byte b) {
-            return b == std::byte(' ') || (b >= std::byte('0') && b <= std::byte('9'));
+            return b == std::byte(' ') || b == std::byte('.') ||
+                   (b >= std::byte('0') && b <= std::byte('9'));
         });
     if (!is_text && (value.size() == 2 || value.size() == 4)) {
         const std::uint32_t number = number_at(value, 0, value.size(), encoding_.big_endian);
@@ -219,7 +220,12 @@ int DicomSet::integer(DicomTag tag, int fallback) const {
             return std::int16_t(number);
         return number <= 0x7fffffff ? int(number) : fallback;
     }
-    const std::string digits = text(tag, 16);
+    std::string digits = text(tag, 16);
+    // "1.0" is a whole number, too.
+    if (const std::size_t point = digits.find('.');
+        point != 0 && point != digits.npos &&
+        digits.find_first_not_of('0', point + 1) == digits.npos)
+        digits.resize(point);
     int number = fallback;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
     return error == std::errc() && end == digits.data() + digits.size() ? number : fallback;

@@ -20,7 +20,11 @@ StoredBits bits_of(const DicomSet& set, std::string& problem) {
     bits.allocated = set.integer(0x00280100, 16);
     bits.stored = set.integer(0x00280101, bits.allocated);
     bits.high = set.integer(0x00280102, bits.stored - 1);
-    bits.is_signed = set.integer(0x00280103, 0) == 1;
+    const int kind = set.integer(0x00280103, 0);
+    bits.is_signed = kind == 1;
+    if (kind != 0 && kind != 1)
+        problem = "has the pixel representation " + std::to_string(kind) +
+                  ", where only 0 and 1 have a meaning; export it again";
     if (bits.stored < 1 || bits.stored > bits.allocated || bits.high < bits.stored - 1 ||
         bits.high >= bits.allocated)
         problem = "says that its values have " + std::to_string(bits.stored) +
@@ -219,6 +223,8 @@ DicomImage describe_image(const DicomFile& file) {
     image.columns = set.integer(columns_tag, 0);
     image.rows = set.integer(rows_tag, 0);
     image.frames = set.integer(frames_tag, 1);
+    if (image.frames == 0)
+        image.frames = 1;  // some programs say 0 of a single image
     image.of_all = set.items(DicomTag(0x52009229));
     image.of_each = set.items(DicomTag(0x52009230));
     image.bits = bits_of(set, common.problem);

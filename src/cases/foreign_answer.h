@@ -29,7 +29,11 @@ enum class Answer : std::uint8_t {
     no_mesh,        // the same
     no_triangles,   // points, lines, or nothing at all
     extension,      // of glTF, which is needed and not known; its name follows
+    property,       // of glTF, whose value cannot be; its name follows
+    skin,           // of glTF, which would move the corners
     other_buffer,   // of glTF, in another file
+    polygons,       // in a format of triangles
+    no_places,      // of the corners, but other properties
 };
 
 inline void answer(sandbox::Inside& inside, Answer what, std::size_t bytes = 0) {

@@ -106,6 +106,13 @@ const char* reason_of(Answer what) {
             return "holds no triangles";
         case Answer::other_buffer:
             return "keeps its corners in another file; export it as one file (.glb)";
+        case Answer::skin:
+            return "is bent by a skeleton (a skin of glTF), which is not read; export it with its "
+                   "shape applied";
+        case Answer::polygons:
+            return "has facets that are no triangles; export it with triangles";
+        case Answer::no_places:
+            return "gives its corners no x, y and z; export it again";
         case Answer::lacks:
             return "holds fewer triangles than it announces: it is cut off or damaged; export it "
                    "again";
@@ -130,6 +137,9 @@ bool is_not_for_us(Answer what) {
         case Answer::no_mesh:
         case Answer::no_triangles:
         case Answer::other_buffer:
+        case Answer::skin:
+        case Answer::polygons:
+        case Answer::no_places:
             return true;
         default:
             return false;
@@ -280,12 +290,14 @@ std::vector<NamedMesh> read_mesh_file(const fs::path& path) {
         const Reply reply = reply_of(child);
         if (reply.what == Answer::end)
             break;
-        if (reply.what == Answer::extension) {
-            const std::string name(reinterpret_cast<const char*>(reply.content.data()),
-                                   std::min<std::size_t>(reply.content.size(), 100));
+        const std::string name(reinterpret_cast<const char*>(reply.content.data()),
+                               std::min<std::size_t>(reply.content.size(), 100));
+        if (reply.what == Answer::extension)
             throw NotForUs(path, "needs the glTF extension '" + clean_text(name, 60) +
                                      "', which is not read; export it without");
-        }
+        if (reply.what == Answer::property)
+            throw Error(quoted_path(path) + " has an impossible '" + clean_text(name, 60) +
+                        "' (a property of glTF); export it again.");
         if (reply.what != Answer::content)
             refuse(path, reply.what);
         // The child can still change the shared memory: a copy is checked, not the memory itself.

@@ -22,13 +22,22 @@ const Json& list_of(const Json& object, const char* name) {
     return found != object.end() && found->is_array() ? *found : no_list();
 }
 
+std::size_t whole_of(const Json& number) {
+    if (number.is_number_unsigned())
+        return number.get<std::size_t>();
+    constexpr double most = 1e15;
+    const double value = number.is_number_float() ? number.get<double>() : -1;
+    return value >= 0 && value <= most && value == std::floor(value) ? std::size_t(value)
+                                                                     : no_index;
+}
+
 std::optional<std::size_t> index_of(const Json& object, const char* name) {
     if (!object.is_object())
         return std::nullopt;
     const auto found = object.find(name);
-    if (found == object.end() || !found->is_number_unsigned())
+    if (found == object.end() || found->is_null())
         return std::nullopt;
-    return found->get<std::size_t>();
+    return whole_of(*found);
 }
 
 std::string text_of(const Json& object, const char* name) {
@@ -47,6 +56,10 @@ bool has_extension(const Json& object, const char* name) {
 
 const Json& extension_in(const Json& object, const char* name) {
     return has_extension(object, name) ? object["extensions"][name] : no_list();
+}
+
+const Json& meshopt_in(const Json& view) {
+    return extension_in(view, has_extension(view, meshopt) ? meshopt : meshopt_successor);
 }
 
 namespace {
@@ -125,7 +138,9 @@ struct Accessors::Numbers {
     std::size_t bytes() const { return components * size_of(component); }
     double at(const std::byte* place) const { return scaled(value_at(place, component)); }
     double scaled(double value) const {
-        return normalized ? std::max(value / one_of(component), -1.0) : value;
+        // Floating-point numbers are what they are.
+        return normalized && one_of(component) > 1 ? std::max(value / one_of(component), -1.0)
+                                                   : value;
     }
 };
 
@@ -165,8 +180,8 @@ Answer Accessors::find_view(const Json& holder, std::size_t needed, ByteView& by
     ByteView whole;
     Answer found = Answer::content;
     // Packed bytes are in the extension's own buffer; this one may have none.
-    if (has_extension(view, meshopt))
-        found = unpack_view(*number, extension_in(view, meshopt), whole, stride);
+    if (const Json& packed = meshopt_in(view); packed.is_object())
+        found = unpack_view(*number, packed, whole, stride);
     else
         found = find_bytes(view, whole);
     if (found != Answer::content)
@@ -208,6 +223,10 @@ Answer Accessors::unpack_view(std::size_t number, const Json& packed, ByteView& 
     ByteView from;
     if (const Answer found = find_bytes(packed, from); found != Answer::content)
         return found;
+    if (needs_newer_meshopt(from, about)) {
+        extension_ = std::string(meshopt_successor) + ", version 1";
+        return Answer::extension;
+    }
     std::optional<Bytes> content = unpack_meshopt(from, about);
     if (!content)
         return Answer::compression;
@@ -295,6 +314,10 @@ Answer Accessors::read(std::size_t accessor, std::size_t components, std::vector
         if (const Answer view = find_view(json, about.bytes(), bytes, stride);
             view != Answer::content)
             return view;
+        if (stride != 0 && stride < about.bytes()) {
+            extension_ = "byteStride";
+            return Answer::property;
+        }
         stride = std::max(stride, about.bytes());
         if ((bytes.size() - about.bytes()) / stride < about.count - 1)
             return Answer::lacks;

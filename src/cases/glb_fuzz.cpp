@@ -16,7 +16,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::string extension;
     const cases::Answer read =
         cases::read_glb(std::as_bytes(std::span(data, size)), take, extension);
-    if (read == cases::Answer::content || (read == cases::Answer::extension) != !extension.empty())
+    const bool is_named = read == cases::Answer::extension || read == cases::Answer::property;
+    if (read == cases::Answer::content || is_named != !extension.empty())
         std::abort();
     return 0;
 }

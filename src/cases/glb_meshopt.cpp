@@ -7,6 +7,7 @@ namespace theatron::cases::glb {
 namespace {
 
 constexpr std::size_t widest_vertex = 256;  // of the format
+constexpr std::byte newer_vertices{0xa1};   // 0xa0: the first version
 
 bool is_index(const MeshoptView& about) {
     return about.stride == 2 || about.stride == 4;
@@ -28,6 +29,10 @@ bool is_sound(const MeshoptView& about) {
 }
 
 }  // namespace
+
+bool needs_newer_meshopt(ByteView packed, const MeshoptView& about) {
+    return about.mode == "ATTRIBUTES" && !packed.empty() && packed[0] == newer_vertices;
+}
 
 std::optional<Bytes> unpack_meshopt(ByteView packed, const MeshoptView& about) {
     if (!is_sound(about))

@@ -3,7 +3,8 @@
 // those formats. Bounded by what the file announces.
 //
 // https://github.com/KhronosGroup/glTF/tree/main/extensions/2.0:
-// Khronos/KHR_draco_mesh_compression, Vendor/EXT_meshopt_compression
+// Khronos/KHR_draco_mesh_compression, Vendor/EXT_meshopt_compression,
+// Khronos/KHR_meshopt_compression
 #pragma once
 
 #include <cstddef>
@@ -35,6 +36,9 @@ struct MeshoptView {
     std::size_t count = 0, stride = 0;
 };
 inline constexpr std::size_t max_unpacked_view_bytes = std::size_t(256) << 20;
+
+// The corners have the newer form of KHR_meshopt_compression, which the library does not unpack.
+bool needs_newer_meshopt(ByteView packed, const MeshoptView& about);
 
 // Safe for any bytes. Nothing where they are damaged, or packed in a way that is not known.
 std::optional<Bytes> unpack_meshopt(ByteView packed, const MeshoptView& about);

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // glTF 2.0 in one file: https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html
-#include <array>
-#include <cmath>
+#include <algorithm>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "cases/glb_accessor.h"
+#include "cases/glb_place.h"
 #include "cases/mesh_files.h"
 
 namespace theatron::cases {
 namespace {
 
 using glb::Json;
+using glb::Matrix;
 
 constexpr int deepest_node = 64;
 constexpr std::size_t max_nodes = 100'000;
@@ -26,73 +27,9 @@ bool is_harmless(const std::string& name) {
     return name == "KHR_mesh_quantization";
 }
 
-// Columns as glTF has them.
-using Matrix = std::array<double, 16>;
-
-Matrix product(const Matrix& a, const Matrix& b) {
-    Matrix out{};
-    for (std::size_t column = 0; column < 4; ++column)
-        for (std::size_t row = 0; row < 4; ++row)
-            for (std::size_t i = 0; i < 4; ++i)
-                out[4 * column + row] += a[4 * i + row] * b[4 * column + i];
-    return out;
-}
-
-Vec3 placed(const Matrix& m, Vec3 p) {
-    return {m[0] * p.x + m[4] * p.y + m[8] * p.z + m[12],
-            m[1] * p.x + m[5] * p.y + m[9] * p.z + m[13],
-            m[2] * p.x + m[6] * p.y + m[10] * p.z + m[14]};
-}
-
-bool is_mirrored(const Matrix& m) {
-    return m[0] * (m[5] * m[10] - m[6] * m[9]) - m[4] * (m[1] * m[10] - m[2] * m[9]) +
-               m[8] * (m[1] * m[6] - m[2] * m[5]) <
-           0;
-}
-
-// `count` numbers of a node's property; false where they are there and are none.
-template <std::size_t count>
-bool read_numbers(const Json& node, const char* name, std::array<double, count>& out) {
-    const auto list = node.find(name);
-    if (list == node.end())
-        return true;
-    if (!list->is_array() || list->size() != count)
-        return false;
-    for (std::size_t i = 0; i < count; ++i) {
-        if (!(*list)[i].is_number())
-            return false;
-        out[i] = (*list)[i].template get<double>();
-    }
-    return true;
-}
-
-bool read_place(const Json& node, Matrix& out) {
-    out = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-    if (node.contains("matrix"))
-        return read_numbers(node, "matrix", out);
-    std::array<double, 3> t{}, s{1, 1, 1};
-    std::array<double, 4> q{0, 0, 0, 1};
-    if (!read_numbers(node, "translation", t) || !read_numbers(node, "rotation", q) ||
-        !read_numbers(node, "scale", s))
-        return false;
-    const auto [x, y, z, w] = q;
-    out = {(1 - 2 * (y * y + z * z)) * s[0],
-           2 * (x * y + z * w) * s[0],
-           2 * (x * z - y * w) * s[0],
-           0,
-           2 * (x * y - z * w) * s[1],
-           (1 - 2 * (x * x + z * z)) * s[1],
-           2 * (y * z + x * w) * s[1],
-           0,
-           2 * (x * z + y * w) * s[2],
-           2 * (y * z - x * w) * s[2],
-           (1 - 2 * (x * x + y * y)) * s[2],
-           0,
-           t[0],
-           t[1],
-           t[2],
-           1};
-    return true;
+bool is_read(const std::string& name) {
+    return is_harmless(name) || name == glb::draco || name == glb::meshopt ||
+           name == glb::meshopt_successor;
 }
 
 class Scene {
@@ -124,16 +61,15 @@ private:
         const std::size_t scene = glb::index_of(root_, "scene").value_or(0);
         if (scene < scenes.size()) {
             for (const Json& node : glb::list_of(scenes[scene], "nodes"))
-                if (node.is_number_unsigned())
-                    first.push_back(node.get<std::size_t>());
+                first.push_back(glb::whole_of(node));
             return first;
         }
         // Without a scene: all that are no children.
         std::vector<bool> is_child(nodes.size());
         for (const Json& node : nodes)
             for (const Json& child : glb::list_of(node, "children"))
-                if (child.is_number_unsigned() && child.get<std::size_t>() < nodes.size())
-                    is_child[child.get<std::size_t>()] = true;
+                if (const std::size_t at = glb::whole_of(child); at < nodes.size())
+                    is_child[at] = true;
         for (std::size_t i = 0; i < nodes.size(); ++i)
             if (!is_child[i])
                 first.push_back(i);
@@ -147,24 +83,26 @@ private:
         visited_[at] = true;
         const Json& node = nodes[at];
         Matrix local;
-        if (!read_place(node, local))
-            return Answer::unreadable;
+        if (const char* const impossible = glb::read_place(node, local)) {
+            extension_ = impossible;
+            return Answer::property;
+        }
         if (glb::has_extension(node, "EXT_mesh_gpu_instancing")) {
             extension_ = "EXT_mesh_gpu_instancing";
             return Answer::extension;
         }
-        const Matrix place = product(parent, local);
+        const Matrix place = glb::product(parent, local);
         if (const auto mesh = glb::index_of(node, "mesh")) {
             const Json& meshes = glb::list_of(root_, "meshes");
             if (*mesh >= meshes.size())
                 return Answer::unreadable;
+            if (node.contains("skin"))
+                return Answer::skin;
             if (const Answer sent = send_mesh(node, meshes[*mesh], place); sent != Answer::content)
                 return sent;
         }
         for (const Json& child : glb::list_of(node, "children")) {
-            if (!child.is_number_unsigned())
-                return Answer::unreadable;
-            if (const Answer sent = send(nodes, child.get<std::size_t>(), place, depth + 1);
+            if (const Answer sent = send(nodes, glb::whole_of(child), place, depth + 1);
                 sent != Answer::content)
                 return sent;
         }
@@ -176,8 +114,10 @@ private:
         named.name = glb::text_of(node, "name");
         if (named.name.empty())
             named.name = glb::text_of(mesh, "name");
+        const Json& weights = glb::list_of(node.contains("weights") ? node : mesh, "weights");
         for (const Json& primitive : glb::list_of(mesh, "primitives"))
-            if (const Answer added = add(primitive, place, named.mesh); added != Answer::content)
+            if (const Answer added = add(primitive, weights, place, named.mesh);
+                added != Answer::content)
                 return added;
         if (named.mesh.triangles.empty())
             return Answer::content;
@@ -197,11 +137,40 @@ private:
         return Answer::content;
     }
 
-    Answer add(const Json& primitive, const Matrix& place, medical::Mesh& mesh) {
+    // Moves the corners as far as the weights of other shapes ("morph targets") say.
+    Answer move(const Json& primitive, const Json& weights, std::vector<Vec3>& corners) {
+        const Json& targets = glb::list_of(primitive, "targets");
+        for (std::size_t i = 0; i < std::min(targets.size(), weights.size()); ++i) {
+            if (!weights[i].is_number()) {
+                extension_ = "weights";
+                return Answer::property;
+            }
+            const auto weight = weights[i].get<double>();
+            const auto steps_at = glb::index_of(targets[i], "POSITION");
+            if (!steps_at || weight == 0)
+                continue;
+            std::vector<Vec3> steps;
+            if (const Answer read = accessors_.read_positions(*steps_at, steps);
+                read != Answer::content)
+                return read;
+            if (steps.size() != corners.size())
+                return Answer::unreadable;
+            for (std::size_t k = 0; k < corners.size(); ++k)
+                corners[k] = corners[k] + steps[k] * weight;
+        }
+        return Answer::content;
+    }
+
+    Answer add(const Json& primitive, const Json& weights, const Matrix& place,
+               medical::Mesh& mesh) {
         constexpr std::size_t triangles = 4, strip = 5, fan = 6;
         const std::size_t mode = glb::index_of(primitive, "mode").value_or(triangles);
-        if (mode < triangles || mode > fan)
+        if (mode < triangles)
             return Answer::content;  // points and lines
+        if (mode > fan) {
+            extension_ = "mode";
+            return Answer::property;
+        }
         const Json& attributes =
             primitive.contains("attributes") ? primitive["attributes"] : glb::no_list();
         const auto position = glb::index_of(attributes, "POSITION");
@@ -215,14 +184,16 @@ private:
                                     : read_plain(primitive, *position, read);
         if (found != Answer::content)
             return found;
+        if (const Answer moved = move(primitive, weights, read.corners); moved != Answer::content)
+            return moved;
         const auto& [corners, indices] = read;
         const std::size_t first = mesh.positions.size();
         if (first + corners.size() > max_loose_vertices ||
             mesh.triangles.size() + indices.size() > max_loose_vertices)
             return Answer::too_large;
         for (const Vec3 corner : corners)
-            mesh.positions.push_back(medical::to_float(placed(place, corner)));
-        const bool mirrored = is_mirrored(place);
+            mesh.positions.push_back(medical::to_float(glb::placed(place, corner)));
+        const bool mirrored = glb::is_mirrored(place);
         // Draco has triangles in every mode.
         const bool loose = mode == triangles || packed;
         for (std::size_t i = 0; i + 3 <= indices.size(); i += loose ? 3 : 1) {
@@ -280,8 +251,7 @@ Answer read_glb(ByteView file, const TakeMesh& take, std::string& extension,
     if (!root.is_object())
         return Answer::unreadable;
     for (const Json& name : glb::list_of(root, "extensionsRequired"))
-        if (name.is_string() && !is_harmless(name.get<std::string>()) &&
-            name.get<std::string>() != glb::draco && name.get<std::string>() != glb::meshopt) {
+        if (name.is_string() && !is_read(name.get<std::string>())) {
             extension = name.get<std::string>();
             return Answer::extension;
         }

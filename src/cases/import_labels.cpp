@@ -33,7 +33,8 @@ Part part_of(int value, const LabelMap& map, const ImportOptions& options) {
     return part;
 }
 
-void add_parts(const LabelMap& map, const fs::path& file, const ImportOptions& options,
+// False: the map has no labels.
+bool add_parts(const LabelMap& map, const fs::path& file, const ImportOptions& options,
                std::set<int>& found, SurfaceBudget& budget, std::vector<ImportedPart>& parts,
                std::vector<std::string>& remarks, const Progress& progress) {
     const std::vector<LabelCount> labels = labels_in(map);
@@ -41,8 +42,6 @@ void add_parts(const LabelMap& map, const fs::path& file, const ImportOptions& o
         throw NotForUs(file,
                        "is an image and no label map: its values change from sample to "
                        "sample; images are read as DICOM");
-    if (labels.empty())
-        remarks.push_back("The label map " + quoted_path(file) + " has no labels but 0.");
     if (labels.size() > max_parts)
         throw NotForUs(file, "has more than " + std::to_string(max_parts) +
                                  " labels; save those that matter as a label map of their own");
@@ -61,6 +60,7 @@ void add_parts(const LabelMap& map, const fs::path& file, const ImportOptions& o
         else
             parts.push_back({std::move(part), std::move(mesh)});
     }
+    return !labels.empty();
 }
 
 // The file beside the head that has its samples, whether it is there or not.
@@ -131,9 +131,13 @@ std::vector<ImportedPart> import_labels(const fs::path& file, const ImportOption
     try {
         SurfaceBudget budget;
         std::size_t layers = 1;
+        bool any = false;
         for (std::size_t layer = 0; layer < layers; ++layer)
-            add_parts(read_label_map(file, layer, layers), file, options, found, budget, parts,
-                      remarks, progress);
+            any = add_parts(read_label_map(file, layer, layers), file, options, found, budget,
+                            parts, remarks, progress) ||
+                  any;
+        if (!any)
+            throw NotForUs(file, "has no labels but 0");
     } catch (const NotForUs& error) {
         left_out.add(file, error.reason());
         return {};

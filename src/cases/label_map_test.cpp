@@ -103,7 +103,8 @@ TEST(Nrrd, EachProblemIsNamed) {
     };
     EXPECT_THAT(parse_nrrd(bytes_of("PNG")).problem, HasSubstr("no NRRD"));
     EXPECT_THAT(parse_nrrd(bytes_of(nrrd_head)).problem, HasSubstr("cut off"));
-    EXPECT_THAT(problem("dimension: 3", "dimension: 4"), HasSubstr("three dimensions"));
+    EXPECT_THAT(problem("dimension: 3", "dimension: 5"), HasSubstr("three dimensions"));
+    EXPECT_THAT(problem("dimension: 3", "dimension: 4"), HasSubstr("'sizes' with '3 2 2'"));
     EXPECT_THAT(problem("sizes: 3 2 2", "sizes: 3 2 3"), HasSubstr("less than its header"));
     EXPECT_THAT(problem("sizes: 3 2 2", "sizes: 3 2 -2"), HasSubstr("side of no samples"));
     EXPECT_THAT(problem("sizes: 3 2 2", "sizes: 4000 4000 4000"), HasSubstr("more samples"));

@@ -26,8 +26,8 @@ Answer read_ply(ByteView file, const TakeMesh& take);
 
 // glTF 2.0 in one file; positions as floating-point numbers or quantized, also packed with
 // meshoptimizer. The meshes of one node are one. `extension` names the one that the file needs and
-// that is not known, with Answer::extension; Draco is one of them unless `unpack_draco` is given
-// (glb_packed.h), which makes this as safe as that library is.
+// that is not known, with Answer::extension, or a property, with Answer::property; Draco is one of
+// them unless `unpack_draco` is given (glb_packed.h), which makes this as safe as that library is.
 Answer read_glb(ByteView file, const TakeMesh& take, std::string& extension,
                 glb::UnpackDraco unpack_draco = nullptr);
 

@@ -206,6 +206,16 @@ TEST(GlbPacked, NumbersThatTheLibraryTrustsAreRefusedHere) {
         EXPECT_FALSE(glb::unpack_meshopt(packed, about)) << about.mode << " " << about.count;
 }
 
+TEST(GlbPacked, CornersInTheNewerFormOfMeshoptimizerAreToldApart) {
+    Bytes packed = packed_corners({0, 0, 0, 1, 0, 0, 0, 1, 0});
+    const glb::MeshoptView corners{"ATTRIBUTES", "", 3, 12}, triangles{"TRIANGLES", "", 3, 2};
+    EXPECT_FALSE(glb::needs_newer_meshopt(packed, corners));
+    packed[0] = std::byte{0xa1};
+    EXPECT_TRUE(glb::needs_newer_meshopt(packed, corners));
+    EXPECT_FALSE(glb::needs_newer_meshopt(packed, triangles));
+    EXPECT_FALSE(glb::needs_newer_meshopt({}, corners));
+}
+
 TEST(GlbPacked, BytesThatAreNoDracoAreNothing) {
     const std::string text = std::string("DRACO\2\2\1\0\0\0", 11) + "and no more";
     EXPECT_FALSE(glb::unpack_draco(as_bytes(text), 0));

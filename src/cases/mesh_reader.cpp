@@ -18,6 +18,7 @@
 #include "cases/foreign_files.h"
 #include "cases/foreign_input.h"
 #include "cases/mesh_files.h"
+#include "cases/text_words.h"
 
 namespace theatron::cases {
 namespace {
@@ -27,8 +28,14 @@ constexpr int deepest_node = 64;
 
 class Stream final : public Assimp::IOStream {
 public:
+    // Without the mark that some programs put before their text, since the library knows none.
     explicit Stream(int descriptor)
-        : descriptor_(descriptor), size_(std::size_t(lseek(descriptor, 0, SEEK_END))) {}
+        : descriptor_(descriptor), size_(std::size_t(lseek(descriptor, 0, SEEK_END))) {
+        char head[3];
+        if (pread(descriptor, head, 3, 0) == 3 && std::memcmp(head, "\xef\xbb\xbf", 3) == 0)
+            begin_ = 3;
+        size_ -= begin_;
+    }
 
     std::size_t Read(void* out, std::size_t size, std::size_t count) override {
         if (size == 0 || count > size_ || size > size_)
@@ -37,7 +44,7 @@ public:
         const std::size_t wanted = std::min(size * count, size_ - place_);
         while (done < wanted) {
             const ssize_t got = pread(descriptor_, static_cast<char*>(out) + done, wanted - done,
-                                      off_t(place_ + done));
+                                      off_t(begin_ + place_ + done));
             if (got <= 0)
                 break;
             done += std::size_t(got);
@@ -62,7 +69,7 @@ public:
 
 private:
     int descriptor_;
-    std::size_t size_, place_ = 0;
+    std::size_t begin_ = 0, size_, place_ = 0;
 };
 
 // The one file that there is; those that it refers to are not there.
@@ -176,7 +183,29 @@ void send(const aiScene& scene, const aiNode& node, const aiMatrix4x4& parent, i
         send(scene, *node.mChildren[i], place, depth + 1, sender);
 }
 
+// The library takes a polygon of fewer than three corners for a line or a point: at the file's end
+// it is the rest of one.
+bool ends_in_polygon(int descriptor) {
+    char tail[512];
+    const off_t size = lseek(descriptor, 0, SEEK_END);
+    const off_t begin = std::max<off_t>(0, size - off_t(sizeof(tail)));
+    const ssize_t got = pread(descriptor, tail, std::size_t(size - begin), begin);
+    std::string_view text(tail, std::size_t(std::max<ssize_t>(got, 0)));
+    text = text.substr(0, text.find_last_not_of("\r\n") + 1);
+    const std::size_t line_end = text.find_last_of("\r\n");
+    if (line_end == text.npos || text.substr(0, line_end).ends_with('\\'))
+        return false;
+    TextWords words(as_bytes(text.substr(line_end)));
+    if (words.next() != "f")
+        return false;
+    words.next();
+    words.next();
+    return words.next().empty();
+}
+
 Answer read_obj(int descriptor, Sender& sender) {
+    if (ends_in_polygon(descriptor))
+        return Answer::lacks;
     const std::string name = "mesh.obj";
     Assimp::Importer importer;
     keep_loaders(importer, "obj");

@@ -15,6 +15,7 @@ namespace theatron::cases {
 namespace {
 
 constexpr std::size_t header_size = 348, header_size_2 = 540, max_offset = 1 << 20;
+constexpr double rounding = 1e-3;  // of numbers with seven digits, and of programs that keep fewer
 
 // Fields of the header of either version, in either order of bytes.
 class Header {
@@ -132,9 +133,18 @@ bool sample_type(int code, SampleType& type) {
 }
 
 // "Method 2" of the header's description: a quaternion, an offset and the size of a sample.
-void place_by_quaternion(const Header& header, Vec3 (&columns)[3], Vec3& origin) {
+// Returns the problem as the end of a sentence, or nothing.
+std::string place_by_quaternion(const Header& header, Vec3 (&columns)[3], Vec3& origin) {
     const double b = header.quaternion(0), c = header.quaternion(1), d = header.quaternion(2);
-    const double a = std::sqrt(std::max(0.0, 1 - (b * b + c * c + d * d)));
+    const double size = b * b + c * c + d * d;
+    if (!(size <= 1 + rounding))
+        return "has a quaternion (quatern_b, quatern_c, quatern_d) that is no rotation; export it "
+               "again";
+    for (std::size_t i = 1; i <= 3; ++i)
+        if (header.pixdim(i) < 0)
+            return "has a step below 0 (pixdim), of which its qform leaves open what it means; "
+                   "export it again";
+    const double a = std::sqrt(std::max(0.0, 1 - size));
     const double turn = header.pixdim(0) < 0 ? -1 : 1;
     columns[0] = Vec3{a * a + b * b - c * c - d * d, 2 * (b * c + a * d), 2 * (b * d - a * c)} *
                  header.pixdim(1);
@@ -144,6 +154,7 @@ void place_by_quaternion(const Header& header, Vec3 (&columns)[3], Vec3& origin)
                  (header.pixdim(3) * turn);
     origin = {header.quaternion_origin(0), header.quaternion_origin(1),
               header.quaternion_origin(2)};
+    return "";
 }
 
 // False where the matrix spans no space: some programs set its code and leave it empty.
@@ -168,7 +179,8 @@ std::string read_grid(const Header& header, medical::VolumeGrid& grid) {
         return "is damaged: it has less than one dimension, or more than seven";
     int sides[3] = {1, 1, 1};
     for (std::size_t i = 1; i <= std::size_t(dimensions); ++i) {
-        const double side = header.dim(i);
+        // Some programs leave 0 where a dimension behind the three is not used.
+        const double side = i > 3 && header.dim(i) == 0 ? 1 : header.dim(i);
         if (side < 1)
             return "is damaged: one of its sides has no samples";
         if (i > 3 && side != 1)
@@ -184,13 +196,18 @@ std::string read_grid(const Header& header, medical::VolumeGrid& grid) {
     grid.slices = sides[2];
     Vec3 columns[3];
     const bool by_matrix = header.has_matrix() && place_by_matrix(header, columns, grid.origin_mm);
-    if (!by_matrix && header.has_quaternion())
-        place_by_quaternion(header, columns, grid.origin_mm);
-    else if (!by_matrix)
+    if (!by_matrix && !header.has_quaternion())
         return "does not say where in the patient it lies (neither sform nor qform)";
-    double mm = 1;
-    if (const int unit = header.unit(); unit == 1 || unit == 3)
-        mm = unit == 1 ? 1000 : 0.001;
+    if (!by_matrix)
+        if (std::string problem = place_by_quaternion(header, columns, grid.origin_mm);
+            !problem.empty())
+            return problem;
+    const int unit = header.unit();
+    if (unit > 3)
+        return "has the unit " + std::to_string(unit) +
+               " (xyzt_units), and millimetres, metres and micrometres are read; save it in "
+               "millimetres";
+    const double mm = unit == 1 ? 1000 : unit == 3 ? 0.001 : 1;
     grid.origin_mm = lps_from_ras(grid.origin_mm) * mm;
     grid.column_step_mm = lps_from_ras(columns[0]) * mm;
     grid.row_step_mm = lps_from_ras(columns[1]) * mm;
@@ -299,12 +316,17 @@ ParsedLabels parse_nifti(ByteView file, ByteView samples) {
     // Some programs leave 0, and let the samples follow the header and its four bytes behind.
     const double offset =
         header.offset() == 0 && !apart ? double(header.size() + 4) : header.offset();
-    if (!(offset >= (apart ? 0 : double(header.size())) && offset <= double(max_offset))) {
-        parsed.problem = "begins its samples at an impossible place";
+    if (!(offset >= (apart ? 0 : double(header.size())) && offset <= double(max_offset)) ||
+        offset != std::floor(offset)) {
+        parsed.problem = "begins its samples at an impossible place (vox_offset)";
         return parsed;
     }
     // 0 and no number both stand for no scale.
     const double slope = header.slope(), intercept = header.intercept();
+    if (std::isinf(slope) || std::isinf(intercept)) {
+        parsed.problem = "has an infinite scale of its values (scl_slope, scl_inter)";
+        return parsed;
+    }
     if (std::isfinite(slope) && slope != 0 && std::isfinite(intercept)) {
         layout.slope = slope;
         layout.intercept = intercept;

@@ -72,21 +72,41 @@ std::string field(const Fields& fields, std::string_view name) {
     return found == fields.end() ? "" : found->second;
 }
 
-// Numbers parted by anything else, such as "(1,0,0) (0,1,0)".
-std::vector<double> numbers_of(const std::string& text, std::size_t most) {
-    std::vector<double> numbers;
-    const char* at = text.c_str();
-    while (*at && numbers.size() < most) {
-        char* end = nullptr;
-        const double value = std::strtod(at, &end);
-        if (end == at) {
-            ++at;
-            continue;
-        }
-        numbers.push_back(value);
-        at = end;
+// A whole number and nothing else.
+std::optional<long> whole_number(std::string_view text) {
+    long number = 0;
+    return to_number(trimmed(text), number) ? std::optional(number) : std::nullopt;
+}
+
+// All three numbers of a vector without its brackets, as in "1,0,-2.5".
+std::optional<Vec3> vector_of(std::string_view text) {
+    double numbers[3];
+    for (int i = 0; i < 3; ++i) {
+        const std::size_t end = i < 2 ? text.find(',') : text.size();
+        if (end == std::string_view::npos || text.substr(0, end).find(',') != text.npos ||
+            !to_number(trimmed(text.substr(0, end)), numbers[i]))
+            return std::nullopt;
+        text.remove_prefix(std::min(end + 1, text.size()));
     }
-    return numbers;
+    return Vec3{numbers[0], numbers[1], numbers[2]};
+}
+
+// Parted by blanks.
+std::optional<std::vector<double>> sizes_of(const std::string& text) {
+    std::vector<double> sizes;
+    TextWords words(as_bytes(text));
+    for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
+        const std::optional<long> size = whole_number(word);
+        if (!size)
+            return std::nullopt;
+        sizes.push_back(double(*size));
+    }
+    return sizes;
+}
+
+std::string bad_field(const Fields& fields, const std::string& name, const char* wanted) {
+    return "has the field '" + name + "' with '" + clean_text(field(fields, name), 60) +
+           "', which is no " + wanted + "; export it again";
 }
 
 std::optional<SampleType> sample_type(std::string name) {
@@ -153,21 +173,28 @@ std::optional<Vec3> millimetres(const std::string& units) {
     return Vec3{found[0], found[1], found[2]};
 }
 
-// The directions of the axes; nothing for one that is none of space (a list of layers).
-std::vector<std::optional<Vec3>> directions_of(const std::string& text) {
-    std::vector<std::optional<Vec3>> axes;
+// The directions of the axes; nothing for one that is none of space (a list of layers). Nothing at
+// all where the text is anything else than vectors.
+using Directions = std::vector<std::optional<Vec3>>;
+std::optional<Directions> directions_of(const std::string& text) {
+    Directions axes;
     std::size_t at = 0;
-    while (at < text.size() && axes.size() < 8) {
+    while (at < text.size()) {
         if (text[at] == '(') {
-            const std::size_t end = std::min(text.find(')', at), text.size());
-            const std::vector<double> v = numbers_of(text.substr(at, end - at), 4);
-            axes.push_back(v.size() == 3 ? std::optional(Vec3{v[0], v[1], v[2]}) : std::nullopt);
+            const std::size_t end = text.find(')', at);
+            if (end == std::string::npos)
+                return std::nullopt;
+            axes.push_back(vector_of(std::string_view(text).substr(at + 1, end - at - 1)));
+            if (!axes.back())
+                return std::nullopt;
             at = end + 1;
         } else if (lower(text.substr(at, 4)) == "none") {
             axes.emplace_back();
             at += 4;
-        } else {
+        } else if (text[at] == ' ' || text[at] == '\t') {
             ++at;
+        } else {
+            return std::nullopt;
         }
     }
     return axes;
@@ -182,15 +209,19 @@ struct Axes {
 
 // Returns the problem as the end of a sentence, or nothing.
 std::string read_axes(const Fields& fields, Axes& axes) {
-    const std::vector<double> sizes = numbers_of(field(fields, "sizes"), 9);
-    const std::vector<std::optional<Vec3>> directions =
-        directions_of(field(fields, "space directions"));
     const std::string dimension = field(fields, "dimension");
-    if ((dimension != "3" && dimension != "4") || sizes.size() != std::size_t(dimension[0] - '0'))
+    if (dimension != "3" && dimension != "4")
         return "is no label map: it has not three dimensions";
+    const std::optional<std::vector<double>> found_sizes = sizes_of(field(fields, "sizes"));
+    if (!found_sizes || found_sizes->size() != std::size_t(dimension[0] - '0'))
+        return bad_field(fields, "sizes", "list of a whole number for each dimension");
+    const std::optional<Directions> found = directions_of(field(fields, "space directions"));
+    if (!found)
+        return bad_field(fields, "space directions", "list of vectors of three numbers");
+    const std::vector<double>& sizes = *found_sizes;
+    const Directions& directions = *found;
     for (std::size_t i = 0; i < sizes.size(); ++i) {
-        if (!(sizes[i] >= 1 && sizes[i] <= medical::max_volume_side) ||
-            sizes[i] != std::floor(sizes[i]))
+        if (!(sizes[i] >= 1 && sizes[i] <= medical::max_volume_side))
             return "has a side of no samples, or of more than " +
                    std::to_string(medical::max_volume_side);
         if (i >= directions.size())
@@ -201,6 +232,9 @@ std::string read_axes(const Fields& fields, Axes& axes) {
         } else if (i == 0 || i == 3) {
             axes.layers = std::size_t(sizes[i]);
             axes.layers_come_first = i == 0;
+        } else if (sizes[i] > 1) {
+            return "has its layers between its axes of space (space directions), and they are read "
+                   "as the first or the last axis; save it so";
         }
     }
     if (axes.layers > max_label_layers)
@@ -210,9 +244,15 @@ std::string read_axes(const Fields& fields, Axes& axes) {
 
 std::string read_grid(const Fields& fields, const Axes& axes, medical::VolumeGrid& grid) {
     const std::optional<Vec3> signs = lps_signs(field(fields, "space"));
-    const std::vector<double> origin = numbers_of(field(fields, "space origin"), 4);
-    if (!signs || axes.directions.size() != 3 || origin.size() != 3)
+    const std::string where = field(fields, "space origin");
+    if (!signs || axes.directions.size() != 3 || where.empty())
         return "does not say where in the patient it lies (space, space directions, space origin)";
+    const bool has_brackets = where.starts_with('(') && where.ends_with(')');
+    const std::optional<Vec3> origin =
+        has_brackets ? vector_of(std::string_view(where).substr(1, where.size() - 2))
+                     : std::nullopt;
+    if (!origin)
+        return bad_field(fields, "space origin", "vector of three numbers");
     const std::string units = field(fields, "space units");
     const std::optional<Vec3> mm = millimetres(units);
     if (!mm)
@@ -223,9 +263,8 @@ std::string read_grid(const Fields& fields, const Axes& axes, medical::VolumeGri
     const auto placed = [&](Vec3 v) {
         return Vec3{v.x * signs->x * mm->x, v.y * signs->y * mm->y, v.z * signs->z * mm->z};
     };
-    grid = {int(axes.sizes[0]),         int(axes.sizes[1]),
-            int(axes.sizes[2]),         placed({origin[0], origin[1], origin[2]}),
-            placed(axes.directions[0]), placed(axes.directions[1]),
+    grid = {int(axes.sizes[0]),        int(axes.sizes[1]),         int(axes.sizes[2]),
+            placed(*origin),           placed(axes.directions[0]), placed(axes.directions[1]),
             placed(axes.directions[2])};
     return medical::is_valid(grid)
                ? ""
@@ -237,39 +276,44 @@ std::vector<LabelName> read_names(const Fields& fields, std::size_t layer) {
     for (std::size_t i = 0; i < max_labels; ++i) {
         const std::string segment = "Segment" + std::to_string(i) + "_";
         const std::string name = field(fields, segment + "Name");
-        const std::vector<double> value = numbers_of(field(fields, segment + "LabelValue"), 1);
-        const std::vector<double> of_layer = numbers_of(field(fields, segment + "Layer"), 1);
-        if (name.empty() || value.empty() || (of_layer.empty() ? 0 : of_layer[0]) != double(layer))
+        const std::optional<long> value = whole_number(field(fields, segment + "LabelValue"));
+        const long of_layer = whole_number(field(fields, segment + "Layer")).value_or(0);
+        if (name.empty() || !value || of_layer != long(layer))
             continue;
-        if (value[0] >= 1 && value[0] <= 65535)
-            names.push_back({int(value[0]), clean_text(name, 64)});
+        if (*value >= 1 && *value <= 65535)
+            names.push_back({int(*value), clean_text(name, 64)});
     }
     return names;
 }
 
-// Moves `content` behind the lines and bytes that the header skips. False: there are fewer.
-bool skip(const Fields& fields, bool is_packed, ByteView& content, SampleLayout& layout) {
-    const std::vector<double> lines = numbers_of(field(fields, "line skip"), 1);
-    for (double i = 0; !lines.empty() && i < lines[0]; ++i) {
+// The number of lines or bytes that the header skips; at least `least`, or the problem is set.
+long skipped(const Fields& fields, const std::string& name, long least, std::string& problem) {
+    const std::string text = field(fields, name);
+    const std::optional<long> number = text.empty() ? 0 : whole_number(text);
+    if (!number || *number < least)
+        problem = bad_field(fields, name, least < 0 ? "whole number of bytes" : "number of lines");
+    return number.value_or(0);
+}
+
+// Moves `content` behind `lines` and `bytes`. False: there are fewer.
+bool skip(long lines, long bytes, bool is_packed, ByteView& content, SampleLayout& layout) {
+    for (long i = 0; i < lines; ++i) {
         const auto end = std::find(content.begin(), content.end(), std::byte('\n'));
         if (end == content.end())
             return false;
         content = content.subspan(std::size_t(end - content.begin()) + 1);
     }
-    const std::vector<double> bytes = numbers_of(field(fields, "byte skip"), 1);
-    if (bytes.empty() || bytes[0] == 0)
-        return true;
-    if (bytes[0] == -1 && !is_packed) {
+    if (bytes == -1 && !is_packed) {
         // The samples are the last bytes.
         if (layout.bytes() > content.size())
             return false;
         content = content.last(layout.bytes());
         return true;
     }
-    constexpr double most = 1 << 30;
-    if (!(bytes[0] > 0 && bytes[0] <= most))
+    constexpr long most = 1 << 30;
+    if (bytes < 0 || bytes > most)
         return false;
-    layout.skipped_bytes = std::size_t(bytes[0]);
+    layout.skipped_bytes = std::size_t(bytes);
     return true;
 }
 
@@ -314,7 +358,10 @@ ParsedLabels parse_nrrd(ByteView file, std::size_t layer, ByteView data) {
                              "', which is not read; save it raw or with gzip");
     SampleLayout layout;
     layout.type = *type;
-    layout.big_endian = lower(field(fields, "endian")) == "big";
+    const std::string order = lower(field(fields, "endian"));
+    if (!order.empty() && order != "little" && order != "big")
+        return other_content(bad_field(fields, "endian", "order of bytes (little, big)"));
+    layout.big_endian = order == "big";
     layout.count = parsed.value.grid.size();
     if (axes.layers_come_first) {
         layout.step = axes.layers;
@@ -323,8 +370,12 @@ ParsedLabels parse_nrrd(ByteView file, std::size_t layer, ByteView data) {
         layout.skipped = layer * layout.count;
     }
     ByteView content = data.empty() ? file.subspan(*begin) : data;
+    const long lines = skipped(fields, "line skip", 0, parsed.problem);
+    const long bytes = skipped(fields, "byte skip", -1, parsed.problem);
+    if (!parsed.problem.empty())
+        return parsed;
     parsed.is_other_content = false;
-    if (!skip(fields, packing.has_value() || is_text, content, layout)) {
+    if (!skip(lines, bytes, packing.has_value() || is_text, content, layout)) {
         parsed.problem = "holds less than its header announces: it is cut off or damaged";
         return parsed;
     }

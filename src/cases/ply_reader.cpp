@@ -155,6 +155,23 @@ bool are_indices(const Property& property) {
            (property.name == "vertex_indices" || property.name == "vertex_index");
 }
 
+// 0 to 2; nothing for other properties.
+std::optional<std::size_t> axis_of(const Property& property) {
+    constexpr std::string_view names[] = {"x", "y", "z"};
+    for (std::size_t axis = 0; axis < 3 && property.count_type == 0; ++axis)
+        if (is_word(property.name, names[axis]))
+            return axis;
+    return std::nullopt;
+}
+
+bool has_places(const Element& vertex) {
+    bool has[3] = {};
+    for (const Property& property : vertex.properties)
+        if (const auto axis = axis_of(property))
+            has[*axis] = true;
+    return has[0] && has[1] && has[2];
+}
+
 class Reader {
 public:
     Reader(ByteView content, Form form) : values_(content, form) {}
@@ -166,6 +183,8 @@ public:
         if (element.properties.empty())
             return Answer::content;
         const bool is_vertex = element.name == "vertex";
+        if (is_vertex && !has_places(element))
+            return Answer::no_places;
         if (is_vertex && element.count > max_loose_vertices)
             return Answer::too_large;
         const bool has_indices =
@@ -216,9 +235,8 @@ private:
             if (property.count_type == 0) {
                 if (!values_.next(property.type, value))
                     return Answer::lacks;
-                if (is_vertex && property.name.size() == 1 && property.name[0] >= 'x' &&
-                    property.name[0] <= 'z')
-                    p[property.name[0] - 'x'] = value;
+                if (const auto axis = is_vertex ? axis_of(property) : std::nullopt)
+                    p[*axis] = value;
                 continue;
             }
             double count = 0;

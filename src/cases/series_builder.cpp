@@ -132,7 +132,8 @@ std::vector<int> number_slices(const std::vector<Sorted>& order, double step_mm,
         if (std::abs(order[i].along_mm - line.begin_mm - numbers[i] * line.step_mm) > limit) {
             const std::size_t a = i > 0 ? i - 1 : 0;
             problem = "The images of the series lie unevenly: most are " + in_mm(step_mm) +
-                      " apart, two are " + in_mm(order[a + 1].along_mm - order[a].along_mm) + ".";
+                      " apart, two are " + in_mm(order[a + 1].along_mm - order[a].along_mm) +
+                      "; copy the series again, or export it with equal distances.";
             return {};
         }
     return numbers;
@@ -143,7 +144,7 @@ std::vector<int> number_slices(const std::vector<Sorted>& order, double step_mm,
 std::string place_difference(const DicomSlice& a, const DicomSlice& b) {
     if (!b.has_place)
         return "An image of the series says nothing about its place in the patient, so the series "
-               "cannot be shown as a volume.";
+               "cannot be shown as a volume; export it with all data, or save its images as PNG.";
     if (a.columns != b.columns || a.rows != b.rows ||
         std::abs(a.column_spacing_mm - b.column_spacing_mm) > same_spacing_mm ||
         std::abs(a.row_spacing_mm - b.row_spacing_mm) > same_spacing_mm)

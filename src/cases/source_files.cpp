@@ -26,8 +26,16 @@ bool ends_with(const fs::path& file, std::string_view end) {
     return name.ends_with(end);
 }
 
+// macOS puts such files beside others on discs of other systems and into archives: their names end
+// as those do, and they hold no content.
+bool is_of_finder(const fs::path& file) {
+    return file.filename().string().starts_with("._");
+}
+
 void sort_in(const fs::path& file, SourceFiles& files) {
-    if (is_mesh_file(file))
+    if (is_of_finder(file))
+        files.others.push_back(file);
+    else if (is_mesh_file(file))
         files.meshes.push_back(file);
     else if (is_nifti_file(file) || is_nrrd_file(file))
         files.label_maps.push_back(file);

@@ -45,11 +45,13 @@ Answer read_binary(ByteView file, const TakeMesh& take) {
 Answer read_text(ByteView file, const TakeMesh& take) {
     TextWords words(file);
     NamedMesh named;
+    std::size_t facet_begin = 0;
     bool any = false;
     const auto hand_over = [&] {
         const bool go_on = named.mesh.triangles.empty() || take(named);
         any = any || !named.mesh.triangles.empty();
         named = {};
+        facet_begin = 0;
         return go_on;
     };
     for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
@@ -59,6 +61,10 @@ Answer read_text(ByteView file, const TakeMesh& take) {
             if (!hand_over())
                 return Answer::end;
             named.name = words.rest_of_line();
+        } else if (is_word(word, "endloop")) {
+            if (named.mesh.positions.size() != facet_begin + 3)
+                return Answer::polygons;
+            facet_begin += 3;
         } else if (is_word(word, "vertex")) {
             float p[3];
             for (float& coordinate : p)

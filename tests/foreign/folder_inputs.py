@@ -83,6 +83,48 @@ def archive():
                 remarks=["a scout?", "holds no image", "picture in colour"])
 
 
+def finder_file():
+    """AppleDouble: macOS writes one beside each file on a disc of another system, under its name with "._" before it."""
+    return b"\0\5\x16\7\0\2\0\0Mac OS X        " + bytes(120)
+
+
+def stick():
+    """A folder of Windows, packed by macOS."""
+    files = {"Fall Müller 1/CT Bilder/Img%02d.DCM" % k: file_of(slice_elements(k)) for k in range(dicom_inputs.SLICES)}
+    files |= {"Fall Müller 1/Modelle für OP/Leber.STL": stl_binary(), "Fall Müller 1/desktop.ini": b"[.ShellClassInfo]\r\n",
+              "Fall Müller 1/CT Bilder/Thumbs.db": b"\xd0\xcf\x11\xe0" + bytes(600), ".DS_Store": b"\0\0\0\1Bud1" + bytes(100),
+              "Fall Müller 1.zip": b"PK\3\4" + bytes(300), "Befund.pdf": b"%PDF-1.7\n" + bytes(200)}
+    for name in ("Leber.STL", "Img00.DCM", "scan.nii.gz", "scan.nii", "vein.ply", "photo.jpg", "mask.nrrd"):
+        files["__MACOSX/Fall Müller 1/._" + name] = finder_file()
+    yield Input("stick of Windows and macOS", dict(files), [dicom_inputs.series()], [box("Leber")], pictures=0,
+                remarks=["12 files were not read, being of no kind that is imported"])
+    del files["Fall Müller 1/Modelle für OP/Leber.STL"]
+    files["Fall Müller 1/maske.nii.gz"] = gzip.compress(nifti())
+    yield Input("stick with a label map", files, [dicom_inputs.series()], [part(1, "label 1"), part(2, "label 2")],
+                remarks=["12 files were not read"])
+
+
+def two_of_one_name():
+    files = {"export/ser%d/%08d" % (n, k): file_of(slice_elements(
+        k, _0020000e=("UI", "1.2.3.4.%d" % n), _0008103e=("LO", "ABDOMEN 2.0 B30f"), _00080018=("UI", "1.7.%d.%d" % (n, k))))
+        for n in (1, 2) for k in range(dicom_inputs.SLICES)}
+    yield Input("two series of one description", files, [dicom_inputs.series()] * 2)
+
+
+def empty_segments():
+    names = ("aorta", "colon", "heart", "kidney_left", "kidney_right", "lung", "spleen")
+    files = {"segmentations/%s.nii.gz" % name: gzip.compress(nifti(labels((0, 0, 0)))) for name in names}
+    words = "7 files are left out, since each of them has no labels but 0"
+    yield Input("segments of which none is there", dict(files), refused=words)
+    files["segmentations/liver.nii.gz"] = gzip.compress(nifti(labels((0, 1, 0))))
+    yield Input("segments of which one is there", files, parts=[part(1, "liver")], remarks=[words])
+
+
+def one_file():
+    yield Input("folder of a single file", {"Patient 7/Scan (2)/o.nii.gz": gzip.compress(nifti())},
+                parts=[part(1, "label 1"), part(2, "label 2")], silent=True)
+
+
 def inputs():
-    for make in (total_segmentator, slicer_scene, disc, archive):
+    for make in (total_segmentator, slicer_scene, disc, archive, stick, two_of_one_name, empty_segments, one_file):
         yield from make()

@@ -23,6 +23,7 @@ import mesh_inputs  # noqa: E402
 import more_inputs  # noqa: E402
 import own_seeds  # noqa: E402
 import packed_glb  # noqa: E402
+import unusual_inputs  # noqa: E402
 from expected import problem  # noqa: E402
 
 LEAST = 200
@@ -32,7 +33,7 @@ LONGEST_SEED = 1 << 16
 
 
 def inputs():
-    for module in (dicom_inputs, label_inputs, mesh_inputs, packed_glb, folder_inputs, more_inputs):
+    for module in (dicom_inputs, label_inputs, mesh_inputs, packed_glb, folder_inputs, more_inputs, unusual_inputs):
         yield from module.inputs()
 
 
@@ -96,6 +97,9 @@ class ForeignFiles(unittest.TestCase):
 
     def test_more_of_each_kind(self):
         self.run_all(more_inputs)
+
+    def test_unusual_values(self):
+        self.run_all(unusual_inputs)
 
     def test_there_are_enough_and_each_has_its_name(self):
         names = [one.name for one in inputs()]

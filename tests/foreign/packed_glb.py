@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """GLB whose corners and triangles are packed: with Draco (its bitstream 2.2, sequential) and with meshoptimizer (the
-appendix of EXT_meshopt_compression), in the plainest form that the formats have."""
+appendix of EXT_meshopt_compression and of its successor of KHR), in the plainest form that the formats have."""
 
 import struct
 
 from expected import Input, Part
-from mesh_inputs import COMPONENTS, CORNERS, HIGH, LOW, TRIANGLES, VOLUME, glb
+from mesh_inputs import box as stl_box
+from mesh_inputs import COMPONENTS, CORNERS, HIGH, LOW, TRIANGLES, VOLUME, glb, stl_binary
 
 DRACO, MESHOPT = "KHR_draco_mesh_compression", "EXT_meshopt_compression"
+SUCCESSOR = "KHR_meshopt_compression"
 DRACO_TYPES = {"b": 1, "B": 2, "h": 3, "H": 4, "i": 5, "I": 6, "f": 9}
 # The box, as Debian's draco_encoder packs it (edgebreaker, 14 bits a coordinate).
 DRACO_ENCODER = ("445241434f02020101000000080c000b0000035f4b1501011001ff000001000903000002010101000f03011001082b01280400ba1c8100"
@@ -44,18 +46,20 @@ def zigzag(value, bits):
     return (value << 1 ^ (-1 if value >> (bits - 1) else 0)) & ((1 << bits) - 1)
 
 
-def meshopt_vertices(data, stride):
+def meshopt_vertices(data, stride, version=0):
     """Each byte as its difference from that of the vertex before, in groups of 16 plain ones; one block."""
     count = len(data) // stride
     assert count <= min(8192 // stride & ~15, 256)
     groups = (count + 15) // 16
-    out, first = b"\xa0", data[:stride]
+    # Version 1 says of each byte, in two bits, that it is plain, and last of four bytes each that they are differences of bytes.
+    out, first = bytes([0xa0 + version]) + b"\xff" * (version * stride // 4), data[:stride]
+    channels = bytes(version * stride // 4)
     for k in range(stride):
         column = [data[i * stride + k] for i in range(count)]
         steps = [zigzag(value - before, 8) for value, before in zip(column, [first[k]] + column)]
         steps += [0] * (16 * groups - count)
-        out += b"\xff" * ((groups + 3) // 4) + bytes(steps)
-    return out + first.rjust(max(stride, 32), b"\0")
+        out += b"\xff" * ((groups + 3) // 4 * (1 - version)) + bytes(steps)
+    return out + (first + channels).rjust(24 if version else 32, b"\0")
 
 
 def meshopt_triangles(indices):
@@ -95,7 +99,8 @@ def draco_glb(data, number="f", normalized=False, place=None, count=8, identity=
                        [{"byteLength": len(data)}], DRACO, place, {"extensions": packed, "mode": mode}), data)
 
 
-def meshopt_glb(number="f", filter=None, mode="TRIANGLES", index="H", cut=0, change=None, normalized=False, shared=False):
+def meshopt_glb(number="f", filter=None, mode="TRIANGLES", index="H", cut=0, change=None, normalized=False, shared=False,
+                extension=MESHOPT, version=0, required=True):
     place = None
     points, low = metres(), None
     if number != "f":
@@ -110,7 +115,7 @@ def meshopt_glb(number="f", filter=None, mode="TRIANGLES", index="H", cut=0, cha
     if shared:
         plain = bytes(stride * 8) + plain
     indices = [i for t in TRIANGLES for i in t]
-    vertices = meshopt_vertices(plain, stride)
+    vertices = meshopt_vertices(plain, stride, version)
     packed = vertices[:len(vertices) - cut]
     packed += bytes(-len(packed) % 4)
     triangles = meshopt_triangles(indices) if mode == "TRIANGLES" else meshopt_sequence(indices)
@@ -123,16 +128,18 @@ def meshopt_glb(number="f", filter=None, mode="TRIANGLES", index="H", cut=0, cha
     if filter:
         about[0]["filter"] = filter
     # The second buffer is where other programs would find them plain; this file has none.
-    views = [{"buffer": 1, "byteOffset": 0, "byteLength": len(plain), "byteStride": stride, "extensions": {MESHOPT: about[0]}},
-             {"buffer": 1, "byteOffset": len(plain), "byteLength": 36 * width, "extensions": {MESHOPT: about[1]}}]
+    views = [{"buffer": 1, "byteOffset": 0, "byteLength": len(plain), "byteStride": stride, "extensions": {extension: about[0]}},
+             {"buffer": 1, "byteOffset": len(plain), "byteLength": 36 * width, "extensions": {extension: about[1]}}]
     accessors = [{"bufferView": 0, "componentType": COMPONENTS[number], "count": 8, "type": "VEC3",
                   "normalized": normalized, "byteOffset": stride * 8 if shared else 0},
                  {"bufferView": 1, "componentType": COMPONENTS[index], "count": 36, "type": "SCALAR"}]
     buffer = packed + triangles
     root = root_of(accessors, views, [{"byteLength": len(buffer)},
-                                      {"byteLength": len(plain) + 36 * width, "extensions": {MESHOPT: {"fallback": True}}}],
-                   MESHOPT, place)
-    root["extensionsRequired"] = root["extensionsUsed"] = [MESHOPT, "KHR_mesh_quantization"]
+                                      {"byteLength": len(plain) + 36 * width, "extensions": {extension: {"fallback": True}}}],
+                   extension, place)
+    root["extensionsRequired"] = root["extensionsUsed"] = [extension, "KHR_mesh_quantization"]
+    if not required:
+        del root["extensionsRequired"]
     if change:
         change(root)
     return glb(root, buffer)
@@ -183,6 +190,7 @@ def meshopt_inputs():
     yield Input("meshopt, no filter by name", {"o.glb": meshopt_glb(filter="NONE")}, parts=[box()])
     yield Input("meshopt, two accessors in a view", {"o.glb": meshopt_glb("h", shared=True)}, parts=[box()])
     yield Input("meshopt, directions as corners", {"o.glb": meshopt_glb(filter="OCTAHEDRAL")}, refused=refused)
+    yield from successor_inputs(refused)
     for cut in (1, 40, 150):
         yield Input("meshopt cut off by %d" % cut, {"o.glb": meshopt_glb(cut=cut)}, refused=refused)
 
@@ -195,3 +203,28 @@ def meshopt_inputs():
                                 ("buffer", 1, "in another file"), ("count", "8", refused)):
         yield Input("meshopt with %s %s" % (field, value), {"o.glb": meshopt_glb(change=change_of(field, value))},
                     refused=words)
+
+
+def successor_inputs(refused):
+    def file(**more):
+        return {"o.glb": meshopt_glb(extension=SUCCESSOR, **more)}
+    for number in "fhH":
+        yield Input("meshopt of KHR %s" % number, file(number=number), parts=[box()], silent=True)
+    yield Input("meshopt of KHR, not needed by its list", file(required=False), parts=[box()])
+    yield Input("meshopt of KHR, indices in their order", file(mode="INDICES", index="I"), parts=[box()])
+    yield Input("meshopt of KHR, exponents", file(filter="EXPONENTIAL"), parts=[box()])
+    yield Input("meshopt of KHR cut off", file(cut=40), refused=refused)
+    yield Input("meshopt of KHR, colours as corners", file(filter="COLOR"), refused=refused)
+    newer = "needs the glTF extension 'KHR_meshopt_compression, version 1', which is not read"
+    for number in "fh":
+        yield Input("meshopt of KHR, version 1 %s" % number, file(number=number, version=1), refused=newer)
+    yield Input("meshopt of KHR, version 1 beside", dict(file(version=1), **{"liver.stl": stl_binary()}),
+                parts=[stl_box("liver")], remarks=["o.glb' is left out", newer])
+
+    def colored(root):
+        view = {"buffer": 0, "byteOffset": 0, "byteLength": 40, "byteStride": 4, "count": 8, "mode": "ATTRIBUTES",
+                "filter": "COLOR"}
+        root["bufferViews"].append({"buffer": 1, "byteLength": 32, "byteStride": 4, "extensions": {SUCCESSOR: view}})
+        root["accessors"].append({"bufferView": 2, "componentType": 5121, "count": 8, "type": "VEC4", "normalized": True})
+        root["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = 2
+    yield Input("meshopt of KHR, colours by their filter", file(change=colored), parts=[box()], silent=True)
