@@ -80,8 +80,9 @@ void add_pictures(Table& table) {
               });
     table.row("Dark part of the picture", "of the whole picture; lower is better",
               percent(&CompareLikeness::undrawn_percent));
-    table.row("of it, seen by no camera",
-              "decided by how many cameras there are and where they hang",
+    table.row("Dark because no camera sees it",
+              "a part of the figure above, of the whole picture, too; decided by how many cameras "
+              "there are and where they hang",
               percent(&CompareLikeness::undrawn_unseen_percent));
     table.row("Seen through",
               "of what is drawn: a surface is missing, and something behind it shows; lower is "
