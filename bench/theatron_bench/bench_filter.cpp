@@ -126,12 +126,16 @@ struct Times {
 };
 
 // Times a stage and checks its pixels. `frames` are replaced by its results.
-Times time_stage(const StageBench& bench, std::vector<DepthPlane>& frames) {
+Times time_stage(const StageBench& bench, std::vector<DepthPlane>& frames, FilterCompany company) {
     // A static picture is repeated until filters with memory are stationary, and only then
     // timed. (Without memory, in the first frame, a reference is fastest.)
     const bool still = frames.size() == 1;
     const int settling = still ? 25 : 0;
-    const int passes = still ? 75 : 15, reference_passes = still ? passes : 2;
+    const int passes = still ? 75 : 15;
+    const int reference_passes = company == FilterCompany::nothing ? 0
+                                 : company == FilterCompany::check ? 1
+                                 : still                           ? passes
+                                                                   : 2;
     FrameTimes simd(frames.size()), reference(frames.size());
     DepthPlane out(frames.front().size()), expected = out;
     const auto timed = [&](const auto& run, DepthPlane& in, DepthPlane& result) {
@@ -159,19 +163,19 @@ Times time_stage(const StageBench& bench, std::vector<DepthPlane>& frames) {
     return {simd.ms(), reference.ms()};
 }
 
-// The time of a chain, and that of zstd level 1 on the same frames, in turns with it.
+// The time of a chain, and with everything that of zstd level 1 on the same frames, in turns.
 struct ChainTimes {
     double ms = 0, zstd1_ms = 0;
 };
 
 ChainTimes time_chain(const filter::ChainSettings& settings, const filter::ChainCamera& camera,
-                      const std::vector<DepthImage>& frames) {
+                      const std::vector<DepthImage>& frames, FilterCompany company) {
     filter::Chain chain(settings, camera);
     const std::unique_ptr<BenchCoder> zstd = zstd_yardstick();
     Bytes encoded;
     FrameTimes times(frames.size()), zstd_times(frames.size());
     for (int pass = 0; pass < (frames.size() == 1 ? 75 : 25); ++pass) {
-        for (std::size_t i = 0; i < frames.size(); ++i)
+        for (std::size_t i = 0; company == FilterCompany::everything && i < frames.size(); ++i)
             zstd_times.add(i, elapsed_ms([&] { (void)zstd->encode(frames[i], encoded); }));
         for (std::size_t i = 0; i < frames.size(); ++i)
             times.add(i, elapsed_ms([&] {
@@ -204,7 +208,8 @@ double time_hole_iteration(const filter::ChainCamera& camera) {
 }  // namespace
 
 nlohmann::json bench_filter(const std::vector<DepthImage>& frames,
-                            const std::vector<std::string>& names) {
+                            const std::vector<std::string>& names, FilterCompany company) {
+    const bool everything = company == FilterCompany::everything;
     const filter::ChainCamera camera{.size = frames.front().size};
     nlohmann::json stages = nlohmann::json::array(), chains = nlohmann::json::array();
     const auto add_stage = [&](const std::string& name, const std::string& variant, double ms) {
@@ -222,22 +227,26 @@ nlohmann::json bench_filter(const std::vector<DepthImage>& frames,
         for (const filter::Step& step : settings.steps) {
             const StageBench bench =
                 std::visit([&](const auto& params) { return bench_of(params, camera); }, step);
-            const Times times = time_stage(bench, planes);
+            const Times times = time_stage(bench, planes, company);
             reference += times.reference;
             add_stage(preset + "/" + bench.name, "simd", times.simd);
-            add_stage(preset + "/" + bench.name, "reference", times.reference);
+            if (everything)
+                add_stage(preset + "/" + bench.name, "reference", times.reference);
         }
-        const ChainTimes times = time_chain(settings, camera, frames);
-        chains.push_back({{"variant", preset},
-                          {"ms", times.ms},
-                          {"zstd1_ms", times.zstd1_ms},
-                          {"of_zstd1", times.ms / times.zstd1_ms}});
+        const ChainTimes times = time_chain(settings, camera, frames, company);
+        chains.push_back({{"variant", preset}, {"ms", times.ms}});
+        if (!everything)
+            continue;
+        chains.back()["zstd1_ms"] = times.zstd1_ms;
+        chains.back()["of_zstd1"] = times.ms / times.zstd1_ms;
         chains.push_back({{"variant", preset + "/reference"}, {"ms", reference}});
     }
 
-    add_stage("hole_iteration_everywhere", "simd", time_hole_iteration(camera));
-    if (const auto opencv = opencv_median_ms(frames.front()))
-        add_stage("median3_without_validity", "opencv", *opencv);
+    if (everything) {
+        add_stage("hole_iteration_everywhere", "simd", time_hole_iteration(camera));
+        if (const auto opencv = opencv_median_ms(frames.front()))
+            add_stage("median3_without_validity", "opencv", *opencv);
+    }
     return {{"width", camera.size.width},
             {"height", camera.size.height},
             {"target", cli::instruction_set_in_use()},

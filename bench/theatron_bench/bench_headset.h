@@ -37,21 +37,24 @@ public:
     std::string renderer_name() const { return context_.renderer_name(); }
 
     // The median time of a picture of both eyes that shows the first `count` cameras, whose images
-    // are all uploaded for each picture: wall clock around glFinish. The first picture of its kind,
-    // which compiles programs, is checked for a cloud and not counted. Throws Error for an unknown
-    // renderer, an empty cloud, and errors of the driver.
+    // are all uploaded for each picture: wall clock around glFinish. Before the first picture of
+    // its kind a small one, which compiles programs, is drawn and not counted, and the cloud is
+    // checked: without a GPU a large one takes as long as those that count. Throws Error for an
+    // unknown renderer, an empty cloud, and errors of the driver.
     double picture_ms(int count, const std::string& renderer, render::SceneQuality quality,
                       const HeadsetTiming& timing);
 
 private:
     FurnishedRoom& room(render::SceneQuality quality);
     render::CloudSet& clouds(int count);
+    void draw(int count, const std::string& renderer, render::SceneQuality quality,
+              const render::RenderTarget& left, const render::RenderTarget& right);
     void check_cloud(int count, const std::string& renderer);
 
     render::OffscreenContext context_;  // longer than the objects below
     std::vector<RenderBenchCamera> cameras_;
     render::CameraView middle_;
-    render::RenderTarget left_, right_;
+    render::RenderTarget left_, right_, small_left_, small_right_;
     std::shared_ptr<render::CloudPrograms> programs_;
     std::map<int, render::CloudSet> clouds_;  // by the number of cameras
     std::map<render::SceneQuality, FurnishedRoom> rooms_;

@@ -16,9 +16,12 @@ namespace theatron::bench {
 
 // Drawn pictures beside the exact ones.
 struct CompareLikeness {
-    double psnr_db = 0, ssim = 0;  // of the pixels whose surface a camera sees
-    double holes_percent = 0;      // share of these without that surface: render::Holes
-    double undrawn_percent = 0;    // share of the whole picture in which nothing is drawn
+    double psnr_db = 0, ssim = 0;       // of the pixels whose surface a camera sees
+    double holes_percent = 0;           // share of these without that surface: render::Holes
+    double undrawn_percent = 0;         // share of the whole picture in which nothing is drawn
+    double undrawn_unseen_percent = 0;  // the part of undrawn_percent whose surface no camera sees
+    // Share of what is drawn that is not the surface there but something behind: render::Holes.
+    double see_through_percent = 0;
 };
 
 // A camera's picture that came back, beside what the camera sees.
@@ -26,13 +29,22 @@ struct CompareOwnView {
     double psnr_db = 0, ssim = 0;
 };
 
+// The same few decimetres around the operation, from the first place of the expert or as a part of
+// a camera's picture.
+struct CompareCloseUp {
+    ColorImage picture;
+    std::optional<CompareLikeness> likeness;  // none of a camera's picture
+};
+
 struct CompareMethod {
     std::string id;      // stable, for scripts
     std::string name;    // for people who know no codec
-    std::string ran;     // for people who do
+    std::string plain;   // what it does, one sentence for them
+    std::string ran;     // for people who know codecs
     std::string reason;  // why there are no figures at all; empty if there are some
     int cameras = 0;
-    double mbit_per_camera = 0;             // at 30 pictures a second
+    double mbit_per_camera = 0;    // at 30 pictures a second, without the first picture
+    double rate_setting_mbit = 0;  // the rate that its encoder was set to; 0: it was set to none
     double sender_ms = 0, receiver_ms = 0;  // processor time of one camera's picture
     std::vector<LinkFigures> links;
     std::optional<CompareOwnView> own_view;
@@ -41,6 +53,10 @@ struct CompareMethod {
     std::string expert_reason;                // why there is no picture from the expert's place
     // From each place of the expert; one picture if it is the same from all, none without any.
     std::vector<ColorImage> pictures;
+    std::optional<CompareCloseUp> close_up;
+
+    bool is_measured() const { return reason.empty(); }
+    double mbit_of_all() const { return mbit_per_camera * cameras; }
 };
 
 struct Compared {
@@ -53,6 +69,8 @@ struct Compared {
     std::vector<CompareLink> links;
     std::vector<std::string> places;  // of the expert, in words
     std::vector<ColorImage> truth;    // from each of them
+    ColorImage close_up_truth;
+    double close_up_width_m = 0;  // of what close-ups show
     std::vector<CompareMethod> methods;
 
     const CompareMethod* find(const std::string& id) const {
@@ -60,6 +78,11 @@ struct Compared {
             if (method.id == id)
                 return &method;
         return nullptr;
+    }
+    // Null, too, if that method could not be measured.
+    const CompareMethod* find_measured(const std::string& id) const {
+        const CompareMethod* method = find(id);
+        return method != nullptr && method->is_measured() ? method : nullptr;
     }
 };
 

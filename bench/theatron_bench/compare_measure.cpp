@@ -8,6 +8,8 @@
 #include "base/error.h"
 #include "base/statistics.h"
 #include "bench_libjpeg.h"
+#include "camera_frames.h"
+#include "compare_close_up.h"
 #include "compare_pcl.h"
 #include "compare_points.h"
 #include "filter/chain.h"
@@ -16,6 +18,7 @@
 #include "render/gl_driver.h"
 #include "render/offscreen_context_native.h"
 #include "render/picture_quality.h"
+#include "svg_drawing.h"
 #include "this_machine.h"
 #include "video/color_codec.h"
 #include "video/depth_codecs.h"
@@ -26,6 +29,8 @@ namespace {
 constexpr Duration between_pictures = Duration(33'333);
 // Pictures that a renderer with a memory gets before the one that is compared.
 constexpr std::size_t drawn_before = 5;
+// A usual rate of video calls for a picture of this size.
+constexpr double call_mbit = 2.5;
 
 // Processor time of all threads of this process.
 double processor_ms() {
@@ -209,19 +214,30 @@ public:
         error_.add(drawn.color.view(), place.exact_color.view(), place.seen.view());
         similarity_.add(drawn.color.view(), place.exact_color.view(), place.seen.view());
         holes_.add(drawn.depth_mm.view(), place.exact_mm.view(), place.seen.view());
-        const auto& pixels = drawn.depth_mm.pixels;
-        nothing_ += double(std::count(pixels.begin(), pixels.end(), 0));
-        pixels_ += double(pixels.size());
+        Image<std::uint8_t> is_drawn(drawn.depth_mm.size);
+        for (std::size_t i = 0; i < is_drawn.pixels.size(); ++i) {
+            is_drawn.pixels[i] = drawn.depth_mm.pixels[i] != 0;
+            undrawn_ += !is_drawn.pixels[i];
+            undrawn_unseen_ += !is_drawn.pixels[i] && !place.seen.pixels[i];
+        }
+        pixels_ += double(is_drawn.pixels.size());
+        see_through_.add(drawn.depth_mm.view(), place.exact_mm.view(),
+                         std::as_const(is_drawn).view());
     }
     CompareLikeness result() const {
-        return {error_.psnr_db(), similarity_.mean(), holes_.percent(), 100 * nothing_ / pixels_};
+        return {.psnr_db = error_.psnr_db(),
+                .ssim = similarity_.mean(),
+                .holes_percent = holes_.percent(),
+                .undrawn_percent = 100 * undrawn_ / pixels_,
+                .undrawn_unseen_percent = 100 * undrawn_unseen_ / pixels_,
+                .see_through_percent = see_through_.percent()};
     }
 
 private:
     render::SquaredError error_;
     render::Similarity similarity_;
-    render::Holes holes_;
-    double nothing_ = 0, pixels_ = 0;
+    render::Holes holes_, see_through_;
+    double undrawn_ = 0, undrawn_unseen_ = 0, pixels_ = 0;
 };
 
 class CompareMeasuring {
@@ -243,6 +259,8 @@ public:
         out_.places = scene_.place_names;
         for (const ViewBenchPlace& place : scene_.places)
             out_.truth.push_back(place.exact_color);
+        out_.close_up_truth = scene_.close_up.exact_color;
+        out_.close_up_width_m = close_up_width_m;
         begin_drawing();
         step("measuring a video call", [&] { return video_call(); });
         step("measuring the published pipeline", [&] { return paper(); });
@@ -279,8 +297,10 @@ private:
              double(scene_.cameras.size()));
     }
 
-    void add_pictures(CompareMethod& method, std::vector<render::Picture> drawn) const {
-        LikenessSum all;
+    // One picture from each place and the close-up.
+    void add_pictures(CompareMethod& method, std::vector<render::Picture> drawn,
+                      render::Picture close_up) const {
+        LikenessSum all, close;
         for (std::size_t i = 0; i < drawn.size(); ++i) {
             LikenessSum one;
             one.add(drawn[i], scene_.places[i]);
@@ -290,6 +310,8 @@ private:
         method.expert = all.result();
         for (render::Picture& picture : drawn)
             method.pictures.push_back(std::move(picture.color));
+        close.add(close_up, scene_.close_up);
+        method.close_up = {std::move(close_up.color), close.result()};
     }
 
     void draw(CompareMethod& method, const std::vector<ArrivedCamera>& cameras,
@@ -315,19 +337,27 @@ private:
             drawn.push_back(clouds.render(place.view, options_.scene.picture, renderer));
             tell(0.9 + 0.1 * double(drawn.size()) / double(scene_.places.size()));
         }
-        add_pictures(method, std::move(drawn));
+        add_pictures(method, std::move(drawn),
+                     clouds.render(scene_.close_up.view, options_.scene.picture, renderer));
     }
 
     CompareMethod video_call() const {
-        CompareMethod method{.id = video_call_id, .name = "Video call"};
-        const std::string rate = "h264:bitrate_mbit=2.5";
+        CompareMethod method{
+            .id = video_call_id,
+            .name = "Video call",
+            .plain =
+                "The picture of one camera, as in any video call. The expert sees what that "
+                "camera sees"};
+        method.rate_setting_mbit = call_mbit;
+        const std::string rate = "h264:bitrate_mbit=" + formatted("%g", call_mbit);
         const std::string x264 = rate + ",preset=veryfast,encoder=x264";
         const bool has_x264 =
             video::missing_color_encoder(video::parse_color_setting(x264).setting).empty();
         const std::string codec = has_x264 ? x264 : rate;
         method.reason = video::missing_color_encoder(video::parse_color_setting(codec).setting);
         method.ran = "one camera, " + std::to_string(out_.color.width) + "x" +
-                     std::to_string(out_.color.height) + ", H.264 at 2.5 Mbit/s by " +
+                     std::to_string(out_.color.height) + ", H.264 set to " +
+                     formatted("%g", call_mbit) + " Mbit/s by " +
                      (has_x264 ? "FFmpeg's libx264 (veryfast)" : "OpenH264");
         method.expert_reason =
             "A video call shows what its camera sees; it has no picture from another place.";
@@ -344,7 +374,11 @@ private:
             stream.add(bytes.size(), sent, received);
             method.pictures = {std::move(back)};
         }
-        method.own_view = own_view_of(camera.last_exact, method.pictures.front());
+        const ColorImage& shown = method.pictures.front();
+        method.own_view = own_view_of(camera.last_exact, shown);
+        if (const auto part =
+                part_around(camera.calibration, shown.size, scene_.wound, close_up_width_m))
+            method.close_up = {parts_of(method.pictures, *part).front(), std::nullopt};
         add_costs(method, {stream}, options_.links);
         return method;
     }
@@ -352,7 +386,10 @@ private:
     CompareMethod paper() const {
         CompareMethod method{
             .id = paper_id,
-            .name = "The paper's pipeline",
+            .name = "Research system, 2022",
+            .plain =
+                "The method of a published study, built again from its text. Cameras that also "
+                "measure distance; the expert's computer draws surfaces from them",
             .ran =
                 "Fischer et al. 2022: filters `paper`, colour registered to depth as JPEG of "
                 "quality 85 (libjpeg-turbo), depth as temporal RVL without loss, drawn as mesh"};
@@ -391,7 +428,11 @@ private:
     }
 
     CompareMethod pcl() const {
-        CompareMethod method{.id = pcl_id, .name = "A general point cloud codec"};
+        CompareMethod method{.id = pcl_id,
+                             .name = "General 3D method",
+                             .plain =
+                                 "Cameras that also measure distance. Their coloured points are "
+                                 "compressed by a library for any purpose, and drawn as squares"};
         method.ran = "PCL's octree codec, the family that cwipc's codec comes from";
         method.reason = missing_pcl();
         if (!method.reason.empty())
@@ -435,12 +476,18 @@ private:
         std::vector<render::Picture> drawn;
         for (const ViewBenchPlace& place : scene_.places)
             drawn.push_back(draw_points(placed, place.view, options_.scene.picture, edge_m));
-        add_pictures(method, std::move(drawn));
+        add_pictures(method, std::move(drawn),
+                     draw_points(placed, scene_.close_up.view, options_.scene.picture, edge_m));
         return method;
     }
 
     CompareMethod theatron() const {
-        CompareMethod method{.id = theatron_id, .name = "Theatron"};
+        CompareMethod method{.id = theatron_id,
+                             .name = "Theatron",
+                             .plain =
+                                 "The same cameras as above. Theatron removes noise, sends "
+                                 "distances in a form of its "
+                                 "own and colours as video, and draws surfaces from both"};
         // A host sends this to `auto`, where it has an encoder and time.
         std::string codec = "h264:crf=20";
         if (!video::missing_color_encoder(video::parse_color_setting(codec).setting).empty())

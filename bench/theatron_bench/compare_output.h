@@ -15,17 +15,21 @@ std::string compare_text(const Compared& compared);
 
 // {here:{processor,cores,cores_of_others,gl_renderer}, cameras, frames, pictures_per_s, depth,
 // color and picture: {width,height}, places:[],
-// methods:[{id,name,ran,reason,cameras,mbit_per_camera,sender_ms,receiver_ms,
+// methods:[{id,name,plain,ran,reason,cameras,mbit_of_all,mbit_per_camera,sender_ms,receiver_ms,
 // links:[{mbit,latency_ms,pictures_per_s,delay_ms:{mean,p95}}], own_view:{psnr_db,ssim},
-// expert:{psnr_db,ssim,holes_percent,undrawn_percent},expert_reason}]}. Null stands for what is
-// not there: figures of a method that could not be measured, own_view, expert, reasons.
+// expert and close_up:{psnr_db,ssim,holes_percent,undrawn_percent,undrawn_unseen_percent,
+// see_through_percent},expert_reason}]}. Null stands for what is not there: figures of a method
+// that could not be measured, own_view, expert, close_up, reasons.
 nlohmann::json compare_json(const Compared& compared);
 
 // The input and the machine, one sentence each.
 std::vector<std::string> compare_remarks(const Compared& compared);
 
-// The sentences on what no figure of the comparison says.
+// Sentences on what no figure of the comparison says, for people who decide.
 std::vector<std::string> compare_limits();
+
+// Sentences on single figures and methods, for people who check.
+std::vector<std::string> compare_notes();
 
 // "20 Mbit/s, 20 ms".
 std::string link_text(const CompareLink& link);

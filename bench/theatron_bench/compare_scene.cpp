@@ -99,13 +99,21 @@ CompareScene make_compare_scene(const CompareSceneOptions& options,
     const auto moment = room.at(moment_of(options.frames - 1));
     const std::pair<double, const char*> places[] = {
         {2, "at the foot of the table"}, {24, "a step to the left"}, {-20, "a step to the right"}};
+    const double all_pictures = double(std::size(places)) + 1;
+    const auto seen_from = [&](Vec3 eye, double fov_degrees) {
+        return make_view_bench_place(room, *moment, last, {eye, wound, fov_degrees},
+                                     options.picture);
+    };
     for (const auto& [degrees, name] : places) {
-        scene.places.push_back(make_view_bench_place(
-            room, *moment, last, {beside_table(degrees, 1.6, 1.75), wound, 60}, options.picture));
+        scene.places.push_back(seen_from(beside_table(degrees, 1.6, 1.75), 60));
         scene.place_names.emplace_back(name);
-        progress("drawing what the expert would see",
-                 double(scene.places.size()) / double(std::size(places)));
+        progress("drawing what the expert would see", double(scene.places.size()) / all_pictures);
     }
+    const Vec3 first = beside_table(places[0].first, 1.6, 1.75);
+    scene.wound = wound;
+    scene.close_up = seen_from(
+        first, 2 * std::atan(close_up_width_m / 2 / length(wound - first)) / radians_of(1));
+    progress("drawing what the expert would see", 1);
     return scene;
 }
 

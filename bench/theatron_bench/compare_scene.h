@@ -23,10 +23,15 @@ struct CompareCamera {
     ColorImage last_exact;          // the last colour picture before noise and JPEG
 };
 
+// The width of the close-up at the wound.
+inline constexpr double close_up_width_m = 0.6;
+
 struct CompareScene {
     std::vector<CompareCamera> cameras;
     std::vector<ViewBenchPlace> places;  // at the moment of the last frames
     std::vector<std::string> place_names;
+    ViewBenchPlace close_up;  // the wound from the first place
+    Vec3 wound;
 };
 
 CompareScene make_compare_scene(const CompareSceneOptions& options,

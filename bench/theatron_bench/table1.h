@@ -73,6 +73,8 @@ struct Table1Measured {
     std::vector<photon::Stage> stages;
     double cores_of_others = 0;  // busy with other programs before the first run
     int runs = 0, frames = 0;    // asked for
+    // How long each part took in all runs together, in their order; wall clock.
+    std::vector<std::pair<std::string, double>> part_seconds;
 };
 
 // The median of the runs, the lowest and the highest.

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "table1_measure.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <thread>
 
 #include "base/error.h"
+#include "base/steady_clock.h"
 #include "bench_color.h"
 #include "bench_depth.h"
 #include "bench_filter.h"
@@ -26,25 +28,28 @@ namespace {
 constexpr const char* photon_picture = "640x360";
 // The first pictures of a session are late, and software renderers draw few.
 constexpr double begin_s = 2;
+constexpr const char* headset_part = "pictures for a headset";
 
 class Measuring {
 public:
     Measuring(const Table1Options& options, const capture::Progress& progress)
         : options_(options), progress_(progress) {
-        for (const std::string& camera : options.cameras)
-            cameras_.push_back(load_camera_frames(camera, options.frames, progress));
+        timed("the input", [&] {
+            for (const std::string& camera : options.cameras)
+                cameras_.push_back(load_camera_frames(camera, options.frames, progress));
+            describe_inputs();
+        });
         out_.processor = processor_name();
         out_.cores = int(std::thread::hardware_concurrency());
         out_.runs = options.runs;
         out_.frames = int(cameras_.front().depth.size());
         out_.cores_of_others = cores_of_others();
-        describe_inputs();
         describe_strip();
     }
 
     Table1Measured run() {
         missing_encoders();
-        begin_headset();
+        timed(headset_part, [&] { begin_headset(); });
         for (int run = 0; run < options_.runs; ++run) {
             run_ = run;
             part(0.00, "filters", "filter", [&] { filters(); });
@@ -54,7 +59,7 @@ public:
             part(0.33, "cropped colour", "color/cropped",
                  [&] { color("cropped", cropped_color_); });
             rates();
-            part(0.40, "pictures for a headset", "vr", [&] { headset(); });
+            part(0.40, headset_part, "vr", [&] { headset(); });
             part(0.70, "a session", "session/same", [&] { session("same", "trvl"); });
             part(0.85, "a session", "session/best", [&] { session("best", "strata"); });
             part(0.95, "the age of a drawn picture", "photon/inside", [&] { motion_to_photon(); });
@@ -119,11 +124,26 @@ private:
                   (run_ + done) / double(options_.runs));
         if (out_.reasons.contains(key))
             return;
-        try {
-            work();
-        } catch (const Error& e) {
-            out_.reasons[key] = e.what();
-        }
+        timed(what, [&] {
+            try {
+                work();
+            } catch (const Error& e) {
+                out_.reasons[key] = e.what();
+            }
+        });
+    }
+
+    // Adds the time of the work to that of its part.
+    template <class Work>
+    void timed(const char* what, const Work& work) {
+        const TimePoint begin = steady_now();
+        work();
+        auto& parts = out_.part_seconds;
+        auto place = std::find_if(parts.begin(), parts.end(),
+                                  [&](const auto& part) { return part.first == what; });
+        if (place == parts.end())
+            place = parts.insert(parts.end(), {what, 0});
+        place->second += to_seconds(steady_now() - begin);
     }
 
     void add(const std::string& key, double value) { out_.samples[key].push_back(value); }
@@ -156,7 +176,9 @@ private:
     }
 
     void filters() {
-        const nlohmann::json result = bench_filter(cameras_.front().depth, {"paper", "default"});
+        const nlohmann::json result =
+            bench_filter(cameras_.front().depth, {"paper", "default"},
+                         run_ == 0 ? FilterCompany::check : FilterCompany::nothing);
         for (const auto& chain : result["chain"])
             add("filter/" + chain["variant"].get<std::string>(), chain["ms"].get<double>());
         for (const auto& stage : result["stages"])

@@ -126,6 +126,14 @@ std::vector<std::string> table1_remarks(const Table1Measured& measured) {
         remarks.push_back("Yardstick for other machines: zstd level 1 on the depth's pixels, " +
                           figure_text(*encode) + " ms to compress, " + figure_text(*decode) +
                           " ms to decompress.");
+    double all_seconds = 0;
+    std::string parts;
+    for (const auto& [part, seconds] : measured.part_seconds) {
+        all_seconds += seconds;
+        parts += (parts.empty() ? ": " : ", ") + part + " " + formatted("%.0f", seconds);
+    }
+    if (!parts.empty())
+        remarks.push_back("It took " + formatted("%.0f", all_seconds) + " s" + parts + ".");
     if (measured.cores_of_others > 0.2)
         remarks.push_back("Other programs used " + formatted("%.1f", measured.cores_of_others) +
                           " cores before the first run: times are longer than on an idle machine.");
@@ -174,7 +182,10 @@ nlohmann::json table1_json(const Table1Measured& measured, const std::vector<Tab
                            {"cores_of_others", measured.cores_of_others},
                            {"runs", measured.runs},
                            {"frames", measured.frames},
+                           {"part_seconds", nlohmann::json::object()},
                            {"yardstick", nullptr}};
+    for (const auto& [part, seconds] : measured.part_seconds)
+        here["part_seconds"][part] = seconds;
     if (!measured.gpu.empty())
         here["gl_renderer"] = measured.gpu;
     const std::string key = yardstick;

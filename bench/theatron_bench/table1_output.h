@@ -14,10 +14,11 @@ namespace theatron::bench {
 std::string table1_text(const Table1Measured& measured, const std::vector<Table1Row>& rows);
 
 // {paper:{title,machine}, here:{processor,cores,gl_renderer,cores_of_others,runs,frames,
-// yardstick:{name,encode_ms,decode_ms,kb}}, stages:[{until,what,mean_ms}], bytes_per_kb,
-// rows:[{id,group,name,unit,paper:{low,high}, same,best,input,device,not_comparable:[]}]}. `same`
-// and `best`: {ran,median,low,high,runs} or {ran,reason}, or null; `paper` is null where the paper
-// gives no figure, `gl_renderer` and `yardstick` where there is none.
+// part_seconds:{NAME:seconds}, yardstick:{name,encode_ms,decode_ms,kb}},
+// stages:[{until,what,mean_ms}], bytes_per_kb, rows:[{id,group,name,unit,paper:{low,high},
+// same,best,input,device,not_comparable:[]}]}. `same` and `best`: {ran,median,low,high,runs} or
+// {ran,reason}, or null; `paper` is null where the paper gives no figure, `gl_renderer` and
+// `yardstick` where there is none.
 nlohmann::json table1_json(const Table1Measured& measured, const std::vector<Table1Row>& rows);
 
 // One line for each row behind a line of names, as RFC 4180 says, with \n.

@@ -114,7 +114,7 @@ TEST(Table1Json, HasEachRowAndTheMachine) {
     const nlohmann::json json = table1_json(given_machine(), given_rows());
     EXPECT_EQ(json["here"], nlohmann::json::parse(R"({
         "processor": "Some Processor", "cores": 2, "gl_renderer": "llvmpipe",
-        "cores_of_others": 0.0, "runs": 3, "frames": 60,
+        "cores_of_others": 0.0, "runs": 3, "frames": 60, "part_seconds": {},
         "yardstick": {"name": "zstd1_raw", "encode_ms": 2.1, "decode_ms": 0.8, "kb": 400.0}})"));
     EXPECT_EQ(json["bytes_per_kb"], 1024);
     EXPECT_EQ(json["rows"], nlohmann::json::parse(R"([
@@ -144,6 +144,14 @@ TEST(Table1Text, OtherProgramsAreSaid) {
     EXPECT_THAT(table1_text(measured, {}), Not(HasSubstr("Other programs")));
     measured.cores_of_others = 1.4;
     EXPECT_THAT(table1_text(measured, {}), HasSubstr("Other programs used 1.4 cores"));
+}
+
+TEST(Table1Text, EachPartHasItsTime) {
+    Table1Measured measured = given_machine();
+    EXPECT_THAT(table1_text(measured, {}), Not(HasSubstr("It took")));
+    measured.part_seconds = {{"the input", 61.4}, {"filters", 2.5}};
+    EXPECT_THAT(table1_text(measured, {}), HasSubstr("It took 64 s: the input 61, filters 2.\n"));
+    EXPECT_EQ(table1_json(measured, {})["here"]["part_seconds"]["the input"], 61.4);
 }
 
 TEST(Table1Text, FiguresHaveThreeDigitsThatCount) {

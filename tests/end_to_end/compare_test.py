@@ -26,7 +26,7 @@ class Compare(unittest.TestCase):
         # The pictures would hide any message.
         shown = html.unescape(re.sub("base64,[^\"]*", "", raw))
         self.assertEqual([m["id"] for m in found["methods"]], METHODS)
-        pictures = len(found["places"])
+        pictures = len(found["places"]) + 1  # of what is there, the close-up among them
         for method in found["methods"]:
             with self.subTest(method["id"]):
                 self.assertIn(method["name"], out)
@@ -43,8 +43,12 @@ class Compare(unittest.TestCase):
                 self.assertLessEqual(slow["pictures_per_s"], fast["pictures_per_s"])
                 self.assertGreater(slow["delay_ms"]["mean"], fast["delay_ms"]["mean"])
                 self.assertEqual(method["expert"] is None, method["expert_reason"] is not None)
-                pictures += len(found["places"]) if method["expert"] or method["id"] == "video_call" else 0
-        self.assertEqual(shown.count("<img "), pictures)
+                self.assertEqual(method["mbit_of_all"], method["cameras"] * method["mbit_per_camera"])
+                self.assertEqual(method["expert"] is None, method["close_up"] is None)
+                if method["expert"]:
+                    self.assertLessEqual(method["expert"]["undrawn_unseen_percent"], method["expert"]["undrawn_percent"])
+                pictures += len(found["places"]) + 1 if method["expert"] or method["id"] == "video_call" else 0
+        self.assertEqual(shown.count("<figure"), pictures)
         self.assertEqual(shown.count('src="data:image/jpeg;'), pictures)
         self.assertNotIn("http", shown)
         methods = {m["id"]: m for m in found["methods"]}

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// The parts of the comparison's page, as HTML. Methods that could not be measured are in none of
+// them; compare_page.cpp says of them why.
+#pragma once
+
+#include <string>
+
+#include "compare.h"
+
+namespace theatron::bench {
+
+// From <!doctype> to <body>.
+const char* compare_page_head();
+// The dialog that shows a picture large, with its script; </body> and </html>.
+const char* compare_page_end();
+
+// A heading and a row of pictures for the close-up and for each place of the expert: the exact
+// picture and that of each method that has one.
+std::string compare_pictures(const Compared& compared);
+
+// Costs and figures of each method; empty if none was measured.
+std::string compare_table(const Compared& compared);
+
+// "15.5".
+std::string tenths_text(double value);
+// "19".
+std::string whole_text(double value);
+// "a line of 20 Mbit/s".
+std::string line_text(const CompareLink& link);
+
+}  // namespace theatron::bench

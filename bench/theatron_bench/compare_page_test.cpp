@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "compare_page.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "compare_output.h"
+#include "compare_words.h"
+#include "given_comparison.h"
+#include "svg_drawing.h"
+
+namespace theatron::bench {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+int times_in(const std::string& text, const std::string& part) {
+    int count = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+        ++count;
+    return count;
+}
+
+// Behind the titles of the table's rows; Theatron's cells have a class.
+std::string cell(const std::string& figure) {
+    return "<td role=\"cell\">" + figure + "</td>";
+}
+std::string our_cell(const std::string& figure) {
+    return "<td role=\"cell\" class=\"ours\">" + figure + "</td>";
+}
+
+TEST(ComparePage, BeginsWithThreeSentencesAndWhatItDoesNotSay) {
+    const std::string page = compare_page(given_comparison());
+    EXPECT_THAT(
+        page,
+        HasSubstr("<p class=\"lead\">Two ways to show an operation to an expert elsewhere were "
+                  "compared: with the same cameras, in the same second, over the same lines. With "
+                  "Theatron the expert can look from any place, which a video call does not allow; "
+                  "it needs 31.0 Mbit/s in place of 2.0, and 17.4 % of its picture stays dark. The "
+                  "operation is generated and no surgeon has judged the pictures, so nothing here "
+                  "shows that an expert helps better.</p>\n<div class=\"limits\">"));
+    for (const std::string& sentence : compare_limits())
+        EXPECT_LT(page.find(escaped(sentence)), page.find("<h2>In short</h2>")) << sentence;
+    EXPECT_THAT(page, HasSubstr("That takes a study with surgeons."));
+}
+
+TEST(ComparePage, EachWayHasItsTotal) {
+    const std::string page = compare_page(given_comparison());
+    EXPECT_THAT(page, HasSubstr("Data for the whole view<small>all cameras together, at 30 "
+                                "pictures a second</small></th>" +
+                                cell("2.0 Mbit/s") + our_cell("31.0 Mbit/s")));
+    EXPECT_THAT(page, HasSubstr("The whole view of 2 cameras needs 31.0 Mbit/s, 15 times the video "
+                                "call, and the expert"));
+    EXPECT_THAT(page,
+                HasSubstr("<small>set to 2.5 Mbit/s; these pictures needed less</small></td>" +
+                          our_cell("15.5 Mbit/s")));
+}
+
+TEST(ComparePage, TellsDarkPartsAndMissingSurfacesAndHowTheyDiffer) {
+    const std::string page = compare_page(given_comparison());
+    EXPECT_THAT(page, HasSubstr("17.4 % of Theatron&#39;s picture stays dark: 15.2 % because no "
+                                "camera sees the place, 2.2 % although a camera does. In 4.3 % of "
+                                "the rest a surface is missing, and something behind it shows."));
+    EXPECT_THAT(page, HasSubstr("Of the surfaces that a camera sees, 3.3 % are missing. This is "
+                                "what sensors and method lose."));
+    EXPECT_THAT(page, HasSubstr("6.7 % of what a camera sees is missing, 8.9 % of the picture is "
+                                "dark, and 2.0 % of the rest shows something behind a missing "
+                                "surface: clear differences from what is there."));
+    for (const char* figure : {"17.4 %", "15.2 %", "4.3 %", "3.3 %"})
+        EXPECT_THAT(page, HasSubstr(our_cell(figure)));
+}
+
+TEST(ComparePage, EachLikenessHasItsWordsAndTheirScale) {
+    const std::string page = compare_page(given_comparison());
+    EXPECT_THAT(page, HasSubstr(our_cell("20.9 dB<small>clear differences</small>")));
+    EXPECT_THAT(page, HasSubstr(our_cell("0.772<small>clear differences</small>")));
+    EXPECT_THAT(page, HasSubstr(cell("31.1 dB<small>small differences</small>")));
+    EXPECT_THAT(page, HasSubstr(psnr_scale()));
+    EXPECT_THAT(page, HasSubstr(ssim_scale()));
+}
+
+TEST(ComparePage, TheCloseUpComesFirstAndEachPlaceFollowsWithTheTruth) {
+    const std::string page = compare_page(given_comparison());
+    // The close-up and each of two places: truth, video call, Theatron.
+    EXPECT_EQ(times_in(page, "src=\"data:image/jpeg;base64,"), 9);
+    EXPECT_EQ(times_in(page, "<figure"), 9);
+    EXPECT_EQ(times_in(page, "<figure class=\"ours\">"), 3);
+    EXPECT_LT(page.find("Close to the wound"), page.find("The expert stands at the foot"));
+    EXPECT_LT(page.find("The expert stands at the foot"),
+              page.find("The expert takes a step to the left"));
+    EXPECT_THAT(page, HasSubstr("The 50 cm around the operation."));
+    EXPECT_THAT(page, HasSubstr("Cut out of the camera&#39;s picture: 8 pixels wide"));
+    for (const char* line : {"Dark 8.9 %, seen through 2.0 %; of what cameras see 6.7 % missing. "
+                             "Likeness 22.0 dB: clear differences.",
+                             "Dark 17.0 %, seen through 3.0 %; of what cameras see 2.5 % missing. "
+                             "Likeness 21.5 dB: clear differences.",
+                             "Dark 18.0 %, seen through 4.0 %; of what cameras see 4.5 % missing. "
+                             "Likeness 19.4 dB: strong differences."})
+        EXPECT_THAT(page, HasSubstr("<small>" + std::string(line)));
+    // In its alternative text, too.
+    EXPECT_EQ(times_in(page, "<small>The same picture as before"), 1);
+}
+
+TEST(ComparePage, AWayThatWasNotMeasuredHasNoBoxAndNoColumn) {
+    Compared c = given_comparison();
+    const std::string page = compare_page(c);
+    EXPECT_EQ(times_in(page, "scope=\"col\""), 2);
+    EXPECT_THAT(page, HasSubstr("<dt>A point cloud codec</dt><dd>Points. <b>Not measured on this "
+                                "computer</b>"));
+    EXPECT_EQ(times_in(page, "This build has no PCL."), 1);
+    std::erase_if(c.methods, [](const CompareMethod& m) { return m.id == pcl_id; });
+    EXPECT_EQ(times_in(compare_page(c), "<figure"), times_in(page, "<figure"));
+}
+
+TEST(ComparePage, AWayWithoutPicturesHasItsFiguresAndNoBox) {
+    Compared c = given_comparison();
+    CompareMethod& ours = c.methods.back();
+    ours.expert.reset();
+    ours.close_up.reset();
+    ours.pictures.clear();
+    ours.from_place.clear();
+    ours.expert_reason = "There is no GL.";
+    const std::string page = compare_page(c);
+    EXPECT_EQ(times_in(page, "<figure"), 6);
+    EXPECT_THAT(page, Not(HasSubstr("<figure class=\"ours\">")));
+    EXPECT_THAT(page, HasSubstr("It has no pictures here"));
+    EXPECT_EQ(times_in(page, "There is no GL."), 1);
+    EXPECT_THAT(page, HasSubstr(our_cell("31.0 Mbit/s")));
+    EXPECT_THAT(page, Not(HasSubstr("stays dark")));
+}
+
+TEST(ComparePage, NeedsNoOtherFile) {
+    const std::string page = compare_page(given_comparison());
+    EXPECT_THAT(page, Not(HasSubstr("http")));
+    EXPECT_THAT(page, Not(HasSubstr("<link")));
+    EXPECT_THAT(page, Not(HasSubstr("<script src")));
+    EXPECT_THAT(page, HasSubstr("Some &lt;Processor&gt;"));
+}
+
+TEST(ComparePage, SaysWhatArrivesOverEachLine) {
+    EXPECT_THAT(compare_page(given_comparison()),
+                HasSubstr("On a line of 20 Mbit/s: Theatron has 19 pictures a second, each 99 ms "
+                          "old on arrival; the video call 30 pictures a second, each 35 ms old on "
+                          "arrival."));
+}
+
+TEST(ComparePage, IsMadeWithoutAVideoCall) {
+    Compared c = given_comparison();
+    c.methods[0] = {
+        .id = video_call_id, .name = "Video call", .plain = "", .ran = "", .reason = "No library."};
+    const std::string page = compare_page(c);
+    EXPECT_THAT(page, HasSubstr("No library."));
+    EXPECT_THAT(page, HasSubstr("One way to show an operation"));
+    EXPECT_THAT(page, Not(HasSubstr("times the video call")));
+    EXPECT_THAT(page, Not(HasSubstr("A video call needs the least")));
+}
+
+TEST(ComparePage, IsMadeWithoutAnyMeasuredWay) {
+    Compared c = given_comparison();
+    for (CompareMethod& method : c.methods)
+        method.reason = "No library.";
+    const std::string page = compare_page(c);
+    EXPECT_THAT(page, HasSubstr("No way to show"));
+    EXPECT_THAT(page, Not(HasSubstr("<table")));
+    EXPECT_EQ(times_in(page, "<figure"), 3);  // the truth
+}
+
+}  // namespace
+}  // namespace theatron::bench

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "compare_page_parts.h"
+#include "compare_words.h"
+#include "data_url.h"
+#include "svg_drawing.h"
+
+namespace theatron::bench {
+namespace {
+
+std::string figure(const ColorImage& picture, const std::string& title, const std::string& line,
+                   bool is_ours = false) {
+    return std::string("<figure") + (is_ours ? " class=\"ours\"" : "") +
+           "><button type=\"button\"><img src=\"" + picture_url(picture) + "\" alt=\"" +
+           escaped(title) + ". " + escaped(line) + "\"></button><figcaption><b>" + escaped(title) +
+           "</b><small>" + escaped(line) + "</small></figcaption></figure>\n";
+}
+
+std::string likeness_line(const CompareLikeness& likeness) {
+    return "Dark " + tenths_text(likeness.undrawn_percent) + " %, seen through " +
+           tenths_text(likeness.see_through_percent) + " %; of what cameras see " +
+           tenths_text(likeness.holes_percent) + " % missing. Likeness " +
+           tenths_text(likeness.psnr_db) + " dB: " + psnr_words(likeness.psnr_db) + ".";
+}
+
+// `line` is HTML, and may be empty.
+std::string row_of(const std::string& title, const std::string& line, const std::string& figures) {
+    return "<h2>" + escaped(title) + "</h2>\n" +
+           (line.empty() ? "" : "<p class=\"quiet\">" + line + "</p>\n") +
+           "<div class=\"pictures\">\n" + figures + "</div>\n";
+}
+
+std::string close_up_row(const Compared& c) {
+    std::string figures =
+        figure(c.close_up_truth, "What is really there", "Drawn from the generated room itself.");
+    for (const CompareMethod& method : c.methods) {
+        if (!method.is_measured() || !method.close_up)
+            continue;
+        const CompareCloseUp& close_up = *method.close_up;
+        figures += figure(close_up.picture, method.name,
+                          close_up.likeness ? likeness_line(*close_up.likeness)
+                                            : "Cut out of the camera's picture: " +
+                                                  std::to_string(close_up.picture.size.width) +
+                                                  " pixels wide, from the camera's place.",
+                          method.id == theatron_id);
+    }
+    return row_of(
+        "Close to the wound",
+        "The " + whole_text(c.close_up_width_m * 100) +
+            " cm around the operation. Dark: nothing is drawn. Seen through: a surface is "
+            "missing, and something behind it shows. <span class=\"screen\">A click, a tap "
+            "or the Enter key shows a picture large; arrow keys then change between the "
+            "ways.</span>",
+        figures);
+}
+
+std::string place_row(const Compared& c, std::size_t place) {
+    std::string figures =
+        figure(c.truth[place], "What is really there", "Drawn from the generated room itself.");
+    for (const CompareMethod& method : c.methods) {
+        if (!method.is_measured() || method.pictures.empty())
+            continue;
+        const bool is_call = method.id == video_call_id;
+        const ColorImage& picture = method.pictures[place < method.pictures.size() ? place : 0];
+        std::string line;
+        if (is_call)
+            line = place == 0 ? "From the camera's place, not the expert's: a video call can show "
+                                "no other one."
+                              : "The same picture as before: the camera does not move with the "
+                                "expert.";
+        else if (place < method.from_place.size())
+            line = likeness_line(method.from_place[place]);
+        figures += figure(picture, method.name, line, method.id == theatron_id);
+    }
+    return row_of((place == 0 ? "The expert stands " : "The expert takes ") + c.places[place],
+                  place == 0 ? "All ways had the same cameras and the same moment." : "", figures);
+}
+
+}  // namespace
+
+std::string compare_pictures(const Compared& c) {
+    std::string text = close_up_row(c);
+    for (std::size_t place = 0; place < c.places.size(); ++place)
+        text += place_row(c, place);
+    return text;
+}
+
+}  // namespace theatron::bench

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <functional>
+
+#include "compare_page_parts.h"
+#include "compare_words.h"
+#include "svg_drawing.h"
+
+namespace theatron::bench {
+namespace {
+
+// A figure and, below it, what it means.
+struct Cell {
+    std::string figure, words;
+};
+
+class Table {
+public:
+    explicit Table(const Compared& compared) {
+        for (const CompareMethod& method : compared.methods)
+            if (method.is_measured())
+                methods_.push_back(&method);
+        text_ = "<table role=\"table\" style=\"--methods: " + std::to_string(methods_.size()) +
+                "\">\n<thead role=\"rowgroup\"><tr role=\"row\"><th role=\"columnheader\"></th>";
+        for (const CompareMethod* method : methods_)
+            text_ += "<th role=\"columnheader\" scope=\"col\"" + class_of(*method) + ">" +
+                     escaped(method->name) + "</th>";
+        text_ += "</tr></thead>\n<tbody role=\"rowgroup\">\n";
+    }
+
+    bool empty() const { return methods_.empty(); }
+
+    void part(const std::string& title) {
+        text_ +=
+            "<tr class=\"part\" role=\"row\"><th role=\"rowheader\" scope=\"rowgroup\" colspan=\"" +
+            std::to_string(methods_.size() + 1) + "\">" + escaped(title) + "</th></tr>\n";
+    }
+
+    void row(const std::string& title, const std::string& meaning,
+             const std::function<Cell(const CompareMethod&)>& cell_of) {
+        text_ += "<tr role=\"row\"><th role=\"rowheader\" scope=\"row\">" + escaped(title) +
+                 small(meaning) + "</th>";
+        for (const CompareMethod* method : methods_) {
+            const Cell cell = cell_of(*method);
+            text_ += "<td role=\"cell\"" + class_of(*method) + ">" + escaped(cell.figure) +
+                     small(cell.words) + "</td>";
+        }
+        text_ += "</tr>\n";
+    }
+
+    std::string text() const { return text_ + "</tbody></table>\n"; }
+
+private:
+    static std::string class_of(const CompareMethod& method) {
+        return method.id == theatron_id ? " class=\"ours\"" : "";
+    }
+    static std::string small(const std::string& words) {
+        return words.empty() ? "" : "<small>" + escaped(words) + "</small>";
+    }
+
+    std::vector<const CompareMethod*> methods_;
+    std::string text_;
+};
+
+const Cell no_such_picture = {"", "no such picture"};
+
+Cell psnr_cell(double db) {
+    return {tenths_text(db) + " dB", psnr_words(db)};
+}
+
+void add_pictures(Table& table) {
+    const auto percent = [](double CompareLikeness::*figure) {
+        return [=](const CompareMethod& m) {
+            return m.expert ? Cell{tenths_text((*m.expert).*figure) + " %", ""} : no_such_picture;
+        };
+    };
+    table.part("What the expert gets");
+    table.row("Looks from any place", "or only from where a camera hangs",
+              [](const CompareMethod& m) {
+                  return Cell{m.id == video_call_id ? "no" : "yes", ""};
+              });
+    table.row("Dark part of the picture", "of the whole picture; lower is better",
+              percent(&CompareLikeness::undrawn_percent));
+    table.row("Dark because no camera sees it",
+              "a part of the figure above, of the whole picture, too; decided by how many cameras "
+              "there are and where they hang",
+              percent(&CompareLikeness::undrawn_unseen_percent));
+    table.row("Seen through",
+              "of what is drawn: a surface is missing, and something behind it shows; lower is "
+              "better",
+              percent(&CompareLikeness::see_through_percent));
+    table.row("Missing although a camera sees it",
+              "of the surfaces that a camera sees, without their edges: lost by sensor or method; "
+              "lower is better",
+              percent(&CompareLikeness::holes_percent));
+    table.row("Likeness from the expert's place",
+              "against the exact picture, where a camera sees the surface; missing parts count; "
+              "higher is better",
+              [](const CompareMethod& m) {
+                  return m.expert ? psnr_cell(m.expert->psnr_db) : no_such_picture;
+              });
+    table.row("Likeness of shapes from there", "higher is better, 1 is equal",
+              [](const CompareMethod& m) {
+                  return m.expert
+                             ? Cell{formatted("%.3f", m.expert->ssim), ssim_words(m.expert->ssim)}
+                             : no_such_picture;
+              });
+    table.row("Likeness of the camera's own picture", "what a video call is good at",
+              [](const CompareMethod& m) {
+                  return m.own_view ? psnr_cell(m.own_view->psnr_db) : Cell{"", "sends none"};
+              });
+}
+
+void add_costs(Table& table) {
+    table.part("What it costs");
+    table.row("Cameras", "", [](const CompareMethod& m) {
+        return Cell{std::to_string(m.cameras), ""};
+    });
+    table.row("Data for the whole view", "all cameras together, at 30 pictures a second",
+              [](const CompareMethod& m) {
+                  return Cell{tenths_text(m.mbit_of_all()) + " Mbit/s", ""};
+              });
+    table.row("Data of one camera", "", [](const CompareMethod& m) {
+        return Cell{tenths_text(m.mbit_per_camera) + " Mbit/s",
+                    m.rate_setting_mbit > 0
+                        ? "set to " + formatted("%g", m.rate_setting_mbit) +
+                              " Mbit/s; these pictures needed " +
+                              (m.mbit_per_camera < m.rate_setting_mbit ? "less" : "more")
+                        : ""};
+    });
+    table.row("Work in the operating room",
+              "of one processor core, for a picture of a camera; 33 ms are all of a core",
+              [](const CompareMethod& m) {
+                  return Cell{tenths_text(m.sender_ms) + " ms", ""};
+              });
+    table.row("Work at the expert's", "the same, without drawing", [](const CompareMethod& m) {
+        return Cell{tenths_text(m.receiver_ms) + " ms", ""};
+    });
+}
+
+}  // namespace
+
+std::string compare_table(const Compared& c) {
+    Table table(c);
+    if (table.empty())
+        return "";
+    add_pictures(table);
+    add_costs(table);
+    for (std::size_t i = 0; i < c.links.size(); ++i) {
+        table.part("Over " + line_text(c.links[i]) + " with " + whole_text(c.links[i].latency_ms) +
+                   " ms of delay each way");
+        table.row("Pictures a second", "of all cameras, at most 30", [i](const CompareMethod& m) {
+            return Cell{tenths_text(m.links[i].pictures_per_s), ""};
+        });
+        table.row("Age on arrival", "mean, and what 95 of 100 pictures stay below",
+                  [i](const CompareMethod& m) {
+                      return Cell{whole_text(m.links[i].delay_ms) + " ms",
+                                  "95 of 100: " + whole_text(m.links[i].delay_p95_ms) + " ms"};
+                  });
+    }
+    return "<h2>What it gives and what it costs</h2>\n" + table.text() + "<p class=\"quiet\">" +
+           escaped(psnr_scale()) + " " + escaped(ssim_scale()) +
+           " The words are this page's own, not a standard's.</p>\n";
+}
+
+}  // namespace theatron::bench
