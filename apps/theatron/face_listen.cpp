@@ -12,42 +12,15 @@
 #include "base/steady_clock.h"
 #include "cli/stop_signal.h"
 #include "face/emotion_reader.h"
-#include "face/osc_face.h"
 #include "face/synthetic_faces.h"
 #include "face_command.h"
-#include "face_socket.h"
 #include "files/file_bytes.h"
 #include "files/json_text.h"
 #include "files/private_file.h"
+#include "tracked_face.h"
 
 namespace theatron::app {
 namespace {
-
-// A tracker's packets as the state of a face.
-class TrackedFace {
-public:
-    explicit TrackedFace(const FacePort& at) : socket_(FaceSocket::bound(at.address, at.port)) {}
-
-    // Takes what arrives until `end`.
-    face::FaceNow next(TimePoint end) {
-        TimePoint now = steady_now();
-        do {
-            const ByteView packet = socket_.receive(std::max(end - now, Duration::zero()));
-            now = steady_now();
-            if (!packet.empty() && osc_.take(packet, now))
-                input_.put(osc_.mapped(), now);
-        } while (now < end && !cli::stop_requested());
-        return input_.at(now);
-    }
-    const face::OscCounts& counts() const { return osc_.counts(); }
-
-private:
-    FaceSocket socket_;
-    face::OscFace osc_;
-    face::FaceInput input_;
-};
-
-constexpr Duration face_step = std::chrono::milliseconds(16);
 
 nlohmann::json listen_json(const face::FaceNow& face, const face::OscCounts& counts) {
     return {{"tracking", face::to_text(face.tracking)},

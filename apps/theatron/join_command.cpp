@@ -117,6 +117,17 @@ bool obey_webcam_line(publish::OwnFace* face, const std::string& line) {
     return true;
 }
 
+// "face on" or "face off". False if it is another line.
+bool obey_face_line(FaceLine* face, const std::string& line) {
+    if (line != "face on" && line != "face off")
+        return false;
+    if (face)
+        face->show(line == "face on");
+    else
+        log::say("No tracker of your face is used; join with --face PORT.");
+    return true;
+}
+
 // Carries out a line of standard input: "depth rvl", "depth rvl 2", "latency 200". False after
 // "quit".
 bool obey(client::Participant& participant, RoomLines& room, VoiceLine& voice,
@@ -151,9 +162,10 @@ bool obey(client::Participant& participant, RoomLines& room, VoiceLine& voice,
 
 // Executes the lines that were typed so far. False if one of them ends the program.
 bool obey(client::Participant& participant, RoomLines& room, VoiceLine& voice,
-          publish::OwnFace* face, InputLines& input) {
+          publish::OwnFace* webcam, FaceLine* face, InputLines& input) {
     for (const std::string& line : input.take())
-        if (!obey_webcam_line(face, line) && !obey(participant, room, voice, line))
+        if (!obey_webcam_line(webcam, line) && !obey_face_line(face, line) &&
+            !obey(participant, room, voice, line))
             return false;
     return !input.closed_by_person();
 }
@@ -164,14 +176,17 @@ bool has_no_camera(const client::Participant& participant) {
 }
 
 nlohmann::json json_of(const client::Participant& participant, const VoiceLine& voice,
-                       const publish::OwnFace* face, const JoinPicture* picture) {
+                       const publish::OwnFace* webcam, const FaceLine* face,
+                       const JoinPicture* picture) {
     nlohmann::json json = participant_json(participant);
     json["room"] = room_json(participant);
     json["cases"] = case_json(participant);
     json["voice"] = voice.json();
     json["voice"]["may_record"] = participant.voice_may_record();
     if (face)
-        json["webcam"] = {{"state", publish::text_of(face->state())},
+        json["face"] = face->json();
+    if (webcam)
+        json["webcam"] = {{"state", publish::text_of(webcam->state())},
                           {"problem", participant.status().face_problem}};
     if (picture)
         picture->add_to(json);
@@ -218,6 +233,7 @@ void run_join(const JoinFlags& flags) {
                      parse_cleaning(flags.echo_cancellation), parse_spatial(flags.spatial_voices)});
     voice.hear_by(options);
     const auto publisher = open_own_cameras(flags, options);
+    const auto face_line = open_face(flags);
     std::optional<publish::OwnFace> own_face;
     if (!flags.webcam.empty()) {
         options.face = own_face.emplace(flags.webcam).events();
@@ -245,6 +261,9 @@ void run_join(const JoinFlags& flags) {
     if (face)
         showing.emplace(*face, participant);
     const VoiceLine::Talking talking(voice, participant);
+    std::optional<FaceLine::Sending> sending;
+    if (face_line)
+        sending.emplace(*face_line, participant);
     const bool live_line = !flags.json && flags.every <= 0 && isatty(STDOUT_FILENO);
     const bool has_end = flags.seconds > 0 || picture;
     const Duration length = seconds_to_duration(flags.seconds > 0 ? flags.seconds : 3);
@@ -270,7 +289,7 @@ void run_join(const JoinFlags& flags) {
             throw Error(status.problem);
         if (status.phase == client::Participant::Phase::ended)
             break;
-        if (!obey(participant, room, voice, face, input))
+        if (!obey(participant, room, voice, face, face_line.get(), input))
             break;
         if (face) {
             face->on_tick();
@@ -301,7 +320,8 @@ void run_join(const JoinFlags& flags) {
         if (has_end && first_frame == TimePoint{} && now - started >= length + join_patience)
             throw Error(status.problem.empty() ? "The host sent no picture." : status.problem);
         if (flags.every > 0 && now >= next_line) {
-            output::print(files::json_text(json_of(participant, voice, face, picture.get())) +
+            output::print(files::json_text(
+                              json_of(participant, voice, face, face_line.get(), picture.get())) +
                           "\n");
             next_line = now + seconds_to_duration(flags.every);
         } else if (live_line && now >= next_line) {
@@ -310,7 +330,8 @@ void run_join(const JoinFlags& flags) {
         }
     }
     output::end_status_line();
-    const nlohmann::json figures = json_of(participant, voice, face, picture.get());
+    const nlohmann::json figures =
+        json_of(participant, voice, face, face_line.get(), picture.get());
     if (picture)
         picture->write();
     saving.reset();
@@ -430,6 +451,15 @@ void add_join_command(CLI::App& app) {
                         "Show your face, small on your avatar: a video device (/dev/video0), a "
                         "video file, or test for a generated picture. In the window F4, elsewhere "
                         "the lines 'webcam on' and 'webcam off' change it");
+    command->add_option("--face", flags->face,
+                        "Send what your face shows, as six emotions, jaw and lids; no picture: the "
+                        "UDP port where the OSC packets of your headset's face tracker arrive, or "
+                        "actor for a scripted face. The lines 'face on' and 'face off' change it");
+    command->add_option("--face-model", flags->face_model,
+                        "The network that tells the emotions, of 'theatron face train'; without it "
+                        "one learns from synthetic persons at first, for some seconds");
+    command->add_flag("--face-channels", flags->face_channels,
+                      "Send all 52 channels of your face, so that it moves as it was tracked");
     command->add_flag("--push-to-talk", flags->push_to_talk,
                       "Speak only while a key is held: Enter in the window, where F7 switches, "
                       "elsewhere between the lines 'talk on' and 'talk off'");

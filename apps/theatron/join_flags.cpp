@@ -71,6 +71,8 @@ void refuse_unused(const JoinFlags& flags) {
         {"--push-to-talk", speaks, voice},
         {"--voice-frame", speaks, voice},
         {"--echo-cancellation", speaks, voice},
+        {"--face-model", !flags.face.empty(), "is about what your face shows: it needs --face."},
+        {"--face-channels", !flags.face.empty(), "is about what your face shows: it needs --face."},
         {"--spatial-voices", hears, "is about what you hear: it needs --speaker."},
     };
     for (const Use& use : uses)
@@ -128,6 +130,13 @@ std::unique_ptr<publish::CameraPublisher> open_own_cameras(const JoinFlags& flag
     auto publisher = open_published(cameras, {}, "", {flags.may_record, wire::CameraKind::person});
     options.publishing = publisher->events();
     return publisher;
+}
+
+std::unique_ptr<FaceLine> open_face(const JoinFlags& flags) {
+    if (flags.face.empty())
+        return nullptr;
+    return std::make_unique<FaceLine>(
+        FaceLine::Options{flags.face, flags.face_model, flags.face_channels});
 }
 
 VoiceLine::Options::Cleaning parse_cleaning(const std::string& text) {

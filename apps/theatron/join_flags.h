@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "client/participant.h"
+#include "face_line.h"
 #include "or_screen_window.h"
 #include "publish/camera_publisher.h"
 #include "viewer/live_scene.h"
@@ -51,7 +52,9 @@ struct JoinFlags {
     std::string direct = "on";
     std::string render_scale = "auto";
     std::string microphone, speaker;
-    std::string webcam;  // empty: the face is not shown
+    std::string webcam;            // empty: the face is not shown
+    std::string face, face_model;  // as FaceLine::Options; empty: no expression is sent
+    bool face_channels = false;
     int voice_frame_ms = 20;
     std::set<std::string> given;  // "--size", ...: all that the person wrote
     bool is_alone = false;        // nobody else is in the session, so a window asks for no name
@@ -80,6 +83,8 @@ std::unique_ptr<publish::CameraPublisher> open_own_cameras(const JoinFlags& flag
                                                            client::Participant::Options& options);
 // The camera of the face: the one of --webcam, else the usual one, which is off at first.
 inline constexpr const char* usual_webcam = "/dev/video0";
+// Null without --face. Throws Error with one sentence.
+std::unique_ptr<FaceLine> open_face(const JoinFlags& flags);
 VoiceLine::Options::Cleaning parse_cleaning(const std::string& text);
 VoiceLine::Options::Spatial parse_spatial(const std::string& text);
 

@@ -108,6 +108,8 @@ void join_in_window(const JoinFlags& flags) {
         publish::OwnFace face(flags.webcam.empty() ? usual_webcam : flags.webcam);
         now.join.face = face.events();
         now.face = &face;
+        const auto expression = open_face(flags);
+        now.expression = expression.get();
         face.show(fields.shows_face);
         try {
             problem.clear();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "room_lines.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -8,6 +9,7 @@
 #include "base/steady_clock.h"
 #include "export/mark_json.h"
 #include "export/screen_json.h"
+#include "face/emotion.h"
 #include "room/bricks.h"
 #include "session/case_objects.h"
 #include "session/room_text.h"
@@ -41,6 +43,15 @@ Pose towards(Vec3 place, Vec3 at) {
     const bool is_vertical = length(cross(at - place, {0, 1, 0})) < same_place_m;
     return look_at(place, at, is_vertical ? Vec3{0, 0, -1} : Vec3{0, 1, 0}) *
            Pose{Quat{0, 1, 0, 0}, {}};
+}
+
+// The state of the tracker and the strongest emotion, as it is drawn.
+nlohmann::json face_json(const wire::FaceExpression& shown) {
+    const auto strongest = std::max_element(shown.emotions.begin(), shown.emotions.end());
+    const bool is_tracked = shown.state == wire::FaceExpression::State::tracked;
+    return {{"state", is_tracked ? "tracked" : "lost"},
+            {"emotion", face::emotion_names[std::size_t(strongest - shown.emotions.begin())]},
+            {"channels", shown.channels.has_value()}};
 }
 
 }  // namespace
@@ -212,6 +223,7 @@ void RoomLines::on_tick(client::Participant& participant) {
 nlohmann::json room_json(const client::Participant& participant) {
     const auto room = participant.room();
     const auto poses = participant.poses();
+    const auto expressions = participant.expressions();
     nlohmann::json people = nlohmann::json::array(), objects = nlohmann::json::array();
     for (const auto& [id, object] : room.objects) {
         if (object.kind == session::ObjectKind::person) {
@@ -226,6 +238,8 @@ nlohmann::json room_json(const client::Participant& participant) {
                      {"role", wire::text_of(facts->role)},
                      {"muted", facts->muted},
                      {"voice_recorded", facts->voice_recorded}});
+                if (const auto found = expressions.find(object.creator); found != expressions.end())
+                    people.back()["face"] = face_json(found->second);
                 if (const auto pose = poses.find(object.creator); pose != poses.end())
                     for (const auto& [name, part] : {std::pair{"head", &pose->second.head},
                                                      {"left_hand", &pose->second.left_hand},

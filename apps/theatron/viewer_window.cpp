@@ -294,6 +294,9 @@ WindowEnd show(xr::DesktopWindow& window, ViewerWindow options) {
     std::optional<VoiceLine::Talking> talking;
     if (options.voice)
         talking.emplace(*options.voice, participant);
+    std::optional<FaceLine::Sending> sending;
+    if (options.expression)
+        sending.emplace(*options.expression, participant);
     options.viewer.one_panel = true;
     viewer::Viewer viewer(std::move(options.viewer), participant);
     const bool is_software = render::is_software(render::driver_name());

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "face_line.h"
 #include "publish/camera_publisher.h"
 #include "publish/own_face.h"
 #include "viewer/viewer.h"
@@ -21,6 +22,7 @@ struct ViewerWindow {
     client::Participant::Options join;
     publish::CameraPublisher* publisher = nullptr;  // of own cameras, if there are any
     publish::OwnFace* face = nullptr;               // its events must be in `join`; may be null
+    FaceLine* expression = nullptr;                 // of the own face; may be null
     WindowWatch* watch = nullptr;                   // of the window; may be null
     VoiceLine* voice = nullptr;                     // its packets must come by `join`; may be null
     viewer::Viewer::Options viewer;

@@ -10,10 +10,15 @@
 #include "base/steady_clock.h"
 #include "bench_report.h"
 #include "cli/progress.h"
+#include "face/expression.h"
 #include "face/fit_figures.h"
 #include "face/synthetic_faces.h"
 #include "face/training.h"
 #include "files/file_bytes.h"
+#include "render/gl_driver.h"
+#include "render/offscreen_context_native.h"
+#include "render/room_picture.h"
+#include "room/people.h"
 #include "this_machine.h"
 
 namespace theatron::bench {
@@ -85,6 +90,41 @@ nlohmann::json times_json(const face::MorphModel& model, const face::Network& ne
     return {{"infer", infer}, {"blend", one}, {"blend_all_channels", most}};
 }
 
+// A picture of 640x480 pixels in which one head takes the middle third: of a bust whose face shows
+// something else each time, and of the usual bust. With the wait for the driver, and reading back.
+nlohmann::json draw_json() {
+    constexpr Size size{640, 480};
+    const render::OffscreenContext context;
+    render::ScenePasses passes;
+    room::People people;
+    room::RoomPerson person;
+    person.id = ParticipantId{1};
+    person.has_headset = true;
+    person.head = look_at({0, 1.6, 0}, {0, 1.6, 3}, {0, 1, 0}) * Pose{Quat{0, 1, 0, 0}, {}};
+    const auto view = render::view_towards({0, 1.6, 0.9}, {0, 1.58, 0}, 40, size);
+    const auto draw = [&] {
+        render::SceneFrame frame;
+        frame.quality = render::usual_quality();
+        people.add_to(frame, {person}, view);
+        (void)render::draw_and_read(&frame, {}, {view}, size, &passes);
+    };
+    const double bust = median_ms(draw);
+    float jaw = 0;
+    const double with_face = median_ms([&] {
+        jaw = jaw < 0.5F ? jaw + 0.01F : 0;
+        face::Emotions smile{};
+        smile[std::size_t(face::Emotion::happiness)] = 1;
+        person.expression = face::blend_expressions(smile, {jaw, 0, 0});
+        draw();
+    });
+    const room::FaceShape shape;
+    const double meshes = median_ms([&] { (void)shape.meshes(*person.expression); });
+    return {{"driver", render::driver_name()},
+            {"meshes", meshes},
+            {"draw", with_face},
+            {"draw_usual_bust", bust}};
+}
+
 nlohmann::json measure_face(const FaceFlags& flags) {
     require_outputs({flags.json});
     const capture::Progress progress = cli::show_progress();
@@ -115,6 +155,8 @@ nlohmann::json measure_face(const FaceFlags& flags) {
             result["accuracy"][name + "_missing_20"] = missing;
     }
     result["ms"] = times_json(model, *network);
+    progress("drawing", 0);
+    result["ms"].update(draw_json());
     return result;
 }
 
@@ -143,6 +185,11 @@ void print_face(const nlohmann::json& r) {
     std::printf(
         "\none core: network %.3f ms, shape of the head %.3f ms (all channels moved: %.3f)\n",
         number(r["ms"]["infer"]), number(r["ms"]["blend"]), number(r["ms"]["blend_all_channels"]));
+    std::printf(
+        "meshes of the drawn face %.3f ms; a picture with it %.2f ms, with the usual bust %.2f ms\n"
+        "(640x480, %s)\n",
+        number(r["ms"]["meshes"]), number(r["ms"]["draw"]), number(r["ms"]["draw_usual_bust"]),
+        r["ms"]["driver"].get<std::string>().c_str());
 }
 
 }  // namespace

@@ -24,9 +24,6 @@ std::uint64_t random_run() {
     return (std::uint64_t(random()) << 32 | random()) | 1;
 }
 
-// People whose poses are kept; a session has fewer.
-constexpr std::size_t max_poses = 256;
-
 std::vector<wire::Feature> features_of(const Participant::Options& options) {
     std::vector<wire::Feature> features{wire::Feature::adjusting, wire::Feature::playback,
                                         wire::Feature::screens, wire::Feature::look_back};
@@ -147,6 +144,8 @@ bool Participant::begin_connection(net::Client& client) {
         shared_->is_asking_content = false;
         shared_->poses.clear();
         shared_->own_pose.reset();
+        shared_->expressions.clear();
+        shared_->own_expression.reset();
         shared_->voice.clear();
         shared_->visitors.clear();
         shared_->has_standing = false;
@@ -237,6 +236,8 @@ void Participant::on_state(const wire::State& state) {
             options_.room_changed();
         return;
     }
+    if (state.key.topic == wire::StateTopic::expression)
+        return on_expression(ParticipantId{state.key.id}, state.body);
     // A later host may send states that this participant does not know.
     const auto pose = state.key.topic == wire::StateTopic::pose
                           ? wire::decode_person_pose(state.body)

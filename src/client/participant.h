@@ -28,6 +28,7 @@
 #include "session/key_requests.h"
 #include "session/member_room.h"
 #include "session/viewer_session.h"
+#include "wire/face_expression.h"
 #include "wire/person_pose.h"
 
 namespace theatron::client {
@@ -197,6 +198,11 @@ public:
     // The newest pose of each other participant that sent one.
     std::map<ParticipantId, wire::PersonPose> poses() const;
 
+    // The same for what this participant's face shows, and the faces of the others. Nothing is sent
+    // without this call; one of state `none` ends it.
+    void send_expression(const wire::FaceExpression& expression);
+    std::map<ParticipantId, wire::FaceExpression> expressions() const;
+
     // Sends a packet of this participant's voice (voice/packet.h), from any thread. The oldest are
     // dropped if they cannot be sent at once. The others get it with this participant's number.
     void send_voice(ByteView packet);
@@ -284,6 +290,8 @@ private:
     void tell_taken();
     void on_state(const wire::State& state);
     void tell_pose();
+    void tell_expression();
+    void on_expression(ParticipantId person, ByteView body);
     void tell_voice();
     void tell_voice_consent();
     void on_room_message();

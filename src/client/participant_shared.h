@@ -22,6 +22,9 @@ namespace theatron::client {
 // In the number of a connection to a publisher; see Decoders::on_media().
 inline constexpr std::uint64_t direct_link = std::uint64_t(1) << 63;
 
+// People whose poses and expressions are kept; a session has fewer.
+inline constexpr std::size_t max_poses = 256;
+
 // The loop that makes connections, one after the other.
 struct Participant::Loop {
     virtual ~Loop() = default;
@@ -51,7 +54,9 @@ struct Participant::Shared {
     std::string renderer;
     std::map<ParticipantId, wire::PersonPose> poses;
     std::optional<wire::PersonPose> own_pose;  // not yet sent
-    std::deque<Bytes> voice;                   // packets not yet sent
+    std::map<ParticipantId, wire::FaceExpression> expressions;
+    std::optional<wire::FaceExpression> own_expression;  // not yet sent
+    std::deque<Bytes> voice;                             // packets not yet sent
     bool voice_may_record = false;
     bool asks_voice_consent = false;  // the host does, on this connection
     session::MemberRoom room;

@@ -84,6 +84,10 @@ BustMeshes bust_meshes() {
                              {-0.105, 0.044, 0.052, -0.018}, {-0.07, 0.06, 0.074, -0.002},
                              {-0.03, 0.07, 0.088, 0.008},    {0.01, 0.074, 0.094, 0.012},
                              {0.06, 0.075, 0.095, 0.014}};
+    // Meets the edges of the face.
+    constexpr Ring back[] = {{-0.12, 0.03, 0.04, 0},       {-0.105, 0.044, 0.058, 0.008},
+                             {-0.07, 0.0625, 0.08, 0.012}, {-0.03, 0.0705, 0.09, 0.012},
+                             {0.01, 0.0695, 0.094, 0.012}, {0.06, 0.067, 0.092, 0.012}};
     constexpr Ring neck[] = {
         {-0.24, 0.058, 0.056, 0.035}, {-0.17, 0.053, 0.053, 0.032}, {-0.07, 0.052, 0.055, 0.03}};
     constexpr Ring cap[] = {{0.028, 0.077, 0.097, 0.014}, {0.032, 0.084, 0.104, 0.014},
@@ -102,7 +106,9 @@ BustMeshes bust_meshes() {
                                {-0.186, 0.076, 0.073, 0.032},
                                {-0.166, 0.066, 0.067, 0.032},
                                {-0.162, 0.056, 0.058, 0.032}};
-    BustMeshes meshes{loft(head), loft(cap),   loft(mask, -0.44 * pi, 0.44 * pi), {}, loft(neck),
+    BustMeshes meshes{loft(head), loft(back, 0.5 * pi, 1.5 * pi),
+                      loft(cap),  loft(mask, -0.44 * pi, 0.44 * pi),
+                      {},         loft(neck),
                       loft(gown), loft(collar)};
     const MeshData ball = render::make_sphere_mesh(1, small_rings);
     for (const double side : {-1.0, 1.0})

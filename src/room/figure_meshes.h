@@ -13,6 +13,7 @@ namespace theatron::room {
 // Head, cap, mask and eyes turn with the head, the others with the body.
 struct BustMeshes {
     render::MeshData head;
+    render::MeshData back;  // of the head alone, behind a face that is drawn (face_shape.h)
     render::MeshData cap;   // over the hair
     render::MeshData mask;  // over mouth and nose; seen from before and from the sides
     render::MeshData eyes;  // two dark ovals

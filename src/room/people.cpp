@@ -35,6 +35,11 @@ constexpr double bright = 0.3;
 // Clothes and skin of busts; linear. Skin, mask and gown tell nothing of a person.
 constexpr Vec3 skin_color{0.42, 0.3, 0.24}, mask_color{0.6, 0.72, 0.78},
     gown_color{0.2, 0.25, 0.31}, glove_color{0.72, 0.72, 0.68}, eye_color{0.025, 0.02, 0.02};
+// The same of a face that shows an expression. The cap sits higher, so that brows are seen.
+constexpr Vec3 white_color{0.72, 0.72, 0.7}, dark_color{0.05, 0.035, 0.03},
+    lip_color{0.36, 0.19, 0.16}, mouth_color{0.03, 0.012, 0.012};
+constexpr Pose head_from_cap{{}, {0, 0.019, 0.001}};
+constexpr double cap_scale = 0.95;
 
 // The picture of a face: 4:3 with round corners, before the middle of the head, in a rim of the
 // person's colour.
@@ -161,10 +166,10 @@ std::string initials_of(const std::string& name) {
 People::People()
     : bust_([] {
           const BustMeshes meshes = bust_meshes();
-          return Bust{render::SceneMesh(meshes.head),  render::SceneMesh(meshes.cap),
-                      render::SceneMesh(meshes.mask),  render::SceneMesh(meshes.eyes),
-                      render::SceneMesh(meshes.neck),  render::SceneMesh(meshes.gown),
-                      render::SceneMesh(meshes.collar)};
+          return Bust{render::SceneMesh(meshes.head), render::SceneMesh(meshes.back),
+                      render::SceneMesh(meshes.cap),  render::SceneMesh(meshes.mask),
+                      render::SceneMesh(meshes.eyes), render::SceneMesh(meshes.neck),
+                      render::SceneMesh(meshes.gown), render::SceneMesh(meshes.collar)};
       }()),
       left_(make_hand(Side::left, false)),
       right_(make_hand(Side::right, false)),
@@ -191,13 +196,51 @@ void People::add_hands(render::SceneFrame& frame, const RoomPerson& person, doub
         add(person.points ? pointing_ : right_, *person.right_hand);
 }
 
-void People::add_bust(render::SceneFrame& frame, const RoomPerson& person, double opacity) const {
+// Uploads the face again where it shows something else than in the picture before.
+const People::Face& People::face_of(const RoomPerson& person) {
+    const auto found = drawn_faces_.find(person.id);
+    if (found != drawn_faces_.end() && found->second.shown == *person.expression)
+        return found->second;
+    if (!shape_)
+        shape_ = std::make_unique<FaceShape>();
+    const FaceMeshes meshes = shape_->meshes(*person.expression);
+    Face face{*person.expression,
+              render::SceneMesh(meshes.skin),
+              render::SceneMesh(meshes.whites),
+              render::SceneMesh(meshes.dark),
+              render::SceneMesh(meshes.lips),
+              render::SceneMesh(meshes.mouth)};
+    return drawn_faces_.insert_or_assign(person.id, std::move(face)).first->second;
+}
+
+void People::add_face(render::SceneFrame& frame, const RoomPerson& person, double opacity) {
+    const Face& face = face_of(person);
+    const auto add = [&](const render::SceneMesh& mesh, Vec3 color) {
+        frame.objects.push_back({&mesh, *person.head, look(color, opacity)});
+    };
+    add(bust_.back, skin_color);
+    add(face.skin, skin_color);
+    add(face.whites, white_color);
+    add(face.dark, dark_color);
+    add(face.lips, lip_color);
+    add(face.mouth, mouth_color);
+    render::SceneObject cap{&bust_.cap, *person.head * head_from_cap,
+                            look(color_of(person.id), opacity)};
+    cap.scale = cap_scale;
+    frame.objects.push_back(cap);
+}
+
+void People::add_bust(render::SceneFrame& frame, const RoomPerson& person, double opacity) {
     const Pose body = body_below(*person.head);
     const Vec3 color = color_of(person.id);
-    frame.objects.push_back({&bust_.head, *person.head, look(skin_color, opacity)});
-    frame.objects.push_back({&bust_.cap, *person.head, look(color, opacity)});
-    frame.objects.push_back({&bust_.mask, *person.head, look(mask_color, opacity)});
-    frame.objects.push_back({&bust_.eyes, *person.head, look(eye_color, opacity)});
+    if (person.expression) {
+        add_face(frame, person, opacity);
+    } else {
+        frame.objects.push_back({&bust_.head, *person.head, look(skin_color, opacity)});
+        frame.objects.push_back({&bust_.cap, *person.head, look(color, opacity)});
+        frame.objects.push_back({&bust_.mask, *person.head, look(mask_color, opacity)});
+        frame.objects.push_back({&bust_.eyes, *person.head, look(eye_color, opacity)});
+    }
     frame.objects.push_back({&bust_.neck, body, look(skin_color, opacity)});
     frame.objects.push_back({&bust_.gown, body, look(gown_color, opacity)});
     frame.objects.push_back({&bust_.collar, body, look(color, opacity)});
@@ -244,8 +287,13 @@ void People::add_picture(render::SceneFrame& frame, const RoomPerson& person,
 }
 
 void People::add_to(render::SceneFrame& frame, const std::vector<RoomPerson>& people,
-                    const render::CameraView& view) const {
+                    const render::CameraView& view) {
     const Vec3 eye = view.room_from_eye.translation;
+    std::erase_if(drawn_faces_, [&](const auto& drawn) {
+        return std::none_of(people.begin(), people.end(), [&](const RoomPerson& person) {
+            return person.id == drawn.first && person.expression;
+        });
+    });
     for (const RoomPerson& person : people) {
         const double opacity = person.is_stale ? stale_opacity : 1;
         add_hands(frame, person, opacity);
@@ -253,7 +301,7 @@ void People::add_to(render::SceneFrame& frame, const std::vector<RoomPerson>& pe
             continue;
         if (!person.has_cloud) {
             if (!person.face || person.face->opacity < 1) {
-                if (person.has_headset)
+                if (person.has_headset || person.expression)
                     add_bust(frame, person, opacity);
                 else
                     add_plate(frame, person, opacity, eye);

@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // Avatars of people, by what is known of them, and their names. A person with a headset is a bust
-// with gloved hands, one with a webcam is its picture, and anybody else is a plate with initials
-// that faces the eye, and below it a cone that points where the person looks.
+// with gloved hands, one whose expression is known is a bust with a face, one with a webcam is its
+// picture, and anybody else is a plate with initials that faces the eye, and below it a cone that
+// points where the person looks.
 #pragma once
 
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/ids.h"
+#include "face/channels.h"
 #include "render/camera_view.h"
 #include "render/scene_frame.h"
+#include "room/face_shape.h"
 #include "room/figure_meshes.h"
 
 namespace theatron::room {
@@ -33,6 +38,8 @@ struct RoomPerson {
     // It is seen as a point cloud, in place of its bust, picture or plate.
     bool has_cloud = false;
     std::optional<FacePicture> face;
+    // The channels of its face, if it sends its expression.
+    std::optional<face::Channels> expression;
     bool calls = false;   // asks the others to come
     bool points = false;  // with the right hand
 };
@@ -52,23 +59,31 @@ public:
 
     // Appends all people except those whose head surrounds the eye. Names face the eye.
     void add_to(render::SceneFrame& frame, const std::vector<RoomPerson>& people,
-                const render::CameraView& view) const;
+                const render::CameraView& view);
 
 private:
     struct Bust {
-        render::SceneMesh head, cap, mask, eyes, neck, gown, collar;
+        render::SceneMesh head, back, cap, mask, eyes, neck, gown, collar;
+    };
+    struct Face {
+        face::Channels shown;
+        render::SceneMesh skin, whites, dark, lips, mouth;
     };
     struct Hand {
         render::SceneMesh glove, cuff;
     };
     static Hand make_hand(Side side, bool points);
     void add_hands(render::SceneFrame& frame, const RoomPerson& person, double opacity) const;
-    void add_bust(render::SceneFrame& frame, const RoomPerson& person, double opacity) const;
+    void add_bust(render::SceneFrame& frame, const RoomPerson& person, double opacity);
+    void add_face(render::SceneFrame& frame, const RoomPerson& person, double opacity);
+    const Face& face_of(const RoomPerson& person);
     void add_plate(render::SceneFrame& frame, const RoomPerson& person, double opacity,
                    Vec3 eye) const;
     void add_picture(render::SceneFrame& frame, const RoomPerson& person, double opacity) const;
 
     Bust bust_;
+    std::unique_ptr<FaceShape> shape_;  // made for the first face
+    std::map<ParticipantId, Face> drawn_faces_;
     Hand left_, right_, pointing_;
     render::SceneMesh plate_, plate_rim_, cone_, picture_, rim_;
 };

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "face/expression.h"
 #include "render/room_picture.h"
 #include "render/test_context.h"
 
@@ -21,7 +22,7 @@ RoomPerson person_at(ParticipantId id, Vec3 place, Vec3 looks_at) {
 }
 
 render::SceneFrame seen(const std::vector<RoomPerson>& people, const render::CameraView& view) {
-    static const People avatars;
+    static People avatars;
     render::SceneFrame frame;
     avatars.add_to(frame, people, view);
     return frame;
@@ -38,6 +39,19 @@ protected:
     }
     const render::CameraView view = render::view_towards({0, 1.6, 1}, {0, 1.6, 0}, 60, {160, 120});
 };
+
+TEST_F(PeopleTest, AnExpressionPutsAFaceOnTheBust) {
+    RoomPerson person = person_at(ParticipantId{1}, {0, 1.6, 0}, {0, 1.6, 3});
+    person.has_headset = true;
+    const std::size_t without_face = seen({person}, view).objects.size();
+    person.expression = face::channels_of(face::Emotion::happiness);
+    // Back of the head, five parts of the face, in place of head, mask and eyes.
+    EXPECT_EQ(seen({person}, view).objects.size(), without_face + 3);
+    person.has_headset = false;
+    EXPECT_EQ(seen({person}, view).objects.size(), without_face + 3) << "no plate";
+    person.expression.reset();
+    EXPECT_EQ(texts_of(person), (std::vector<std::string>{"A", "Anna"})) << "the plate is back";
+}
 
 TEST_F(PeopleTest, HaveHeadNameAndTheHandsThatAreKnown) {
     RoomPerson person = person_at(ParticipantId{1}, {0, 1.6, 0}, {0, 1.6, 3});

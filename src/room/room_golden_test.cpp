@@ -2,6 +2,7 @@
 // Small pictures of the virtual room in both qualities, and of people in it.
 #include <gtest/gtest.h>
 
+#include "face/expression.h"
 #include "render/room_picture.h"
 #include "render/test_context.h"
 #include "room/people.h"
@@ -59,11 +60,43 @@ TEST(RoomGolden, FiguresAreThePictureThatWasLookedAt) {
     render::SceneFrame frame;
     room.build(frame.quality);
     room.add_to(frame, view);
-    const People figures;
+    People figures;
     figures.add_to(frame, people, view);
     render::ScenePasses passes;
     theatron::testing::expect_golden(render::draw_and_read(&frame, {}, {view}, size, &passes).color,
                                      "tests/golden/figures.ppm", 0.8, 0.01);
+}
+
+// Sadness, disgust, happiness, surprise with an open mouth, anger, neutral: from the front, and
+// turned by half of a right angle.
+TEST(RoomGolden, FacesAreThePictureThatWasLookedAt) {
+    constexpr int side = 128;
+    constexpr double distance_m = 0.7;
+    render::test_context();
+    People figures;
+    render::ScenePasses passes;
+    ColorImage all({side * int(face::emotion_count), 2 * side});
+    for (std::size_t e = 0; e < face::emotion_count; ++e)
+        for (int row = 0; row < 2; ++row) {
+            RoomPerson shown = person(1, "", {0, 1.6, 0}, {0, 1.6, 3}, false);
+            face::Emotions weights{};
+            weights[e] = 1;
+            const bool is_surprised = face::Emotion(e) == face::Emotion::surprise;
+            shown.expression = face::blend_expressions(weights, {is_surprised ? 0.5F : 0.0F, 0, 0});
+            const double angle = row == 0 ? 0 : radians_of(45);
+            const Vec3 eye{distance_m * std::sin(angle), 1.62, distance_m * std::cos(angle)};
+            const auto view = render::view_towards(eye, {0, 1.6, 0}, 25, {side, side});
+            render::SceneFrame frame;
+            frame.shadow_middle = {0, 1.5, 0};
+            frame.shadow_radius_m = 0.6;
+            figures.add_to(frame, {shown}, view);
+            const ColorImage drawn =
+                render::draw_and_read(&frame, {}, {view}, {side, side}, &passes).color;
+            for (int y = 0; y < side; ++y)
+                for (int x = 0; x < side; ++x)
+                    all.view().row(row * side + y)[int(e) * side + x] = drawn.view().row(y)[x];
+        }
+    theatron::testing::expect_golden(all, "tests/golden/faces.ppm", 0.8, 0.01);
 }
 
 TEST(RoomGolden, LowIsThePictureThatWasLookedAt) {

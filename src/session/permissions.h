@@ -20,7 +20,7 @@ enum class Right : std::uint8_t {
     manage,   // admit, mute and remove others, change their roles, end the session
     adjust,   // nudge cameras, draw their regions
     play,     // pause and seek the recording that the host plays
-    be_seen,  // send the picture of the own face
+    be_seen,  // send the picture of the own face, or its expression
 };
 
 constexpr bool may(Role role, Right right) {

@@ -4,51 +4,83 @@
 #include <algorithm>
 #include <utility>
 
+#include "wire/face_expression.h"
+#include "wire/person_pose.h"
+
 namespace theatron::session {
 namespace {
 
-wire::State state_of(ParticipantId participant, const Bytes& body) {
-    return {{wire::StateTopic::pose, std::uint32_t(participant)}, body};
+using wire::StateKey, wire::StateTopic;
+
+// Unknown topics count as poses.
+StateKey key_of(ParticipantId participant, StateTopic topic) {
+    return {topic == StateTopic::expression ? topic : StateTopic::pose, std::uint32_t(participant)};
+}
+
+// The time that a state is for; no value if it is damaged.
+Result<TimePoint> time_of(const wire::State& state) {
+    if (state.key.topic == StateTopic::expression) {
+        const auto expression = wire::decode_face_expression(state.body);
+        return expression ? Result(expression->time) : expression.error();
+    }
+    const auto pose = wire::decode_person_pose(state.body);
+    return pose ? Result(pose->time) : pose.error();
+}
+
+// The state by which the others know that nothing is there any more.
+Bytes nothing_of(StateTopic topic, TimePoint time) {
+    if (topic == StateTopic::expression) {
+        wire::FaceExpression nothing;
+        nothing.time = time;
+        return wire::encode_face_expression(nothing);
+    }
+    wire::PersonPose nothing;
+    nothing.time = time;
+    return wire::encode_person_pose(nothing);
 }
 
 }  // namespace
 
-void PoseBoard::note_new(Person& person, TimePoint now) {
-    person.is_new = true;
+void PoseBoard::note_new(Kept& kept, TimePoint now) {
+    kept.is_new = true;
     if (!new_since_)
         new_since_ = now;
 }
 
 PoseBoard::Answer PoseBoard::put(ParticipantId sender, const wire::State& state, TimePoint now) {
-    Person& person = people_[sender];
-    if (!person.budget.take(now))
+    const StateKey key = key_of(sender, state.key.topic);
+    Kept& kept =
+        states_.try_emplace(key, key.topic == StateTopic::expression ? expression_limit : limit)
+            .first->second;
+    if (!kept.budget.take(now))
         return Answer::flood;
-    const bool own = state.key.topic == wire::StateTopic::pose &&
-                     state.key.id == std::uint32_t(sender) && !person.has_left;
-    const auto pose = own ? wire::decode_person_pose(state.body) : Status::malformed;
-    if (!pose || pose->time > now + max_pose_lead ||
-        (!person.body.empty() && pose->time <= person.time))
+    const bool own = state.key == key && !kept.has_left;
+    const auto time = own ? time_of(state) : Status::malformed;
+    if (!time || *time > now + max_pose_lead || (!kept.body.empty() && *time <= kept.time))
         return Answer::ignored;
-    person.time = pose->time;
-    person.body.assign(state.body.begin(), state.body.end());
-    note_new(person, now);
+    kept.time = *time;
+    kept.body.assign(state.body.begin(), state.body.end());
+    note_new(kept, now);
     return Answer::kept;
 }
 
 void PoseBoard::remove(ParticipantId participant, TimePoint now) {
-    const auto found = people_.find(participant);
-    if (found == people_.end())
+    for (const StateTopic topic : {StateTopic::pose, StateTopic::expression})
+        remove(key_of(participant, topic), now);
+}
+
+void PoseBoard::remove(StateKey key, TimePoint now) {
+    const auto found = states_.find(key);
+    if (found == states_.end())
         return;
-    Person& person = found->second;
-    if (person.body.empty()) {
-        people_.erase(found);
+    Kept& kept = found->second;
+    if (kept.body.empty()) {
+        states_.erase(found);
         return;
     }
-    person.has_left = true;
-    wire::PersonPose nothing;
-    nothing.time = std::max(now, person.time + Duration(1));
-    person.body = wire::encode_person_pose(nothing);
-    note_new(person, now);
+    kept.has_left = true;
+    kept.body = nothing_of(key.topic, std::max(now, kept.time + Duration(1)));
+    note_new(kept, now);
 }
 
 std::optional<TimePoint> PoseBoard::due() const {
@@ -60,17 +92,18 @@ std::optional<TimePoint> PoseBoard::due() const {
 std::vector<PoseBoard::Entry> PoseBoard::gather(TimePoint now) {
     std::vector<Entry> entries;
     left_.clear();
-    left_.reserve(people_.size());  // the views stay valid
-    for (auto person = people_.begin(); person != people_.end();) {
-        auto& [id, p] = *person;
-        if (!std::exchange(p.is_new, false)) {
-            ++person;
-        } else if (p.has_left) {
-            entries.push_back({id, state_of(id, left_.emplace_back(std::move(p.body)))});
-            person = people_.erase(person);
+    left_.reserve(states_.size());  // the views stay valid
+    for (auto state = states_.begin(); state != states_.end();) {
+        auto& [key, kept] = *state;
+        const ParticipantId participant{key.id};
+        if (!std::exchange(kept.is_new, false)) {
+            ++state;
+        } else if (kept.has_left) {
+            entries.push_back({participant, {key, left_.emplace_back(std::move(kept.body))}});
+            state = states_.erase(state);
         } else {
-            entries.push_back({id, state_of(id, p.body)});
-            ++person;
+            entries.push_back({participant, {key, kept.body}});
+            ++state;
         }
     }
     new_since_.reset();
@@ -80,9 +113,9 @@ std::vector<PoseBoard::Entry> PoseBoard::gather(TimePoint now) {
 
 std::vector<PoseBoard::Entry> PoseBoard::all() const {
     std::vector<Entry> entries;
-    for (const auto& [id, person] : people_)
-        if (!person.body.empty() && !person.has_left)
-            entries.push_back({id, state_of(id, person.body)});
+    for (const auto& [key, kept] : states_)
+        if (!kept.body.empty() && !kept.has_left)
+            entries.push_back({ParticipantId{key.id}, {key, kept.body}});
     return entries;
 }
 

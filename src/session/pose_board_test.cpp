@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "wire/face_expression.h"
+#include "wire/person_pose.h"
+
 namespace theatron::session {
 namespace {
 
@@ -123,6 +126,53 @@ TEST(PoseBoard, FarTooManyPosesAreAFlood) {
     EXPECT_EQ(answer, Answer::flood);
     EXPECT_GT(kept, 500);
     EXPECT_EQ(b.put(bob, 1), Answer::kept);
+}
+
+wire::FaceExpression happy_at(TimePoint time) {
+    wire::FaceExpression face;
+    face.time = time;
+    face.state = wire::FaceExpression::State::tracked;
+    face.emotions[2] = 1;
+    return face;
+}
+
+TEST(PoseBoard, SendsExpressionsBesidePosesAndTakesThemBackAtTheEnd) {
+    Board b;
+    b.put(alice, 1);
+    const auto put = [&](ParticipantId sender, ParticipantId owner) {
+        const Bytes body = wire::encode_face_expression(happy_at(b.now));
+        return b.board.put(sender, {{wire::StateTopic::expression, std::uint32_t(owner)}, body},
+                           b.now);
+    };
+    EXPECT_EQ(put(bob, alice), Answer::ignored);
+    EXPECT_EQ(put(alice, alice), Answer::kept);
+    EXPECT_EQ(put(alice, alice), Answer::ignored) << "it is not newer";
+    auto entries = b.board.gather(b.now);
+    ASSERT_EQ(entries.size(), 2u);
+    EXPECT_EQ(entries[0].state.key.topic, wire::StateTopic::pose);
+    EXPECT_EQ(entries[1].state.key.topic, wire::StateTopic::expression);
+    EXPECT_EQ(*wire::decode_face_expression(entries[1].state.body), happy_at(b.now));
+    EXPECT_EQ(b.board.all().size(), 2u);
+    b.board.remove(alice, b.now + 1s);
+    entries = b.board.gather(b.now + 1s);
+    ASSERT_EQ(entries.size(), 2u);
+    EXPECT_EQ(wire::decode_face_expression(entries[1].state.body)->state,
+              wire::FaceExpression::State::none);
+    EXPECT_TRUE(b.board.all().empty());
+}
+
+TEST(PoseBoard, FarTooManyExpressionsAreAFlood) {
+    Board b;
+    int kept = 0;
+    for (Answer answer{}; kept < 10'000 && answer != Answer::flood; ++kept) {
+        b.now += 100us;
+        const Bytes body = wire::encode_face_expression(happy_at(b.now));
+        answer =
+            b.board.put(alice, {{wire::StateTopic::expression, std::uint32_t(alice)}, body}, b.now);
+    }
+    EXPECT_GE(kept, int(PoseBoard::expression_limit.at_once));
+    EXPECT_LT(kept, 150);
+    EXPECT_EQ(b.put(alice, 1), Answer::kept) << "poses have a limit of their own";
 }
 
 }  // namespace

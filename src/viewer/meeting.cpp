@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "face/expression.h"
 #include "phrases/phrase.h"
 #include "room/facing.h"
 #include "session/room_bytes.h"
@@ -25,7 +26,7 @@ bool same(const room::RoomPerson& a, const room::RoomPerson& b) {
     return a.id == b.id && a.name == b.name && a.head == b.head && a.left_hand == b.left_hand &&
            a.right_hand == b.right_hand && a.is_stale == b.is_stale && a.has_cloud == b.has_cloud &&
            a.has_headset == b.has_headset && a.calls == b.calls && a.points == b.points &&
-           (!a.is_stale || a.age == b.age);
+           a.expression == b.expression && (!a.is_stale || a.age == b.age);
 }
 
 }  // namespace
@@ -55,6 +56,15 @@ std::vector<room::RoomPerson> people_of(const client::Participant::Room& room,
         people.push_back(std::move(person));
     }
     return people;
+}
+
+face::Channels channels_of(const wire::FaceExpression& expression) {
+    static_assert(wire::face_channels == face::channel_count &&
+                  wire::face_emotions == face::emotion_count);
+    if (expression.channels)
+        return *expression.channels;
+    return face::blend_expressions(
+        expression.emotions, {expression.jaw_open, expression.blink_left, expression.blink_right});
 }
 
 wire::PartPose part_of(const Pose& pose) {
@@ -99,10 +109,14 @@ bool Meeting::take(const client::Participant& participant) {
         pose = *track.at(now);
     }
     headsets_.take(poses, now);
+    take_expressions(participant, now);
     std::vector<room::RoomPerson> people = people_of(room_, poses, now);
     for (room::RoomPerson& person : people) {
         person.has_cloud = clouds_.contains(person.id);
         person.has_headset = headsets_.has(person.id);
+        if (const auto track = expressions_.find(person.id); track != expressions_.end())
+            if (const auto expression = track->second.at(now))
+                person.expression = channels_of(*expression);
         const auto pose = poses.find(person.id);
         if (pose == poses.end())
             continue;
@@ -114,6 +128,13 @@ bool Meeting::take(const client::Participant& participant) {
         changed || !std::equal(people.begin(), people.end(), people_.begin(), people_.end(), same);
     people_ = std::move(people);
     return changed;
+}
+
+void Meeting::take_expressions(const client::Participant& participant, TimePoint now) {
+    const auto newest = participant.expressions();
+    std::erase_if(expressions_, [&](const auto& track) { return !newest.contains(track.first); });
+    for (const auto& [id, expression] : newest)
+        expressions_[id].add(expression, now);
 }
 
 // True if other objects are drawn than before.
@@ -129,6 +150,9 @@ bool Meeting::take_past() {
 }
 
 bool Meeting::is_moving(TimePoint session_time) const {
+    if (std::any_of(expressions_.begin(), expressions_.end(),
+                    [&](const auto& track) { return track.second.is_moving(session_time); }))
+        return true;
     return std::any_of(tracks_.begin(), tracks_.end(), [&](const auto& track) {
         const auto& teleport = track.second.teleport();
         return track.second.is_moving(session_time) ||

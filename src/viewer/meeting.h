@@ -16,6 +16,7 @@
 #include "room/mark_scene.h"
 #include "room/people.h"
 #include "room/teleport_marks.h"
+#include "session/expression_track.h"
 #include "session/pose_track.h"
 #include "viewer/case_scene.h"
 #include "viewer/room_past.h"
@@ -102,6 +103,7 @@ public:
 
 private:
     bool take_past();
+    void take_expressions(const client::Participant& participant, TimePoint now);
     const session::RoomObjects& shown() const { return shows_past_ ? then_ : room_.objects; }
     const render::SceneMesh& mesh_of(const room::Brick& brick);
     void add_teleports(render::SceneFrame& frame);
@@ -121,6 +123,7 @@ private:
     bool shows_ages_ = false;
     std::map<ParticipantId, std::string> meters_;  // of those who speak
     std::map<ParticipantId, session::PoseTrack> tracks_;
+    std::map<ParticipantId, session::ExpressionTrack> expressions_;
     WornHeadsets headsets_;
     TimePoint taken_at_;  // session time
     std::optional<room::TeleportArc> arc_;
@@ -137,6 +140,9 @@ private:
 std::vector<room::RoomPerson> people_of(const client::Participant::Room& room,
                                         const std::map<ParticipantId, wire::PersonPose>& poses,
                                         TimePoint now);
+
+// The face that an expression shows.
+face::Channels channels_of(const wire::FaceExpression& expression);
 
 // Poses of heads and hands for messages: y up, -z forward.
 wire::PartPose part_of(const Pose& room_from_part);

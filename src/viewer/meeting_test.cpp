@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "face/emotion.h"
 #include "session/room_bytes.h"
 
 namespace theatron::viewer {
@@ -35,6 +36,20 @@ TEST(Meeting, IsOfTheOthersWithTheirPoses) {
     EXPECT_FALSE(people[0].is_stale);
     EXPECT_FALSE(people[1].head) << "it is in, but nobody knows where";
     EXPECT_TRUE(people_of(room_of({anna}), {{anna, pose}}, TimePoint(13s))[0].is_stale);
+}
+
+TEST(Meeting, AFaceIsTheBlendOfEmotionsUnlessItsOwnerSentAllChannels) {
+    wire::FaceExpression face;
+    face.state = wire::FaceExpression::State::tracked;
+    face.emotions[std::size_t(face::Emotion::happiness)] = 1;
+    face.jaw_open = 0.5F;
+    face::Channels blended = channels_of(face);
+    EXPECT_GT(blended[face::mouth_smile_left], 0.8F);
+    EXPECT_EQ(blended[face::jaw_open], 0.5F);
+    face.channels.emplace()[face::tongue_out] = 1;
+    blended = channels_of(face);
+    EXPECT_EQ(blended[face::mouth_smile_left], 0);
+    EXPECT_EQ(blended[face::tongue_out], 1);
 }
 
 TEST(Meeting, AnEyeIsAHeadThatLooksTheSameWay) {

@@ -38,6 +38,7 @@ inline constexpr std::size_t max_untold = 8 * 1024;
 enum class StateTopic : std::uint8_t {
     pose = 1,    // wire/person_pose.h; the id is the participant's
     object = 2,  // of an object that somebody holds (session/room_bytes.h); the id is the object's
+    expression = 3,  // wire/face_expression.h; the id is the participant's
 };
 
 // The name of a state: a newer state with the same key replaces an older one.

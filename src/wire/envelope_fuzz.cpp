@@ -4,11 +4,22 @@
 #include <cstdlib>
 
 #include "wire/envelope.h"
+#include "wire/face_expression.h"
 #include "wire/person_pose.h"
 
 namespace {
 
 using namespace theatron;
+
+// An expression that is read has one encoding, and its values are shares.
+void check_expression(ByteView body) {
+    const auto expression = wire::decode_face_expression(body);
+    if (!expression)
+        return;
+    const Bytes again = wire::encode_face_expression(*expression);
+    if (again != Bytes(body.begin(), body.end()))
+        std::abort();
+}
 
 // States, voice and acknowledgements have one encoding: writing them again gives equal bytes.
 void check_same_bytes(const wire::Unwrapper::Unwrapped& got, const Bytes& envelope) {
@@ -18,6 +29,7 @@ void check_same_bytes(const wire::Unwrapper::Unwrapped& got, const Bytes& envelo
         if (!wire::append_state(state, again))
             std::abort();
         (void)wire::decode_person_pose(state.body);
+        check_expression(state.body);
     }
     if (got.voice)
         wire::wrap_voice(*got.voice, again);

@@ -50,6 +50,26 @@ TEST(WorldRoom, PosesAreSeenByTheOthersAndEndWithTheirPerson) {
     EXPECT_TRUE(world.until([&] { return !carl->poses().contains(left); }));
 }
 
+TEST(WorldRoom, FacesAreSeenByTheOthersAndEndWithTheirPerson) {
+    World world;
+    Person& anna = world.joined("Anna");
+    Person& ben = world.joined("Ben");
+    wire::FaceExpression smile;
+    smile.time = ben->now();
+    smile.state = wire::FaceExpression::State::tracked;
+    smile.emotions[2] = 1;
+    ben->send_expression(smile);
+    EXPECT_TRUE(world.until([&] { return anna->expressions().contains(ben.number()); }));
+    EXPECT_EQ(anna->expressions().at(ben.number()), smile);
+    EXPECT_TRUE(anna->poses().empty());
+    Person& carl = world.joined("Carl");
+    EXPECT_TRUE(world.until([&] { return carl->expressions().contains(ben.number()); }));
+    const ParticipantId left = ben.number();
+    ben.leave();
+    EXPECT_TRUE(world.until([&] { return !anna->expressions().contains(left); }));
+    EXPECT_TRUE(world.until([&] { return !carl->expressions().contains(left); }));
+}
+
 TEST(WorldRoom, ABrickIsHeldMovedGivenAndReleased) {
     World world;
     Person& anna = world.joined("Anna");

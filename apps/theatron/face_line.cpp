@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "face_line.h"
+
+#include <algorithm>
+#include <charconv>
+#include <nlohmann/json.hpp>
+#include <stop_token>
+
+#include "base/error.h"
+#include "base/log.h"
+#include "base/steady_clock.h"
+#include "face/synthetic_faces.h"
+#include "face/training.h"
+#include "session/expression_track.h"
+
+namespace theatron::app {
+namespace {
+
+FacePort port_of(const std::string& source) {
+    FacePort at;
+    const char* const end = source.data() + source.size();
+    const auto [rest, problem] = std::from_chars(source.data(), end, at.port);
+    if (problem != std::errc() || rest != end || at.port < 1 || at.port > 65535)
+        throw Error("'" + source + "' is neither a UDP port (1 to 65535) nor actor.");
+    return at;
+}
+
+bool can_send(const client::Participant& participant) {
+    const auto status = participant.status();
+    return status.clock_known && status.phase == client::Participant::Phase::joined;
+}
+
+// The sentence that tells a person of the change; empty: none.
+std::string sentence_of(face::Tracking tracking) {
+    switch (tracking) {
+        case face::Tracking::tracked:
+            return "Your face is tracked; the others see what it shows.";
+        case face::Tracking::lost:
+            return "The tracker of your face is silent; the others see it at rest.";
+        case face::Tracking::waiting:
+        case face::Tracking::relaxing:
+            break;
+    }
+    return "";
+}
+
+}  // namespace
+
+wire::FaceExpression expression_of(const face::FaceNow& face, const face::EmotionNow& told,
+                                   bool all_channels) {
+    wire::FaceExpression sent;
+    const bool is_lost = face.tracking == face::Tracking::lost;
+    sent.state = is_lost ? wire::FaceExpression::State::lost : wire::FaceExpression::State::tracked;
+    sent.emotions = told.weights;
+    if (told.told != face::Emotion::anger) {
+        float& anger = sent.emotions[std::size_t(face::Emotion::anger)];
+        sent.emotions[std::size_t(face::Emotion::neutral)] += anger;
+        anger = 0;
+    }
+    sent.jaw_open = face.values[face::jaw_open];
+    sent.blink_left = face.values[face::eye_blink_left];
+    sent.blink_right = face.values[face::eye_blink_right];
+    if (all_channels)
+        sent.channels = face.values;
+    return sent;
+}
+
+FaceLine::FaceLine(const Options& options) : all_channels_(options.all_channels) {
+    if (options.source != "actor")
+        tracked_ = std::make_unique<TrackedFace>(port_of(options.source));
+    if (!options.model.empty())
+        network_ = read_face_network(options.model);
+}
+
+FaceLine::Sending::Sending(FaceLine& line, client::Participant& participant)
+    : thread_(
+          [&line, &participant](const std::stop_token& stop) { line.send(participant, stop); }) {}
+
+face::FaceNow FaceLine::next(TimePoint end) {
+    if (tracked_)
+        return tracked_->next(end);
+    std::this_thread::sleep_for(std::max(end - steady_now(), Duration::zero()));
+    face::FaceNow face;
+    face.values = face::actor_channels(to_seconds(end - began_));
+    face.present.set();
+    face.tracking = face::Tracking::tracked;
+    return face;
+}
+
+void FaceLine::send(client::Participant& participant, const std::stop_token& stop) {
+    if (!network_) {
+        note("learning", "");
+        network_ =
+            face::train_synthetic(tracked_ ? face::Source::unified : face::Source::arkit, {});
+    }
+    face::EmotionReader reader(*network_);
+    TimePoint due = began_ = steady_now(), send_at = due;
+    auto tracking = face::Tracking::waiting;
+    bool is_calibrated = !tracked_;  // the actor is at rest where its channels are 0
+    wire::FaceExpression sent;       // the last one; at first as if it said that there is none
+    TimePoint sent_at;
+    while (!stop.stop_requested()) {
+        due = std::max(due + face_step, steady_now());
+        const face::FaceNow face = next(due);
+        if (!is_calibrated && face.tracking == face::Tracking::tracked) {
+            log::say("Rest your face for two seconds: that is what the network compares with.");
+            reader.calibrate(due);
+            is_calibrated = true;
+        }
+        const face::EmotionNow told = reader.put(face, due);
+        if (std::exchange(tracking, face.tracking) != face.tracking)
+            if (const std::string sentence = sentence_of(face.tracking);
+                tracked_ && !sentence.empty())
+                log::say(sentence);
+        const bool shown = shown_;
+        note(shown ? std::string(to_text(face.tracking)) : "off",
+             shown ? std::string(to_text(told.told)) : "");
+        if (due < send_at || !can_send(participant))
+            continue;
+        send_at = due + period;
+        wire::FaceExpression now;  // of state none
+        if (shown && face.tracking != face::Tracking::waiting)
+            now = expression_of(face, told, all_channels_);
+        now.time = sent.time;
+        const bool is_same = encode_face_expression(now) == encode_face_expression(sent);
+        const bool is_fresh = now.state == wire::FaceExpression::State::none ||
+                              due - sent_at < session::ExpressionTrack::repeated_after;
+        if (is_same && is_fresh)
+            continue;
+        sent = now;
+        sent.time = participant.now();
+        sent_at = due;
+        participant.send_expression(sent);
+    }
+}
+
+void FaceLine::note(const std::string& state, const std::string& emotion) {
+    const std::lock_guard lock(mutex_);
+    state_ = state;
+    emotion_ = emotion;
+}
+
+nlohmann::json FaceLine::json() const {
+    const std::lock_guard lock(mutex_);
+    return {{"state", state_}, {"emotion", emotion_}};
+}
+
+}  // namespace theatron::app

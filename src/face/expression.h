@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// The six emotions as expressions of a face: what each moves, and their blend with the channels
+// that follow the person directly. Pure.
+#pragma once
+
+#include "face/channels.h"
+#include "face/emotion.h"
+
+namespace theatron::face {
+
+// The channels of an emotion at full strength; of `neutral`: all 0. Jaw and lids are at rest, since
+// they follow the person.
+const Channels& channels_of(Emotion emotion);
+
+// Channels that move with the person, whatever the emotions are.
+struct DirectChannels {
+    float jaw_open = 0, blink_left = 0, blink_right = 0;
+};
+
+// A face of these emotions. Weights and channels are limited to 0..1, and weights whose sum is
+// above 1 are divided by it; a value that is no number is 0. A closed lid opens no wider for an
+// emotion.
+Channels blend_expressions(const Emotions& weights, const DirectChannels& direct);
+
+}  // namespace theatron::face
