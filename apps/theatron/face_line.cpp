@@ -87,12 +87,24 @@ face::FaceNow FaceLine::next(TimePoint end) {
     return face;
 }
 
-void FaceLine::send(client::Participant& participant, const std::stop_token& stop) {
-    if (!network_) {
-        note("learning", "");
-        network_ =
-            face::train_synthetic(tracked_ ? face::Source::unified : face::Source::arkit, {});
+bool FaceLine::learn(const std::stop_token& stop) {
+    struct Stopped {};
+    note("learning", "");
+    try {
+        network_ = face::train_synthetic(tracked_ ? face::Source::unified : face::Source::arkit, {},
+                                         [&](double) {
+                                             if (stop.stop_requested())
+                                                 throw Stopped{};
+                                         });
+    } catch (const Stopped&) {
+        return false;
     }
+    return true;
+}
+
+void FaceLine::send(client::Participant& participant, const std::stop_token& stop) {
+    if (!network_ && !learn(stop))
+        return;
     face::EmotionReader reader(*network_);
     TimePoint due = began_ = steady_now(), send_at = due;
     auto tracking = face::Tracking::waiting;

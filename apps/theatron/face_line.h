@@ -56,6 +56,8 @@ public:
     nlohmann::json json() const;
 
 private:
+    // False: stopped before the network had learned.
+    bool learn(const std::stop_token& stop);
     void send(client::Participant& participant, const std::stop_token& stop);
     face::FaceNow next(TimePoint end);
     void note(const std::string& state, const std::string& emotion);

@@ -71,6 +71,7 @@ void refuse_unused(const JoinFlags& flags) {
         {"--push-to-talk", speaks, voice},
         {"--voice-frame", speaks, voice},
         {"--echo-cancellation", speaks, voice},
+        {"--face", !or_screen, "is about how the others see you: it goes without --or-screen."},
         {"--face-model", !flags.face.empty(), "is about what your face shows: it needs --face."},
         {"--face-channels", !flags.face.empty(), "is about what your face shows: it needs --face."},
         {"--spatial-voices", hears, "is about what you hear: it needs --speaker."},

@@ -28,8 +28,7 @@ h2 { font-size: 1.25rem; margin-top: 2.2rem; }
 .limits ul { margin: .3rem 0 0; padding-left: 1.2rem; }
 dt { font-weight: bold; margin-top: .6rem; }
 dd { margin-left: 0; }
-.pictures { display: grid; grid-template-columns: repeat(3, minmax(0, 1fr)); gap: 1.2rem; }
-@media (max-width: 64rem) { .pictures { grid-template-columns: repeat(2, minmax(0, 1fr)); } }
+.pictures { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(16rem, 100%), 1fr)); gap: 1.2rem; }
 @media (max-width: 42rem) { .pictures { grid-template-columns: minmax(0, 1fr); } }
 figure { margin: 0; }
 figure button { display: block; width: 100%; padding: 0; border: 1px solid var(--line); background: none; cursor: zoom-in; }

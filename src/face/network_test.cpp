@@ -35,6 +35,20 @@ TEST(FaceNetwork, TellsEmotionsOfPersonsThatItHasNotSeen) {
     }
 }
 
+TEST(Training, EndsByWhatItsProgressThrows) {
+    int calls = 0;
+    TrainingParams two_epochs;
+    two_epochs.persons = 6;
+    two_epochs.epochs = 2;
+    EXPECT_THROW((void)train_synthetic(Source::xr_htc, two_epochs,
+                                       [&](double) {
+                                           ++calls;
+                                           throw 7;
+                                       }),
+                 int);
+    EXPECT_EQ(calls, 1);
+}
+
 TEST(FaceNetwork, IsTheSameForTheSameSeed) {
     constexpr TrainingParams least{.persons = 3, .epochs = 1};
     EXPECT_EQ(network_bytes(train_synthetic(Source::xr_htc, least)),

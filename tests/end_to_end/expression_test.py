@@ -115,7 +115,8 @@ class Expressions(unittest.TestCase):
     def test_mistakes_are_one_sentence(self):
         link = self.host.greeting["link"]
         for arguments, said in ((("--face", "mirror"), "neither a UDP port"), (("--face-model", self.network), "needs --face"),
-                                (("--face", "actor", "--face-model", self.folder / "none"), "none")):
+                                (("--face", "actor", "--face-model", self.folder / "none"), "none"),
+                                (("--face", "actor", "--or-screen", "--offscreen", self.folder / "screen.png"), "without --or-screen")):
             code, _, errors = run("join", link, "--no-window", *arguments)
             self.assertEqual(code, 1)
             self.assertRegex(errors, r"^theatron: [^\n]+\n$")
