@@ -27,7 +27,7 @@ struct Confusion {
 // A table with the recall of each emotion, lines ended.
 std::string to_text(const Confusion& confusion);
 
-// Called with 0 to 1, after each epoch or take. What it throws ends the training.
+// Called with 0 to 1, after each epoch or take. An exception that it throws ends the training.
 using Progress = std::function<void(double)>;
 
 // From synthetic persons alone.
