@@ -169,7 +169,8 @@ nlohmann::json describe_voices(const std::vector<record::Intake::Voice>& voices)
                         {"packets", voice.figures.packets},
                         {"missing", voice.figures.missing},
                         {"left_out", voice.figures.left_out},
-                        {"dropped", voice.dropped}});
+                        {"dropped", voice.dropped},
+                        {"interruptions", voice.interruptions}});
     return list;
 }
 
@@ -358,6 +359,9 @@ void run(const RecordFlags& flags) {
     };
     note(!has_rest, record::Lack::end);
     note(missing.any(), record::Lack::pictures);
+    const std::vector<record::Intake::Voice> voices = intake.voices();
+    note(std::ranges::any_of(voices, [](const auto& v) { return v.dropped + v.interruptions > 0; }),
+         record::Lack::voices);
     note(!gone_files.empty(), record::Lack::files);
     note(f.cut_bytes > 0, record::Lack::cut);
     note(!f.problem.empty(), record::Lack::index);
@@ -378,7 +382,7 @@ void run(const RecordFlags& flags) {
                                       {"lost", missing.lost},
                                       {"room_bytes", f.room_bytes},
                                       {"voice_bytes", f.voice_bytes},
-                                      {"voices", describe_voices(intake.voices())},
+                                      {"voices", describe_voices(voices)},
                                       {"voices_not_agreed", source->voices_not_agreed()},
                                       {"not_agreed", source->not_agreed()},
                                       {"cut_bytes", f.cut_bytes},

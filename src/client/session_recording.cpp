@@ -236,6 +236,7 @@ private:
             joins_ = status.joins;
             new_connection_ = true;
             agreed_.clear();  // people have other numbers now
+            intake_.interrupt_voices();
             intake_.describe_voices({});
             room_.forget();
             places_.clear();

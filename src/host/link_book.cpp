@@ -106,6 +106,10 @@ KnownLinks load_made_links(const fs::path& folder) {
     for (const std::string& name : names) {
         const fs::path path = made_links(folder) / name;
         try {
+            // A pipe or a device would be waited for.
+            if (const auto kind = fs::symlink_status(path).type();
+                kind != fs::file_type::regular && kind != fs::file_type::not_found)
+                throw Error("'" + path.string() + "' is no file, so it is no link; delete it.");
             // Another program may delete it meanwhile.
             if (const auto text = files::read_private_file(path, files::Privacy::secret))
                 book.links.push_back(read_link(path, *text));

@@ -56,6 +56,30 @@ TEST_F(Links, FollowsFilesThatComeAndGo) {
     EXPECT_THAT(links.problem(), IsEmpty());
 }
 
+TEST_F(Links, AnOwnTokenIsRevokedWithTheLinkOfExperts) {
+    LinkKeeper links = keeper("correct-horse-battery");
+    EXPECT_EQ(secret(links, "expert"), "correct-horse-battery");
+    EXPECT_FALSE(links.follow(now));
+    EXPECT_TRUE(revoke_link(folder.path(), "expert"));
+    EXPECT_TRUE(links.follow(now));
+    EXPECT_NE(secret(links, "expert"), "correct-horse-battery");
+    // The link that 'theatron link --show' prints.
+    const KnownLinks all = load_links(folder.path());
+    EXPECT_EQ(secret(links, "expert"),
+              std::ranges::find(all.links, "expert", &KnownLink::name)->token);
+}
+
+TEST_F(Links, APipeAmongThemIsNotWaitedFor) {
+    const std::string revoked = made();
+    LinkKeeper links = keeper();
+    ASSERT_EQ(mkfifo(file("links/deadbeef").c_str(), 0600), 0);
+    EXPECT_TRUE(revoke_link(folder.path(), revoked));
+    EXPECT_TRUE(links.follow(now));
+    EXPECT_FALSE(has(links, revoked));
+    EXPECT_TRUE(has(links, "expert"));
+    EXPECT_THAT(links.problem(), HasSubstr("deadbeef"));
+}
+
 TEST_F(Links, ARevokedLinkIsInvalidWhateverElseIsWrong) {
     const std::string revoked = made(), other = made();
     LinkKeeper links = keeper();

@@ -59,8 +59,12 @@ void Intake::describe(std::vector<RecordedCamera> cameras, std::map<StreamId, Se
             streams.emplace_back(color_stream(camera.id), &camera);
     }
     for (auto& [id, entry] : entries_) {
+        const bool was_here = !entry.ended;
         entry.ended = std::none_of(streams.begin(), streams.end(),
                                    [&, id = id](const auto& s) { return s.first == id; });
+        // Its pictures between the end of the connection and its own are missing.
+        if (new_connection && was_here && entry.ended && entry.gate.figures().recorded > 0)
+            ++entry.stream.interruptions;
         entry.has_left |= entry.ended;
     }
     for (std::size_t i = 0; i < streams.size(); ++i) {

@@ -85,6 +85,9 @@ public:
     // one before, so those who come and go make no segments. From any thread.
     static constexpr std::size_t spare_voices = 8;
     void describe_voices(std::vector<RecordedVoice> voices);
+    // The connection is lost that brought the packets of all who agree: what they say until they
+    // are described again is missing.
+    void interrupt_voices();
     // The host withholds the packets of this person, who is muted or may not speak: they do not
     // count as missing.
     void interrupt_voice(ParticipantId person);
@@ -103,7 +106,8 @@ public:
     struct Voice {
         RecordedVoice who;
         VoiceSequence::Figures figures;
-        std::uint64_t dropped = 0;  // packets, since the disk was too slow
+        std::uint64_t dropped = 0;        // packets, since the disk was too slow
+        std::uint64_t interruptions = 0;  // lost connections
     };
     // Everybody whose voice was recorded, also of earlier segments.
     std::vector<Voice> voices() const;

@@ -160,6 +160,39 @@ TEST_F(IntakeTest, ANewConnectionBeginsASegmentOfItsOwnClock) {
     EXPECT_LT(intake->recorder()->figures().duration, Duration(1s)) << "not the clocks' distance";
 }
 
+TEST_F(IntakeTest, ACameraThatLeavesWhileTheConnectionIsLostIsInterrupted) {
+    for (int n = 0; n < 10; ++n)
+        send(n == 0);
+    // It left during the break, and others are there.
+    intake->describe({}, {}, true, local);
+    EXPECT_EQ(intake->streams(local).at(0).interruptions, 1u);
+    EXPECT_FALSE(intake->streams(local).at(0).complete());
+    // It was away before the next break.
+    intake->describe({}, {}, true, local);
+    EXPECT_EQ(intake->streams(local).at(0).interruptions, 1u);
+}
+
+TEST_F(IntakeTest, ACameraThatLeftBeforeTheConnectionWasLostIsNotInterrupted) {
+    for (int n = 0; n < 10; ++n)
+        send(n == 0);
+    intake->describe({}, {}, false, local);
+    intake->describe({}, {}, true, local);
+    EXPECT_EQ(intake->streams(local).at(0).interruptions, 0u);
+}
+
+TEST_F(IntakeTest, VoicesAreInterruptedWithTheirConnection) {
+    intake->describe_voices({{ParticipantId{3}, "Ben"}});
+    for (int n = 0; n < 10; ++n)
+        send(n == 0);
+    intake->interrupt_voices();
+    intake->describe_voices({});
+    intake->interrupt_voices();
+    const auto voices = intake->voices();
+    ASSERT_EQ(voices.size(), 1u);
+    EXPECT_EQ(voices[0].who.name, "Ben");
+    EXPECT_EQ(voices[0].interruptions, 1u);
+}
+
 TEST_F(IntakeTest, OtherCodecsBeginASegmentWithoutLoss) {
     for (int n = 0; n < 10; ++n)
         send();

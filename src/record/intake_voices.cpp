@@ -45,6 +45,15 @@ bool Intake::lacks_voice_lanes() const {
            options_.has_room;
 }
 
+void Intake::interrupt_voices() {
+    const std::lock_guard lock(mutex_);
+    for (const RecordedVoice& voice : agreed_) {
+        Voice& spoken = spoken_[voice.person];
+        spoken.who = voice;
+        ++spoken.interruptions;
+    }
+}
+
 void Intake::interrupt_voice(ParticipantId person) {
     const std::lock_guard lock(mutex_);
     for (VoiceLane& lane : voices_)

@@ -36,6 +36,8 @@ std::string text_of(Lack lack) {
             return "pictures are missing";
         case Lack::refused:
             return "the host refused its recorder";
+        case Lack::voices:
+            return "parts of what people said are missing";
     }
     return "";
 }

@@ -18,6 +18,7 @@ enum class Lack : char {
     index = 'i',
     pictures = 'p',
     refused = 'r',
+    voices = 'v',
 };
 using Lacks = std::set<Lack>;
 

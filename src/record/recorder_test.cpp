@@ -159,8 +159,9 @@ TEST(Recording, AFullDiskEndsItWithASentenceAndKeepsWhatCameBefore) {
 TEST(Recording, NotesInItsFileWhatItLacks) {
     const testing::TemporaryFolder folder;
     const auto messages = generated(1, 30, 1'000);
-    const Lacks all{Lack::camera_failed, Lack::cut,   Lack::end,      Lack::files,
-                    Lack::host_gone,     Lack::index, Lack::pictures, Lack::refused};
+    const Lacks all{Lack::camera_failed, Lack::cut,       Lack::end,
+                    Lack::files,         Lack::host_gone, Lack::index,
+                    Lack::pictures,      Lack::refused,   Lack::voices};
     EXPECT_EQ(lacks_of_letters(letters_of(all) + "?Z"), all);
     for (const Lacks& lacks : {Lacks{}, Lacks{Lack::refused, Lack::end}, all}) {
         const fs::path path = folder.path() / ("a" + letters_of(lacks) + ".mkv");

@@ -83,7 +83,7 @@ Admission::Verdict Admission::judge(const wire::Join& hello, TimePoint now) cons
         return {{}, "", {TextCode::link_expired}};
     Verdict verdict{shown->role, shown->link, {}, {}, {}};
     if (const auto* left = memory_.find(who(hello), now))
-        verdict.since = left->since;
+        verdict.since = now - (left->until - left->since);
     replace_own(hello, now, verdict);
     if (verdict.refusal.empty() && hello.records)
         find_recorder_place(hello, now, verdict);
@@ -147,17 +147,26 @@ void Admission::find_recorder_place(const wire::Join& hello, TimePoint now,
                                     Verdict& verdict) const {
     int recorders = 0;
     std::optional<ParticipantId> silent;
-    for (const auto& [id, there] : participants_) {
+    const std::pair<const ParticipantId, Participant>* newest = nullptr;
+    for (const auto& entry : participants_) {
+        const auto& [id, there] = entry;
         if (!there.takes_part() || !there.records || is_replaced(verdict, id))
             continue;
         ++recorders;
         if (!hello.person.empty() && there.person == hello.person && is_silent(there, now))
             silent = id;
+        if (verdict.since && there.since > *verdict.since &&
+            !session::may(there.role, Right::manage) &&
+            (!newest || there.since > newest->second.since))
+            newest = &entry;
     }
     if (recorders < max_recorders + (verdict.since ? kept_for_returned_recorders : 0))
         return;
     if (silent)
         verdict.replaced.push_back({*silent, {}});
+    else if (newest)
+        verdict.replaced.push_back(
+            {newest->first, {TextCode::too_many_recordings, {std::to_string(max_recorders)}}});
     else
         verdict.refusal = {TextCode::too_many_recordings, {std::to_string(max_recorders)}};
 }

@@ -51,11 +51,13 @@ public:
     // Connections that have not joined within this time are closed.
     static constexpr Duration join_deadline = std::chrono::seconds(5);
     // Recorders at once; one more is refused. Each may use net::Outbox::max_kept_bytes. Those that
-    // come back find places of their own, should others have taken theirs.
+    // come back find places of their own, should others have taken theirs; of those, too, the ones
+    // that recorded for the shortest time make way.
     static constexpr int max_recorders = 4, kept_for_returned_recorders = 4;
     // Participants at once, with those who wait to be let in. The last places are for operators,
     // and one link admits no more than half of all, so that a link in foreign hands shuts out
-    // nobody who has another one. Somebody who comes back takes the place of the one who came last.
+    // nobody who has another one. Somebody who comes back takes the place of the one who was in for
+    // the shortest time, if that is shorter than its own: a short visit earns no place.
     static constexpr int max_participants = 128, kept_for_operators = 8, max_by_one_link = 64;
     // Connections of one person. One more ends the oldest that neither records nor sends cameras.
     static constexpr int max_of_one_person = 4;
@@ -78,8 +80,9 @@ public:
         bool has(wire::Feature feature) const;
         bool is_there() const { return takes_part() || waits(); }
         TimePoint connected;
-        TimePoint since;  // it takes part or waits, over all connections after which it came back
-        TimePoint heard;  // its newest message
+        // `now` less the time for which it has taken part or waited, over all of its connections.
+        TimePoint since;
+        TimePoint heard;                    // its newest message
         std::optional<TimePoint> admitted;  // by an operator, perhaps on an earlier connection
         std::uint16_t protocol = 0;
         std::string name;                     // as shown, told apart from others
@@ -146,7 +149,7 @@ public:
         std::string link;
         wire::Text refusal;  // empty: the token is valid
         std::vector<Replaced> replaced = {};
-        std::optional<TimePoint> since = {};  // it comes back, and was in since then
+        std::optional<TimePoint> since = {};  // it comes back: as Participant::since
     };
     // A new connection of the same run of a program replaces the old one. That of another run of
     // its person for the same purpose is replaced if it is silent. Decisions at joining (expiry,

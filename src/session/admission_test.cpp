@@ -215,12 +215,49 @@ TEST_F(ComingBack, RecordersThatComeBackAreBounded) {
     EXPECT_EQ(in, Admission::max_recorders + Admission::kept_for_returned_recorders);
 }
 
+TEST_F(ComingBack, AShortVisitEarnsNoPlaceOfSomebodyWhoStayed) {
+    int next = 1, in = 0;
+    for (int person = 1; person <= Admission::max_by_one_link; ++person)
+        EXPECT_EQ(come(ParticipantId(next++), {"secret", person}), TextCode::none);
+    now += 1s;
+    for (int id = 1; id < next; ++id) {
+        answer(ParticipantId(id));
+        leave(ParticipantId(id));
+    }
+    now += 5s;  // in which the link's newcomers are counted
+    EXPECT_EQ(come(ParticipantId{900}, {"secret", 900, 1, true}), TextCode::none);
+    EXPECT_EQ(come(ParticipantId{901}, {"secret", 901}), TextCode::none);
+    now += 2s;
+    for (int person = 1; person <= Admission::max_by_one_link; ++person)
+        in += come(ParticipantId(next++), {"secret", person}) == TextCode::none;
+    EXPECT_EQ(in, Admission::max_by_one_link - 2);
+    EXPECT_TRUE(is_in(ParticipantId{900}));
+    EXPECT_TRUE(is_in(ParticipantId{901}));
+}
+
+TEST_F(ComingBack, ARecorderThatRecordedLongFindsItsPlaceThoughManyComeBackBefore) {
+    int next = 1;
+    EXPECT_EQ(come(alice, {"or", 999, 1, true}), TextCode::none);
+    now += 1min;
+    for (int person = 1; person <= 9; ++person)
+        if (come(ParticipantId(100 + next++), {"secret", person, 1, true}) == TextCode::none)
+            leave(ParticipantId(100 + next - 1));
+    answer(alice);
+    leave(alice);
+    now += 1s;
+    for (int person = 1; person <= 9; ++person)
+        (void)come(ParticipantId(100 + next++), {"secret", person, 1, true});
+    EXPECT_EQ(come(bob, {"or", 999, 2, true}), TextCode::none);
+}
+
 TEST_F(ComingBack, WhoComesBackIntoAFullSessionTakesThePlaceOfTheNewest) {
     EXPECT_EQ(come(alice, {"watch", 999}), TextCode::none);
     EXPECT_EQ(come(bob, {"secret", 998}), TextCode::none);
-    now += 1s;
-    leave(alice);
-    leave(bob);
+    now += 5s;
+    for (const ParticipantId id : {alice, bob}) {
+        answer(id);
+        leave(id);
+    }
     EXPECT_EQ(fill("watch", 1, 100), Admission::max_by_one_link);
     EXPECT_EQ(come(carol, {"watch", 997}), TextCode::link_full);
     now += 1s;
@@ -242,8 +279,9 @@ TEST_F(ComingBack, SomebodyWhoWaitedKeepsThePlaceAtTheDoor) {
     c.admission.asks = true;
     session_.emplace(std::move(c));
     EXPECT_EQ(come(alice, {"secret", 999}), TextCode::none);
-    leave(alice);
     now += 1s;
+    answer(alice);
+    leave(alice);
     EXPECT_EQ(fill("secret", 1, 100), Admission::max_visitors_by_one_link);
     EXPECT_EQ(come(bob, {"secret", 998}), TextCode::too_many_visitors);
     EXPECT_EQ(come(alice, {"secret", 999}), TextCode::none);
