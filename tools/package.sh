@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Builds the source package and, from it alone and without a network, the Debian packages into build/packages, and lets lintian
-# and the validators of their parts look at them. --twice: builds them again, in another time zone and language, and compares the bytes.
+# and the validators of their parts look at them. --twice: compiles them again, in another time zone, and compares the bytes.
 # Usage: package.sh [--twice]
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -61,7 +61,7 @@ lintian --fail-on error "$folder"/*.deb "$folder"/*.dsc
 if [ "${1:-}" = --twice ]; then
     again=$folder/again
     mkdir "$again"
-    build_into "$again" TZ=Pacific/Kiritimati LC_ALL=C LANGUAGE=de
+    build_into "$again" TZ=Pacific/Kiritimati CCACHE_RECACHE=1
     differ=()
     for package in "$folder"/*.deb; do
         cmp --quiet "$package" "$again/${package##*/}" || differ+=("${package##*/}")

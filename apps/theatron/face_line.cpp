@@ -7,8 +7,10 @@
 #include <stop_token>
 
 #include "base/error.h"
+#include "base/fault.h"
 #include "base/log.h"
 #include "base/steady_clock.h"
+#include "cli/stop_signal.h"
 #include "face/synthetic_faces.h"
 #include "face/training.h"
 #include "session/expression_track.h"
@@ -73,8 +75,10 @@ FaceLine::FaceLine(const Options& options) : all_channels_(options.all_channels)
 }
 
 FaceLine::Sending::Sending(FaceLine& line, client::Participant& participant)
-    : thread_(
-          [&line, &participant](const std::stop_token& stop) { line.send(participant, stop); }) {}
+    : thread_([&line, &participant](const std::stop_token& stop) {
+          if (!contain("face", [&] { line.send(participant, stop); }))
+              line.note("off", "");
+      }) {}
 
 face::FaceNow FaceLine::next(TimePoint end) {
     if (tracked_)
@@ -88,18 +92,10 @@ face::FaceNow FaceLine::next(TimePoint end) {
 }
 
 bool FaceLine::learn(const std::stop_token& stop) {
-    struct Stopped {};
     note("learning", "");
-    try {
-        network_ = face::train_synthetic(tracked_ ? face::Source::unified : face::Source::arkit, {},
-                                         [&](double) {
-                                             if (stop.stop_requested())
-                                                 throw Stopped{};
-                                         });
-    } catch (const Stopped&) {
-        return false;
-    }
-    return true;
+    network_ = face::train_synthetic_until(tracked_ ? face::Source::unified : face::Source::arkit,
+                                           {}, [&] { return stop.stop_requested(); });
+    return network_.has_value();
 }
 
 void FaceLine::send(client::Participant& participant, const std::stop_token& stop) {
@@ -111,7 +107,7 @@ void FaceLine::send(client::Participant& participant, const std::stop_token& sto
     bool is_calibrated = !tracked_;  // the actor is at rest where its channels are 0
     wire::FaceExpression sent;       // the last one; at first as if it said that there is none
     TimePoint sent_at;
-    while (!stop.stop_requested()) {
+    while (!stop.stop_requested() && !cli::stop_requested()) {
         due = std::max(due + face_step, steady_now());
         const face::FaceNow face = next(due);
         if (!is_calibrated && face.tracking == face::Tracking::tracked) {
@@ -129,7 +125,7 @@ void FaceLine::send(client::Participant& participant, const std::stop_token& sto
              shown ? std::string(to_text(told.told)) : "");
         if (due < send_at || !can_send(participant))
             continue;
-        send_at = due + period;
+        send_at = std::max(send_at + period, due);
         wire::FaceExpression now;  // of state none
         if (shown && face.tracking != face::Tracking::waiting)
             now = expression_of(face, told, all_channels_);

@@ -65,6 +65,7 @@ void join_in_window(const JoinFlags& flags) {
     cli::catch_stop_signals();
     xr::DesktopWindow window("Theatron", parse_size(flags.size));
     WindowWatch watch(window);
+    const auto expression = open_face(flags);
     for (std::string problem;;) {
         if (asks) {
             watch.rest();
@@ -108,7 +109,6 @@ void join_in_window(const JoinFlags& flags) {
         publish::OwnFace face(flags.webcam.empty() ? usual_webcam : flags.webcam);
         now.join.face = face.events();
         now.face = &face;
-        const auto expression = open_face(flags);
         now.expression = expression.get();
         face.show(fields.shows_face);
         try {

@@ -14,6 +14,7 @@ public:
     void follow(std::shared_ptr<Transport> transport) override {
         camera_->follow(std::move(transport));
     }
+    bool skip_none() override { return camera_->skip_none(); }
     std::uint64_t lost_pictures() const override { return camera_->lost_pictures(); }
 
     Capture next(Duration timeout) override {
@@ -47,7 +48,7 @@ std::unique_ptr<Camera> make_uneven_camera(std::unique_ptr<Camera> camera, Uneve
 }
 
 std::optional<Unevenness> take_uneven_options(Options& options) {
-    const int late_ms = options.take_int("late_ms", 0, 0, 100);
+    const int late_ms = options.take_int("late_ms", 0, 0, 30);
     const int skip_every = options.take_int("skip_every", 0, 0, 1'000'000);
     if (late_ms == 0 && skip_every == 0)
         return std::nullopt;

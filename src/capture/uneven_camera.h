@@ -16,7 +16,7 @@ inline constexpr const char* uneven_help =
     "skip_every=N: each Nth picture is missing";
 
 struct Unevenness {
-    Duration late{};     // of each picture's times, at most 100 ms
+    Duration late{};     // of each picture's times, at most 30 ms; less than a period
     int skip_every = 0;  // the pictures with numbers that this divides are missing; 0: none
     bool operator==(const Unevenness&) const = default;
 };

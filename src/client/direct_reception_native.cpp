@@ -151,6 +151,7 @@ private:
             }
         };
         net::Client client({address, grant_.port, "", hex_text(grant_.fingerprint)}, std::move(h));
+        client.go_directly();
         client.set_patience(connect_patience);
         if (!begin(client))
             return Duration(0);

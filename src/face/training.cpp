@@ -259,6 +259,12 @@ std::string to_text(const Confusion& confusion) {
 }
 
 Network train_synthetic(Source source, const TrainingParams& params, const Progress& progress) {
+    return *train_synthetic_until(
+        source, params, [] { return false; }, progress);
+}
+
+std::optional<Network> train_synthetic_until(Source source, const TrainingParams& params,
+                                             const Stops& stops, const Progress& progress) {
     const std::vector<Example> examples =
         examples_of(synthetic_recording(source, params.persons, params.seed), 0.7F, none);
     Network network;
@@ -278,6 +284,8 @@ Network train_synthetic(Source source, const TrainingParams& params, const Progr
         trainer.epoch(examples, 2e-3F * left, random);
         if (progress)
             progress(double(epoch + 1) / params.epochs);
+        if (stops())
+            return std::nullopt;
     }
     return network;
 }

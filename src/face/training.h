@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "face/network.h"
 
@@ -27,11 +28,16 @@ struct Confusion {
 // A table with the recall of each emotion, lines ended.
 std::string to_text(const Confusion& confusion);
 
-// Called with 0 to 1, after each epoch or take. An exception that it throws ends the training.
+// Called with 0 to 1, after each epoch or take.
 using Progress = std::function<void(double)>;
+// Asked after each epoch: true ends the training.
+using Stops = std::function<bool()>;
 
 // From synthetic persons alone.
 Network train_synthetic(Source source, const TrainingParams& params, const Progress& progress = {});
+// The same; nullopt if it was ended before it had learned.
+std::optional<Network> train_synthetic_until(Source source, const TrainingParams& params,
+                                             const Stops& stops, const Progress& progress = {});
 
 // The network goes on to learn from the user's takes, mixed with synthetic ones.
 Network train_own(const Network& synthetic, const Recording& own, const TrainingParams& params);

@@ -387,13 +387,15 @@ void Host::Impl::take_state(net::PeerId peer, const wire::State& state) {
         return;
     if (state.key.topic == wire::StateTopic::object)
         return forward_object_pose(peer, state);
-    if (state.key.topic == wire::StateTopic::expression &&
-        !session->allow(sender, session::Right::be_seen))
-        return;
+    // An expression that may not be sent still counts against a flood.
+    const bool is_denied = state.key.topic == wire::StateTopic::expression &&
+                           !session->allow(sender, session::Right::be_seen);
     const auto without =
         state.key.topic == wire::StateTopic::pose ? without_pointing(state) : std::nullopt;
     const bool hides = without && !session->allow(sender, session::Right::point);
-    const wire::State shown{state.key, hides ? ByteView(*without) : state.body};
+    const wire::State shown{state.key, is_denied ? ByteView()
+                                       : hides   ? ByteView(*without)
+                                                 : state.body};
     if (poses.put(sender, shown, steady_now()) == session::PoseBoard::Answer::flood)
         end_flood(peer, "there were far more poses or expressions than a host sends on");
     set_alarm();

@@ -78,6 +78,11 @@ TEST_F(Links, APipeAmongThemIsNotWaitedFor) {
     EXPECT_FALSE(has(links, revoked));
     EXPECT_TRUE(has(links, "expert"));
     EXPECT_THAT(links.problem(), HasSubstr("deadbeef"));
+    fs::remove(file("observer.token"));
+    ASSERT_EQ(mkfifo(file("observer.token").c_str(), 0600), 0);
+    EXPECT_TRUE(links.follow(now));
+    EXPECT_FALSE(has(links, "observer"));
+    EXPECT_TRUE(has(links, "expert"));
 }
 
 TEST_F(Links, ARevokedLinkIsInvalidWhateverElseIsWrong) {

@@ -37,6 +37,7 @@ struct Client::Impl {
     asio::ssl::context tls{asio::ssl::context::tls_client};
     asio::steady_timer timer{io};
     std::unique_ptr<WebSocket> socket;
+    bool directly = false;
     std::optional<OutgoingProxy> proxy;
     std::unique_ptr<WayToHost> way;
     std::shared_ptr<Connection> connection;
@@ -51,7 +52,8 @@ struct Client::Impl {
 
     void connect() {
         try {
-            proxy = proxy_for(link.host, proxy_settings_of_environment());
+            if (!directly)
+                proxy = proxy_for(link.host, proxy_settings_of_environment());
         } catch (const Error& wrong) {
             return finish(wrong.what(), true);
         }
@@ -144,6 +146,10 @@ Client::End Client::run() {
     if (!ended)
         return {say(Phrase::connection_ended, say(Phrase::met_a_fault)), false};
     return impl_->end;
+}
+
+void Client::go_directly() {
+    impl_->directly = true;
 }
 
 void Client::set_patience(Duration patience) {

@@ -48,6 +48,10 @@ public:
     // The browser checks the host's certificate by its own rules, not against the link.
     void start(std::function<void(const End&)> ended);
 
+    // Before run(): the host is in an own network, and reached without an outgoing proxy. Not in a
+    // browser.
+    void go_directly();
+
     // Before run(): the longest time for connecting and the TLS handshake. Not in a browser.
     void set_patience(Duration patience);
 

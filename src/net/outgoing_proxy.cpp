@@ -112,7 +112,9 @@ OutgoingProxy parse(std::string_view text) {
     text = text.substr(0, text.find('/'));
     std::string_view port;
     if (text.starts_with('[')) {
-        const auto end = std::min(text.find(']'), text.size() - 1);
+        const auto end = text.find(']');
+        if (end == std::string_view::npos)
+            throw Error("HTTPS_PROXY has an address without its ']'" + std::string(how));
         proxy.host = text.substr(1, end - 1);
         port = text.substr(end + 1);
     } else {

@@ -21,17 +21,18 @@ struct OutgoingProxy {
 
 // The two variables; empty where they are not set.
 struct ProxySettings {
-    std::string https_proxy;  // "http://[NAME:PASSWORD@]HOST[:PORT]"; the scheme may be absent
+    std::string https_proxy;  // "http://[NAME:PASSWORD@]HOST[:PORT]", without a port 3128; the
+                              // scheme may be absent
     std::string no_proxy;     // "*", or names, addresses and networks ("10.0.0.0/8") with commas
 };
 
 // The variables of this process; names in small letters come first, as they do for curl.
 ProxySettings proxy_settings_of_environment();
 
-// The proxy for a host, a name or an address as in a link; nullopt: it is reached without one. This
-// computer's own addresses and `localhost` always are. An entry of no_proxy means the name and all
-// below it, with or without a dot before it. Throws Error with one sentence, without the
-// credentials, about a setting that cannot be used.
+// The proxy for a host, a name or an address as in a link; nullopt: it is reached without one.
+// Loopback addresses and `localhost` always are. An entry of no_proxy means the name and all below
+// it, with or without a dot before it. Throws Error with one sentence, without the credentials,
+// about a setting that cannot be used.
 std::optional<OutgoingProxy> proxy_for(std::string_view host, const ProxySettings& settings);
 
 // The request for a tunnel to this host (RFC 9110, 9.3.6, and RFC 7617 for the credentials).

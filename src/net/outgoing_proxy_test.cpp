@@ -18,7 +18,7 @@ std::optional<OutgoingProxy> through(const std::string& proxy,
     return proxy_for(host, {proxy, no_proxy});
 }
 
-TEST(OutgoingProxy, IsReadAsCurlReadsIt) {
+TEST(OutgoingProxy, IsReadFromItsVariable) {
     EXPECT_EQ(through(""), std::nullopt);
     EXPECT_EQ(through("  "), std::nullopt);
     const OutgoingProxy plain{"proxy.example", 8080, ""};
@@ -38,7 +38,7 @@ TEST(OutgoingProxy, ASettingThatCannotBeUsedIsRefusedWithoutItsPassword) {
          {"socks5://ada:secret@proxy:1080", "https://ada:secret@proxy:1", "http://ada:secret@",
           "http://ada:secret@proxy:0", "http://ada:secret@proxy:65536",
           "http://ada:secret@proxy:", "ada:secret@proxy:8x", "http://ada:secret@[",
-          "http://ada:secret@[]:1", "http://ada:secret@[fd00::1]8"})
+          "http://ada:secret@[fd00::12", "http://ada:secret@[]:1", "http://ada:secret@[fd00::1]8"})
         try {
             (void)through(text);
             ADD_FAILURE() << text;

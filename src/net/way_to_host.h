@@ -39,7 +39,8 @@ public:
               std::optional<OutgoingProxy> proxy);
     ~WayToHost();
 
-    // Calls `done` once, unless this or the stream is destroyed before: with nullopt when bytes
+    // Calls `done` once, unless this and the stream are destroyed before, which must be when the
+    // loop no longer runs: with nullopt when bytes
     // that are written to the stream reach the host. The stream's time runs out after `patience`,
     // which the caller may then set anew.
     void open(Duration patience, std::function<void(std::optional<Unreached>)> done);

@@ -85,8 +85,8 @@ public:
     // one before, so those who come and go make no segments. From any thread.
     static constexpr std::size_t spare_voices = 8;
     void describe_voices(std::vector<RecordedVoice> voices);
-    // The connection is lost that brought the packets of all who agree: what they say until they
-    // are described again is missing.
+    // The connection is lost that brought the packets of all who agree: what those who spoke before
+    // say until they are described again is missing.
     void interrupt_voices();
     // The host withholds the packets of this person, who is muted or may not speak: they do not
     // count as missing.

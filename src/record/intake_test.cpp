@@ -180,19 +180,6 @@ TEST_F(IntakeTest, ACameraThatLeftBeforeTheConnectionWasLostIsNotInterrupted) {
     EXPECT_EQ(intake->streams(local).at(0).interruptions, 0u);
 }
 
-TEST_F(IntakeTest, VoicesAreInterruptedWithTheirConnection) {
-    intake->describe_voices({{ParticipantId{3}, "Ben"}});
-    for (int n = 0; n < 10; ++n)
-        send(n == 0);
-    intake->interrupt_voices();
-    intake->describe_voices({});
-    intake->interrupt_voices();
-    const auto voices = intake->voices();
-    ASSERT_EQ(voices.size(), 1u);
-    EXPECT_EQ(voices[0].who.name, "Ben");
-    EXPECT_EQ(voices[0].interruptions, 1u);
-}
-
 TEST_F(IntakeTest, OtherCodecsBeginASegmentWithoutLoss) {
     for (int n = 0; n < 10; ++n)
         send();

@@ -48,9 +48,14 @@ bool Intake::lacks_voice_lanes() const {
 void Intake::interrupt_voices() {
     const std::lock_guard lock(mutex_);
     for (const RecordedVoice& voice : agreed_) {
-        Voice& spoken = spoken_[voice.person];
-        spoken.who = voice;
-        ++spoken.interruptions;
+        const bool speaks = std::ranges::any_of(voices_, [&](const VoiceLane& lane) {
+            const VoiceSequence::Figures& figures = lane.sequence.figures();
+            return lane.person == voice.person && figures.packets + figures.left_out > 0;
+        });
+        if (!speaks && !spoken_.contains(voice.person))
+            continue;
+        spoken_[voice.person].who = voice;
+        ++spoken_[voice.person].interruptions;
     }
 }
 

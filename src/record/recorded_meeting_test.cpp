@@ -102,6 +102,27 @@ TEST_F(RecordedMeeting, WithoutACameraHasItsRoomAndVoices) {
     EXPECT_EQ(again->duration(), recording->duration());
 }
 
+TEST_F(RecordedMeeting, ALostConnectionInterruptsTheVoicesOfThoseWhoSpoke) {
+    describe(0, true);
+    intake_.describe_voices({{anna, "Anna"}, {ParticipantId{4}, "Ben"}});
+    pass(3s);
+    say(1);
+    pass(1s);
+    intake_.interrupt_voices();
+    intake_.describe_voices({});
+    // Nobody was described since.
+    intake_.interrupt_voices();
+    const auto voices = intake_.voices();
+    const auto of_anna =
+        std::ranges::find(voices, anna, [](const auto& v) { return v.who.person; });
+    ASSERT_NE(of_anna, voices.end());
+    EXPECT_EQ(of_anna->who.name, "Anna");
+    EXPECT_EQ(of_anna->interruptions, 1u);
+    for (const Intake::Voice& voice : voices)
+        if (voice.who.name == "Ben")
+            EXPECT_EQ(voice.interruptions, 0u);
+}
+
 TEST_F(RecordedMeeting, ACameraThatComesLaterBeginsASegmentAndOneThatGoesToo) {
     describe(0, true);
     pass(4s);

@@ -28,7 +28,8 @@ public:
 
     // Nullopt before the first one, and after `gone_after`. The state is that of the newest one.
     std::optional<wire::FaceExpression> at(TimePoint now) const;
-    // True while at() changes although nothing arrives.
+    // True while the displayed face moves although nothing arrives. It ends at `gone_after` without
+    // being moving then.
     bool is_moving(TimePoint now) const;
 
 private:

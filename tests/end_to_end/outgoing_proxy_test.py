@@ -19,6 +19,11 @@ NAME = "or-3.example"
 CREDENTIALS = "ada:open sesame"
 
 
+def without_proxy():
+    """The environment of a person who has none."""
+    return {name: value for name, value in os.environ.items() if name.lower() not in ("https_proxy", "no_proxy")}
+
+
 class Proxy:
     """Tunnels to ports of this computer, whatever the name, for those who know the password."""
 
@@ -29,7 +34,7 @@ class Proxy:
         threading.Thread(target=self._serve, daemon=True).start()
 
     def environment(self, credentials="ada:open%20sesame@"):
-        return {**os.environ, "HTTPS_PROXY": f"http://{credentials}127.0.0.1:{self.listener.getsockname()[1]}", "NO_PROXY": "", "no_proxy": ""}
+        return {**without_proxy(), "HTTPS_PROXY": f"http://{credentials}127.0.0.1:{self.listener.getsockname()[1]}"}
 
     def _serve(self):
         with contextlib.suppress(OSError):
@@ -135,7 +140,7 @@ class OutgoingProxy(unittest.TestCase):
 
     def test_a_setting_that_is_none_is_told(self):
         code, _, errors = run("join", self.link, "--no-window",
-                              env={**os.environ, "https_proxy": "socks5://ada:sesame@127.0.0.1:1"})
+                              env={**without_proxy(), "https_proxy": "socks5://ada:sesame@127.0.0.1:1"})
         self.assertEqual(code, 1)
         self.assertIn("HTTPS_PROXY names a proxy of a kind that is not supported; it is written http://", errors)
         self.assertNotIn("sesame", errors)

@@ -29,6 +29,7 @@ if [ "$1" = list-units ]; then
     done
 else
     echo "$@" >> {self.folder}/told
+    [ ! -e {self.folder}/fails ]
 fi
 """)
         (tools / "systemctl").chmod(0o755)
@@ -58,6 +59,24 @@ fi
         self.assertEqual(told, [])
         self.assertIn("theatron-host@or-3.service goes on", said)
         self.assertIn("people in its sessions (1). When they have left: systemctl restart theatron-host@or-3.service", said)
+
+    def test_one_that_does_not_start_again_keeps_no_other_from_it(self):
+        (self.folder / "fails").touch()
+        with host(self.states / "or-3", self.camera), host(self.states / "or-4", self.camera):
+            said, told = self.restart_hosts()
+        self.assertEqual(told, ["restart theatron-host@or-3.service", "restart theatron-host@or-4.service"])
+        self.assertEqual(said.count("could not be restarted"), 2)
+
+    @unittest.skipUnless(os.getuid() == 0, "needs root, as a package's script has")
+    def test_the_state_belongs_to_the_hosts_user(self):
+        state = self.states / "or-3"
+        state.mkdir()
+        self.folder.chmod(0o755)
+        for folder in (state, self.folder / "box"):
+            for path in (folder, *folder.rglob("*")):
+                shutil.chown(path, "nobody", "nogroup")
+        with host(state, self.camera, prefix=("setpriv", "--reuid", "nobody", "--regid", "nogroup", "--clear-groups", "--")):
+            self.assertEqual(self.restart_hosts()[1], ["restart theatron-host@or-3.service"])
 
     def test_a_host_that_cannot_be_asked_is_named(self):
         (self.states / "or-5").mkdir()
