@@ -213,7 +213,7 @@ int DicomSet::integer(DicomTag tag, int fallback) const {
     const bool may_be_decimal = r == std::array{'I', 'S'} || r == std::array{'D', 'S'} ||
                                 (value.size() != 2 && value.size() != 4);
     const bool is_text =
-        !is_said && has_digits && std::all_of(value.begin(), value.end(), [](std::byte b) {
+        !is_said && has_digits && std::all_of(value.begin(), value.end(), [&](std::byte b) {
             return b == std::byte(' ') || (b == std::byte('.') && may_be_decimal) ||
                    (b >= std::byte('0') && b <= std::byte('9'));
         });
