@@ -5,6 +5,7 @@
 // are counts, the tracker's state and, with a network, the emotion that it tells.
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <thread>
 
 #include "base/error.h"
@@ -44,6 +45,33 @@ std::string listen_text(const nlohmann::json& figures) {
         text += "; told: " + figures["emotion"].get<std::string>() +
                 (figures["calibrated"].get<bool>() ? "" : " (rest your face: calibrating)");
     return text + "\n";
+}
+
+// Throws Error if the person stopped meanwhile.
+void wait_for_tracker(TrackedFace& tracked) {
+    while (tracked.next(steady_now() + face_step).tracking != face::Tracking::tracked)
+        if (cli::stop_requested())
+            throw Error("Stopped before the tracker sent anything; no recording was written.");
+}
+
+// A take of this emotion, from now on. Nullopt if the tracker fell silent; throws Error if the
+// person stopped.
+std::optional<face::Take> recorded_take(TrackedFace& tracked, face::Emotion prompt,
+                                        face::Source source, double seconds) {
+    face::Take take;
+    take.label = prompt;
+    take.present.set();
+    const TimePoint begin = steady_now();
+    for (TimePoint now = begin; now - begin < seconds_to_duration(seconds); now = steady_now()) {
+        const face::FaceNow face = tracked.next(now + face_step);
+        if (cli::stop_requested())
+            throw Error("Stopped before the last take; no recording was written.");
+        if (face.tracking != face::Tracking::tracked)
+            return std::nullopt;
+        take.present &= face.present & face::table_of(source).mask;
+        take.samples.push_back({float(to_seconds(now - begin)), face.values});
+    }
+    return take;
 }
 
 }  // namespace
@@ -99,9 +127,6 @@ void run_face_record(const FaceRecord& wanted) {
     cli::catch_stop_signals();
     output::result("waiting for the tracker's packets on port " + std::to_string(wanted.at.port) +
                    "\n");
-    while (tracked.next(steady_now() + face_step).tracking != face::Tracking::tracked)
-        if (cli::stop_requested())
-            throw Error("Stopped before the tracker sent anything; no recording was written.");
     // The neutral take comes first: it is the one that calibrates.
     constexpr face::Emotion prompts[] = {face::Emotion::neutral, face::Emotion::happiness,
                                          face::Emotion::sadness, face::Emotion::surprise,
@@ -109,25 +134,18 @@ void run_face_record(const FaceRecord& wanted) {
     constexpr Duration get_ready = 2s;
     for (int round = 1; round <= wanted.rounds; ++round)
         for (const face::Emotion prompt : prompts) {
-            output::result("round " + std::to_string(round) + " of " +
-                           std::to_string(wanted.rounds) + ": show " +
-                           std::string(face::to_text(prompt)) + "\n");
-            tracked.next(steady_now() + get_ready);
-            face::Take take;
-            take.label = prompt;
-            take.present.set();
-            const TimePoint begin = steady_now();
-            for (TimePoint now = begin; now - begin < seconds_to_duration(wanted.take_s);
-                 now = steady_now()) {
-                const face::FaceNow face = tracked.next(now + face_step);
-                if (cli::stop_requested())
-                    throw Error("Stopped before the last take; no recording was written.");
-                if (face.tracking != face::Tracking::tracked)
-                    throw Error("The tracker fell silent during a take; no recording was written.");
-                take.present &= face.present & face::table_of(recording.source).mask;
-                take.samples.push_back({float(to_seconds(now - begin)), face.values});
+            std::optional<face::Take> take;
+            while (!take) {
+                wait_for_tracker(tracked);
+                output::result("round " + std::to_string(round) + " of " +
+                               std::to_string(wanted.rounds) + ": show " +
+                               std::string(face::to_text(prompt)) + "\n");
+                tracked.next(steady_now() + get_ready);
+                take = recorded_take(tracked, prompt, recording.source, wanted.take_s);
+                if (!take)
+                    output::result("the tracker fell silent; this take is made again\n");
             }
-            recording.takes.push_back(std::move(take));
+            recording.takes.push_back(std::move(*take));
         }
     files::write_private_file(wanted.out, face::recording_text(recording));
     output::result(wanted.out + ": " + std::to_string(recording.takes.size()) + " takes\n");

@@ -106,6 +106,17 @@ class Face(unittest.TestCase):
         self.assertIn("accuracy", output)
         self.assertIn("give --source arkit", self.refused("train", "--source", "xr_fb", "--own", takes, "--out", self.folder / "n"))
 
+    def test_a_take_whose_tracker_falls_silent_is_made_again(self):
+        port, takes = free_port(), self.folder / "again.csv"
+        act = ("face", "act", "--port", port, "--source", "arkit")
+        with Process("face", "record", "--port", port, "--source", "arkit", "--out", takes, "--rounds", "1", "--take", "1.2") as recording:
+            with Process(*act):
+                recording.wait_until(lambda: "show" in recording.last_line)
+            recording.wait_until(lambda: "made again" in recording.last_line)
+            with Process(*act):
+                self.assertEqual(recording.end(), 0, recording.last_words())
+        self.assertIn("6 takes", recording.last_line)
+
     def test_mistakes_are_one_sentence(self):
         garbage = self.folder / "garbage"
         garbage.write_bytes(b"\x00\x01garbage" * 50)

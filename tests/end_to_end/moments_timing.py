@@ -14,9 +14,9 @@ from virtual_screen import VirtualScreen
 
 SECONDS = 10
 FPS = 30
-# The generated room at this size is drawn more often than pictures come.
+# So little of the generated room is drawn more often than pictures come, also without a graphics card.
 SIZE = "160x120"
-CAMERA = "synthetic:room,camera={},seconds=2,loop=1,quality=quick,color=depth,preload=1"
+CAMERA = "synthetic:room,camera={},seconds=2,loop=1,quality=quick,color=depth,preload=1,crop=128:112:64x56"
 
 
 class Moments(unittest.TestCase):
@@ -54,8 +54,9 @@ class Moments(unittest.TestCase):
         missing = SECONDS * FPS / 7
         self.assertLess(abs(gaps["unpaired"] - missing), 0.4 * missing)
         self.assertLess(late["unpaired"] + in_step["unpaired"], 0.2 * missing)
-        for other in late, gaps:
-            self.assertLess(other["age_ms"] - in_step["age_ms"], 6)
+        # Nothing waits for the late camera, but a picture that is drawn with its frame shows the other one's 15 ms later.
+        self.assertLess(late["age_ms"] - in_step["age_ms"], 15)
+        self.assertLess(gaps["age_ms"] - in_step["age_ms"], 6)
 
 
 if __name__ == "__main__":
