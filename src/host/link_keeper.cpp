@@ -42,17 +42,14 @@ void LinkKeeper::load(TimePoint now) {
     const std::lock_guard lock(mutex_);
     tokens_.clear();
     for (const KnownLink& known : book.links) {
-        if (known.name == wire::text_of(wire::Role::expert) && !own_token_.empty()) {
-            // 'theatron link --revoke' changes the token that the own one replaces.
-            if (replaced_.empty())
-                replaced_ = known.token;
-            if (replaced_ != known.token) {
-                revoked_.insert(own_token_);
-                own_token_.clear();
-            }
-        }
+        // 'theatron link --revoke' changes the token that the own one replaces.
+        const bool is_of_experts = known.name == wire::text_of(wire::Role::expert);
+        if (is_of_experts && replaced_.empty())
+            replaced_ = known.token;
+        if (is_of_experts && replaced_ != known.token && !own_token_.empty())
+            revoked_.insert(std::exchange(own_token_, {}));
         const bool is_of_role = wire::parse_role(known.name).has_value();
-        const bool is_own = known.name == wire::text_of(wire::Role::expert) && !own_token_.empty();
+        const bool is_own = is_of_experts && !own_token_.empty();
         const std::string& secret = is_own ? own_token_ : known.token;
         if (!revoked_.contains(secret) && !unsaved_.contains(known.name))
             tokens_.push_back({secret, known.role, is_of_role ? roles_expire_ : std::nullopt,

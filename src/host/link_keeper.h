@@ -61,7 +61,7 @@ private:
 
     mutable std::mutex mutex_;  // guards all below
     std::string own_token_;
-    std::string replaced_;  // the token of the expert's link that own_token_ takes the place of
+    std::string replaced_;  // the first token of the expert's file, whose place own_token_ takes
     std::vector<session::Admission::Token> tokens_;
     std::vector<std::string> problems_;  // of files
     std::set<std::string> revoked_;      // secrets

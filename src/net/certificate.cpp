@@ -6,6 +6,7 @@
 #include <openssl/evp.h>
 #include <openssl/pem.h>
 #include <openssl/rand.h>
+#include <openssl/ssl.h>
 #include <openssl/x509.h>
 #include <openssl/x509v3.h>
 
@@ -67,6 +68,11 @@ std::string certificate_fingerprint(X509* certificate) {
     if (!X509_digest(certificate, EVP_sha256(), digest, &size))
         throw Error("The certificate's fingerprint cannot be computed.");
     return hex(digest, size);
+}
+
+std::string fingerprint_of_peer(SSL* connection) {
+    const X509Ptr shown(SSL_get1_peer_certificate(connection));
+    return shown ? certificate_fingerprint(shown.get()) : "";
 }
 
 std::string fingerprint_of(const Certificate& certificate) {

@@ -9,6 +9,7 @@
 #include "base/bytes.h"
 #include "files/utc_text.h"
 
+struct ssl_st;   // OpenSSL's SSL
 struct x509_st;  // OpenSSL's X509
 
 namespace theatron::net {
@@ -21,6 +22,9 @@ struct Certificate {
 
 // The fingerprint of a certificate, as in a link.
 std::string certificate_fingerprint(x509_st* certificate);
+
+// The same of the certificate that the peer of a connection shows; empty: it shows none.
+std::string fingerprint_of_peer(ssl_st* connection);
 
 // The same of the first certificate in its PEM. Throws Error if that is damaged.
 std::string fingerprint_of(const Certificate& certificate);

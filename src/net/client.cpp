@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "net/client.h"
 
-#include <openssl/x509.h>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
 
@@ -17,15 +16,6 @@ namespace {
 
 namespace asio = boost::asio;
 namespace beast = boost::beast;
-
-std::string fingerprint_of_peer(SSL* ssl) {
-    X509* certificate = SSL_get1_peer_certificate(ssl);
-    if (!certificate)
-        return "";
-    std::string fingerprint = certificate_fingerprint(certificate);
-    X509_free(certificate);
-    return fingerprint;
-}
 
 }  // namespace
 

@@ -78,12 +78,7 @@ struct Exchange {
                                }));
     }
     bool shows_the_right_certificate() {
-        X509* certificate = SSL_get1_peer_certificate(stream.native_handle());
-        if (!certificate)
-            return false;
-        const std::string shown = certificate_fingerprint(certificate);
-        X509_free(certificate);
-        return equal_secrets(shown, link.fingerprint);
+        return equal_secrets(fingerprint_of_peer(stream.native_handle()), link.fingerprint);
     }
     std::string wrong_certificate() const {
         return proxy ? "another certificate than the link names comes through the proxy " +

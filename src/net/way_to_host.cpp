@@ -23,7 +23,6 @@ struct WayToHost::Answer {
 std::string text_of(const Unreached& unreached, const std::optional<OutgoingProxy>& proxy) {
     const std::string where = proxy ? proxy->where() : "";
     switch (unreached.what) {
-        case What::proxy_unknown:
         case What::proxy_silent:
             return say(Phrase::proxy_silent, where, unreached.because);
         case What::proxy_wants_name:
@@ -58,7 +57,7 @@ void WayToHost::open(Duration patience, std::function<void(std::optional<Unreach
                 return;
             if (error)
                 return done_(
-                    Unreached{proxy_ ? What::proxy_unknown : What::host_unknown, error.message()});
+                    Unreached{proxy_ ? What::proxy_silent : What::host_unknown, error.message()});
             connect(found);
         });
 }

@@ -17,14 +17,7 @@ namespace theatron::net {
 // The reason why a host was not reached.
 struct Unreached {
     // host_unknown: its name has no address.
-    enum class What {
-        host_unknown,
-        host_silent,
-        proxy_unknown,
-        proxy_silent,
-        proxy_wants_name,
-        proxy_refuses
-    };
+    enum class What { host_unknown, host_silent, proxy_silent, proxy_wants_name, proxy_refuses };
     What what{};
     std::string because;  // the system's or the proxy's words
 };

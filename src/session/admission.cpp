@@ -147,28 +147,20 @@ void Admission::find_recorder_place(const wire::Join& hello, TimePoint now,
                                     Verdict& verdict) const {
     int recorders = 0;
     std::optional<ParticipantId> silent;
-    const std::pair<const ParticipantId, Participant>* newest = nullptr;
-    for (const auto& entry : participants_) {
-        const auto& [id, there] = entry;
+    for (const auto& [id, there] : participants_) {
         if (!there.takes_part() || !there.records || is_replaced(verdict, id))
             continue;
         ++recorders;
         if (!hello.person.empty() && there.person == hello.person && is_silent(there, now))
             silent = id;
-        if (verdict.since && there.since > *verdict.since &&
-            !session::may(there.role, Right::manage) &&
-            (!newest || there.since > newest->second.since))
-            newest = &entry;
     }
     if (recorders < max_recorders + (verdict.since ? kept_for_returned_recorders : 0))
         return;
     if (silent)
         verdict.replaced.push_back({*silent, {}});
-    else if (newest)
-        verdict.replaced.push_back(
-            {newest->first, {TextCode::too_many_recordings, {std::to_string(max_recorders)}}});
     else
-        verdict.refusal = {TextCode::too_many_recordings, {std::to_string(max_recorders)}};
+        give_place([](const Participant& there) { return there.takes_part() && there.records; },
+                   {TextCode::too_many_recordings, {std::to_string(max_recorders)}}, verdict);
 }
 
 void Admission::find_place(const wire::Join& hello, Verdict& verdict) const {
@@ -189,10 +181,14 @@ void Admission::find_place(const wire::Join& hello, Verdict& verdict) const {
         link = hello.token;
     }
     if (!full.empty())
-        give_place(link, false, std::move(full), verdict);
+        give_place(
+            [&](const Participant& there) {
+                return there.is_there() && (link.empty() || there.token == link);
+            },
+            std::move(full), verdict);
 }
 
-void Admission::give_place(const std::string& token, bool at_the_door, wire::Text full,
+void Admission::give_place(const std::function<bool(const Participant&)>& may_go, wire::Text full,
                            Verdict& verdict) const {
     const std::pair<const ParticipantId, Participant>* newest = nullptr;
     // Those who only watch make way first.
@@ -201,10 +197,9 @@ void Admission::give_place(const std::string& token, bool at_the_door, wire::Tex
     };
     for (const auto& entry : participants_) {
         const auto& [id, there] = entry;
-        const bool may_go = (at_the_door ? there.waits() : there.is_there()) &&
-                            (token.empty() || there.token == token) &&
-                            !session::may(there.role, Right::manage) && !is_replaced(verdict, id);
-        if (may_go && verdict.since && there.since > *verdict.since &&
+        const bool goes =
+            may_go(there) && !session::may(there.role, Right::manage) && !is_replaced(verdict, id);
+        if (goes && verdict.since && there.since > *verdict.since &&
             (!newest || rank(there) >= rank(newest->second)))
             newest = &entry;
     }
@@ -224,8 +219,12 @@ void Admission::find_door_place(const wire::Join& hello, Verdict& verdict) const
         }
     if (all < wire::max_visitors && by_this_link < max_visitors_by_one_link)
         return;
-    give_place(all < wire::max_visitors ? hello.token : "", true, {TextCode::too_many_visitors},
-               verdict);
+    const bool by_any_link = all >= wire::max_visitors;
+    give_place(
+        [&](const Participant& there) {
+            return there.waits() && (by_any_link || there.token == hello.token);
+        },
+        {TextCode::too_many_visitors}, verdict);
 }
 
 bool Admission::knows(const Participant& participant) const {

@@ -185,9 +185,9 @@ private:
     void replace_own(const wire::Join& hello, TimePoint now, Verdict& verdict) const;
     void find_recorder_place(const wire::Join& hello, TimePoint now, Verdict& verdict) const;
     void find_place(const wire::Join& hello, Verdict& verdict) const;
-    // The one that came last by this link (empty: by any; `at_the_door`: of those who wait) makes
-    // way for somebody who was in before. Otherwise the refusal is `full`.
-    void give_place(const std::string& token, bool at_the_door, wire::Text full,
+    // The participant that `may_go`, manages nothing and was in for the shortest time makes way for
+    // somebody who comes back and was in for longer. Otherwise the refusal is `full`.
+    void give_place(const std::function<bool(const Participant&)>& may_go, wire::Text full,
                     Verdict& verdict) const;
 
     std::vector<Token> tokens_;

@@ -228,10 +228,7 @@ void AdjustPanel::on_tick(client::Participant& participant, TimePoint now) {
 
 void AdjustPanel::add_panel(RoomPanel& panel) const {
     xr::Panel shown{say(Phrase::place_of_cameras), {}};
-    const auto command = [&](AdjustStep step) {
-        panel.commands.push_back(step);
-        return int(panel.commands.size()) - 1;
-    };
+    const auto command = [&](AdjustStep step) { return panel.add(step); };
     using What = AdjustStep::What;
     for (const Camera& camera : cameras_) {
         const CameraAdjustment adjustment = current(camera);

@@ -88,8 +88,7 @@ public:
     Builder(RoomPanel& panel) : panel_(panel) {}
 
     xr::PanelButton button(std::string label, RoomCommand command) {
-        panel_.commands.push_back(std::move(command));
-        return {std::move(label), int(panel_.commands.size()) - 1};
+        return panel_.button(std::move(label), std::move(command));
     }
     xr::PanelButton action(std::string label, std::function<bool(Participant&)> action) {
         return button(std::move(label), ChangeCase{std::move(action)});

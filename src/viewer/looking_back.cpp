@@ -71,8 +71,7 @@ void LookingBack::add_panel(const std::string& past, bool knows_objects,
                             RoomPanel& panel) const {
     using std::chrono::seconds;
     const auto button = [&](const std::string& label, Duration ago) {
-        panel.commands.push_back(LookBackTo{ago});
-        return xr::PanelButton{label, int(panel.commands.size()) - 1};
+        return panel.button(label, LookBackTo{ago});
     };
     xr::PanelRow row{past.empty() ? say(Phrase::the_present) : past,
                      past.empty()    ? ""

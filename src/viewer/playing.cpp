@@ -82,8 +82,7 @@ std::optional<xr::PanelRow> Playing::bar(const client::Participant& participant,
     if (!playback)
         return std::nullopt;
     const auto button = [&](const std::string& label, PlayStep::What what) {
-        panel.commands.push_back(PlayStep{what});
-        return xr::PanelButton{label, int(panel.commands.size()) - 1};
+        return panel.button(label, PlayStep{what});
     };
     Duration here = position_at(*playback, participant.session_time(now));
     if (wanted_ ||
@@ -102,7 +101,7 @@ std::optional<xr::PanelRow> Playing::bar(const client::Participant& participant,
     using What = PlayStep::What;
     bar.buttons = {button(say(playback->paused ? Phrase::play : Phrase::pause), What::toggle),
                    button("-5 s", What::back), button("+5 s", What::forward)};
-    bar.slider->command = button("", What::slide).command;
+    bar.slider->command = panel.add(PlayStep{What::slide});
     return bar;
 }
 

@@ -61,30 +61,24 @@ std::string doing(const RoomPanelFacts& facts, const room::RoomPerson& person) {
 
 void add_places_panel(const std::vector<Place>& places, RoomPanel& panel) {
     xr::Panel where{say(Phrase::places), {}};
-    for (const Place& place : places) {
-        panel.commands.push_back(GoToPlace{place});
-        where.rows.push_back({place.name, "", {{say(Phrase::go), int(panel.commands.size()) - 1}}});
-    }
+    for (const Place& place : places)
+        where.rows.push_back({place.name, "", {panel.button(say(Phrase::go), GoToPlace{place})}});
     panel.panels.push_back(std::move(where));
 }
 
 RoomPanel room_panel(const RoomPanelFacts& facts) {
     RoomPanel panel;
-    const auto labelled = [&](std::string label, RoomCommand command) {
-        panel.commands.push_back(std::move(command));
-        return xr::PanelButton{std::move(label), int(panel.commands.size()) - 1};
-    };
     const auto button = [&](Phrase label, RoomCommand command) {
-        return labelled(say(label), std::move(command));
+        return panel.button(say(label), std::move(command));
     };
     using Action = wire::ManageAction;
     const auto removing = [&](Phrase label, Phrase again, Action action,
                               const room::RoomPerson& person) {
         const Decide decision{action, person.id, {}};
-        return labelled(facts.asked == decision
-                            ? say(again, clean_name(person.name, shortened_name))
-                            : say(label),
-                        decision);
+        return panel.button(facts.asked == decision
+                                ? say(again, clean_name(person.name, shortened_name))
+                                : say(label),
+                            decision);
     };
     xr::Panel who{say(Phrase::people), {}};
     for (const room::RoomPerson& person : facts.people) {

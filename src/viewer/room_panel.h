@@ -103,6 +103,15 @@ using RoomCommand =
 struct RoomPanel {
     std::vector<xr::Panel> panels;
     std::vector<RoomCommand> commands;  // by the number in xr::PanelButton
+
+    // The number of a further command.
+    int add(RoomCommand command) {
+        commands.push_back(std::move(command));
+        return int(commands.size()) - 1;
+    }
+    xr::PanelButton button(std::string label, RoomCommand command) {
+        return {std::move(label), add(std::move(command))};
+    }
 };
 
 struct RoomPanelFacts {

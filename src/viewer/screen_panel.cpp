@@ -54,15 +54,13 @@ void add_screen_panel(const ScreenPanelFacts& facts, RoomPanel& panel) {
             continue;
         xr::PanelRow row{screen->name, state_of(object, *screen, facts), {}};
         const auto add = [&, number = id](Phrase label, What what) {
-            panel.commands.push_back(ChangeScreen{what, number});
-            row.buttons.push_back({say(label), int(panel.commands.size()) - 1});
+            row.buttons.push_back(panel.button(say(label), ChangeScreen{what, number}));
         };
         // Nobody gets the pictures of an own screen.
-        if (object.creator != facts.self) {
-            panel.commands.push_back(
-                GoToPlace{{screen->name, in_front_of(place_of(object, *screen))}});
-            row.buttons.push_back({say(Phrase::show), int(panel.commands.size()) - 1});
-        }
+        if (object.creator != facts.self)
+            row.buttons.push_back(
+                panel.button(say(Phrase::show),
+                             GoToPlace{{screen->name, in_front_of(place_of(object, *screen))}}));
         if (session::may(facts.role, session::Right::handle) && !screen->pinned &&
             object.grip.holder == ParticipantId{}) {
             add(Phrase::smaller, What::smaller);

@@ -29,9 +29,8 @@ void add_kind(UseSound::Kind kind, const std::vector<std::string>& devices,
     for (const std::string& device : devices) {
         if (device == in_use || shown++ == max_shown_devices)
             continue;
-        panel.commands.push_back(UseSound{kind, device});
         sound.rows.push_back(
-            {shown_name(device), "", {{say(Phrase::use), int(panel.commands.size()) - 1}}});
+            {shown_name(device), "", {panel.button(say(Phrase::use), UseSound{kind, device})}});
     }
 }
 

@@ -35,11 +35,6 @@ xr::Action action_of(xr::ToolIcon item) {
     return xr::Action::more;
 }
 
-xr::PanelButton button(RoomPanel& panel, Phrase label, RoomCommand command) {
-    panel.commands.push_back(std::move(command));
-    return {say(label), int(panel.commands.size()) - 1};
-}
-
 }  // namespace
 
 Sheet Viewer::sheet() const {
@@ -113,10 +108,7 @@ void Viewer::add_tools(Facts& facts, RoomPanel& panel, TimePoint now) const {
     bar.visitors = facts.visitors.size();
     bar.asks_leave = now < leave_asked_until_;
     xr::ToolBar tools;
-    const auto command = [&](xr::Action action) {
-        panel.commands.push_back(PressKey{action});
-        return int(panel.commands.size()) - 1;
-    };
+    const auto command = [&](xr::Action action) { return panel.add(PressKey{action}); };
     tools.dot.command = command(xr::Action::facts);
     for (const BarItem& item : bar_items(bar)) {
         tools.tools.push_back({item.id, say(item.label), say(item.hint), item.pressed, item.off,
@@ -142,21 +134,23 @@ void Viewer::add_offers(Facts& facts, RoomPanel& panel, TimePoint now) const {
              facts.visitors.size() > 1
                  ? say(Phrase::more_visitors, std::to_string(facts.visitors.size() - 1))
                  : "",
-             {button(panel, Phrase::let_in, Decide{Action::admit, first.participant, {}}),
-              button(panel, Phrase::refuse, Decide{Action::turn_away, first.participant, {}})}});
+             {panel.button(say(Phrase::let_in), Decide{Action::admit, first.participant, {}}),
+              panel.button(say(Phrase::refuse),
+                           Decide{Action::turn_away, first.participant, {}})}});
     }
     for (const room::RoomPerson& person : callers())
-        facts.offers.push_back({say(Phrase::person_calls_you, person.name),
-                                "",
-                                {button(panel, Phrase::go_there, AnswerCall{person.id, true}),
-                                 button(panel, Phrase::stay_here, AnswerCall{person.id, false})}});
+        facts.offers.push_back(
+            {say(Phrase::person_calls_you, person.name),
+             "",
+             {panel.button(say(Phrase::go_there), AnswerCall{person.id, true}),
+              panel.button(say(Phrase::stay_here), AnswerCall{person.id, false})}});
 }
 
 void Viewer::add_more_panel(RoomPanel& panel) const {
     xr::Panel more{say(Phrase::bar_more), {}};
     const auto row = [&](Phrase text, RoomCommand command) {
         more.rows.push_back(
-            {say(text), "", {button(panel, Phrase::more_open, std::move(command))}});
+            {say(text), "", {panel.button(say(Phrase::more_open), std::move(command))}});
     };
     const auto row_of_window = [&](Phrase text, xr::Action key) {
         if (!headset_)

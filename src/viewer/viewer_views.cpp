@@ -312,7 +312,6 @@ void Viewer::add_camera_pictures(Facts& facts, RoomPanel& panel, TimePoint now) 
             const ShowLarge show{id, kind};
             if (!pixels || (large_ && *large_ != show))
                 return;
-            panel.commands.push_back(show);
             xr::OverlayPicture picture{
                 picture_title(camera_text(id) + ", " + say(name), age_ms, is_live),
                 pixels,
@@ -320,7 +319,7 @@ void Viewer::add_camera_pictures(Facts& facts, RoomPanel& panel, TimePoint now) 
                 "",
                 "",
                 large_.has_value(),
-                int(panel.commands.size()) - 1};
+                panel.add(show)};
             if (kind != PictureKind::color) {
                 picture.legend = depth_legend();
                 picture.legend_from = meters(pictures.range.near_m);

@@ -10,8 +10,7 @@ namespace theatron::viewer {
 
 void add_tool_panel(const ToolPanelFacts& facts, RoomPanel& panel) {
     const auto button = [&](Phrase label, RoomCommand command) {
-        panel.commands.push_back(std::move(command));
-        return xr::PanelButton{say(label), int(panel.commands.size()) - 1};
+        return panel.button(say(label), std::move(command));
     };
     std::vector<xr::PanelRow> rows;
     const auto add_tools = [&](std::string name, const std::vector<ToolRow::Choice>& choices) {
