@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "geometry/screen.h"
 #include "page_state.h"
 #include "session/whose_camera.h"
 #include "viewer/meeting.h"
@@ -23,21 +24,22 @@ client::Participant::Options FlatView::options(client::Participant::Options join
 }
 
 void FlatView::next_camera() {
-    auto next = camera_ ? names_.upper_bound(*camera_) : names_.begin();
-    if (next == names_.end())
-        next = names_.begin();
-    camera_ = next == names_.end() ? std::nullopt : std::optional(next->first);
+    auto next = camera_ ? seen_.upper_bound(*camera_) : seen_.begin();
+    if (next == seen_.end())
+        next = seen_.begin();
+    camera_ = next == seen_.end() ? std::nullopt : std::optional(next->first);
     ask();
 }
 
 void FlatView::follow_cameras() {
     std::uint64_t generation = 0;
-    names_.clear();
+    seen_.clear();
     const auto room = participant_.room();
     for (const auto& camera : participant_.cameras(generation))
         if (camera.description.has_color)
-            names_[camera.description.id] = session::whose_camera(camera.description, room.objects);
-    if (!camera_ || !names_.contains(*camera_)) {
+            seen_[camera.description.id] = {session::whose_camera(camera.description, room.objects),
+                                            is_screen(camera.calibration)};
+    if (!camera_ || !seen_.contains(*camera_)) {
         camera_.reset();
         next_camera();
     }
@@ -69,8 +71,9 @@ bool FlatView::take(TimePoint now) {
     for (const receive::CameraFramePtr& frame : participant_.take_frames()) {
         if (frame->camera != camera_ || !frame->color)
             continue;
-        show(*frame->color);
-        shown_ = {names_[frame->camera], frame->times.captured};
+        const Seen& seen = seen_[frame->camera];
+        show(*frame->color, seen.is_screen ? most_screen_width : most_flat_width);
+        shown_ = {seen.name, frame->times.captured};
         is_new = true;
     }
     if (!is_new)
@@ -81,8 +84,8 @@ bool FlatView::take(TimePoint now) {
     return true;
 }
 
-void FlatView::show(const ColorImage& color) {
-    const int step = (color.size.width + most_flat_width - 1) / most_flat_width;
+void FlatView::show(const ColorImage& color, int most_width) {
+    const int step = (color.size.width + most_width - 1) / most_width;
     size_ = {color.size.width / step, color.size.height / step};
     pixels_.resize(4 * size_.area());
     std::byte* to = pixels_.data();

@@ -21,8 +21,9 @@ namespace theatron::web {
 // For the page's one thread.
 class FlatView {
 public:
-    // More pixels are left out: the canvas shows them anyway, and the computer is slow.
-    static constexpr int most_flat_width = 640;
+    // More pixels are left out: the canvas shows them anyway, and the computer is slow. Those of
+    // screens have letters.
+    static constexpr int most_flat_width = 640, most_screen_width = 1920;
     // As often as page/graphics.js asks for a picture.
     static constexpr double pictures_per_second = 5;
     // The host sends fewer frames, and then coarser ones, until they fit: five pictures a second of
@@ -57,13 +58,17 @@ public:
 private:
     void follow_cameras();
     void ask();
-    void show(const ColorImage& color);
+    void show(const ColorImage& color, int most_width);
     void add_people(viewer::Facts& facts, TimePoint now);
 
     client::Participant& participant_;
     std::string color_;
-    std::map<CameraId, std::string> names_;  // of the cameras with colour
-    std::optional<CameraId> camera_;         // that is chosen
+    struct Seen {
+        std::string name;
+        bool is_screen = false;
+    };
+    std::map<CameraId, Seen> seen_;   // the cameras with colour
+    std::optional<CameraId> camera_;  // that is chosen
     // The last wish to the host, and its connection.
     struct Asked {
         int join = 0;

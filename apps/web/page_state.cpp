@@ -9,6 +9,7 @@
 #include "session/permissions.h"
 #include "session/room_bytes.h"
 #include "session/room_text.h"
+#include "visit.h"
 
 namespace theatron::web {
 namespace {
@@ -196,6 +197,12 @@ json state_of(const viewer::Facts& facts, const client::Participant& participant
             {"may_speak", session::may(status.standing.role, session::Right::speak)},
             {"may_point", session::may(status.standing.role, session::Right::point)},
             {"may_be_seen", session::may(status.standing.role, session::Right::be_seen)},
+            {"may_show_screen", session::may(status.standing.role, session::Right::show_screen)},
+            // `has_ended`: by others, since the last state.
+            {"screen",
+             {{"problem", status.screen_problem},
+              {"is_taken", page().screen.is_taken()},
+              {"has_ended", page().screen.take_ended()}}},
             {"may_handle", session::may(status.standing.role, session::Right::handle)},
             // Null where the host does not ask.
             {"voice_may_record", asks_consent ? json(participant.voice_may_record()) : json()},

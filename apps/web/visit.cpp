@@ -59,7 +59,7 @@ viewer::Viewer::Options viewer_options(const client::Participant::Options& join,
 }
 
 client::Participant::Options with_faces(client::Participant::Options join,
-                                        client::FaceSender& face) {
+                                        client::PictureSender& face) {
     join.takes_faces = true;
     join.face = face.events();
     return join;
@@ -118,6 +118,7 @@ client::Participant::Options join_options(const net::Link& link, const char* nam
     options.is_page = true;
     options.color_codec = color.codec();
     options.keeps_room = options.keeps_cases = options.shows_patient = true;
+    options.screen = page().screen.events();
     // The page made the digits itself.
     options.person = bytes_of_hex(person).value_or(Bytes());
     options.voice = [](ParticipantId speaker, ByteView packet) {

@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-#include "client/face_sender.h"
+#include "client/picture_sender.h"
 #include "flat_view.h"
 #include "page_color.h"
 #include "picture_fence.h"
@@ -28,7 +28,7 @@ struct Visit {
     std::string address;
     PageColor color;
     viewer::Viewer::Options options;
-    client::FaceSender face;
+    client::PictureSender face;
     client::Participant participant;
     viewer::Viewer viewer;
     xr::ScaledPicture picture;
@@ -58,6 +58,7 @@ struct Page {
     std::unique_ptr<Visit> visit;      // this
     std::unique_ptr<FlatVisit> flat;   // or this, or none
     xr::InputQueue input;              // since the last picture
+    client::PictureSender screen;      // that the person shows; outlives a visit
     std::string problem;               // why the visit ended; a sentence
     std::string text;                  // that the last function returned
     Bytes bytes;                       // that the script writes for the next function

@@ -40,6 +40,8 @@ std::vector<wire::Feature> features_of(const Participant::Options& options) {
     features.push_back(wire::Feature::voice_consent);
     if (options.takes_faces || options.face.published)
         features.push_back(wire::Feature::webcam);
+    if (options.screen.published)
+        features.push_back(wire::Feature::shows_screen);
     if (options.direct && DirectReception::is_possible())
         features.push_back(wire::Feature::direct);
     return features;
@@ -181,7 +183,7 @@ std::optional<Duration> Participant::end_connection(const net::Client::End& end)
     shared_->status.is_outdated = judged.is_outdated;
     lock.unlock();
     end_direct();
-    for (const Offer offer : {Offer::cameras, Offer::face})
+    for (const Offer offer : all_offers)
         forget_numbers(offer);
     announce();
     if (ended)

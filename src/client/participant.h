@@ -80,6 +80,7 @@ public:
         std::function<void()> news;
         Publishing publishing;  // needed for publish()
         Publishing face;        // needed for publish_face()
+        Publishing screen;      // needed for show_screen()
         // Is told of the faces of others (wire::CameraKind::face), too; they are cameras.
         bool takes_faces = false;
         // Keeps the objects of the room; needed for room() and the functions below it.
@@ -129,6 +130,7 @@ public:
         std::uint64_t media_dropped = 0;  // frames of send_media() that were too late to be sent
         std::string publish_problem;  // why the host refused the cameras of publish(); else empty
         std::string face_problem;     // the same of publish_face()
+        std::string screen_problem;   // the same of show_screen()
         wire::Standing standing;      // this participant's role, while joined
         wire::Delivery delivery;      // the part of the requested data that the host sends
     };
@@ -179,6 +181,9 @@ public:
     // The same for the picture of this person's face, apart from the cameras: a camera of
     // CameraKind::face. Its number goes to Options::face.
     void publish_face(std::optional<wire::OfferedCamera> face);
+    // The same for a screen whose pictures come as JPEG: a camera of CameraKind::screen. Its number
+    // goes to Options::screen. One that others have ended is not offered again.
+    void show_screen(std::optional<wire::OfferedCamera> screen);
     // From any thread: sends a frame of such a camera, encoded as the host asked, with the camera's
     // stream in its header and session times (now()). `message` is header and payload. A frame that
     // cannot be sent in time is dropped, and a key frame is requested.
@@ -307,14 +312,20 @@ private:
     void on_patient();
     std::uint32_t decide(auto decision);
     // Cameras of one offer are answered and withdrawn together.
-    enum class Offer : std::size_t { cameras, face };
-    static constexpr std::size_t offers = 2;
+    enum class Offer : std::size_t { cameras, face, screen };
+    static constexpr std::array all_offers{Offer::cameras, Offer::face, Offer::screen};
+    static constexpr std::size_t offers = all_offers.size();
     const Publishing& events(Offer offer) const {
-        return offer == Offer::face ? options_.face : options_.publishing;
+        return offer == Offer::face     ? options_.face
+               : offer == Offer::screen ? options_.screen
+                                        : options_.publishing;
     }
+    void set_offer(Offer which, std::optional<wire::OfferedCamera> camera);
+    std::string& problem_of(Offer offer) const;
     std::vector<CameraId>& numbers(Offer offer) { return numbers_[std::size_t(offer)]; }
     void offer_cameras(Offer offer);
     void offer_all();
+    void end_offered(Offer offer, const wire::ShareEnded& message);
     void forget_numbers(Offer offer);
     void on_published();
     void on_share_ended();

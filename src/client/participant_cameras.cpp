@@ -53,6 +53,7 @@ void Participant::on_welcome() {
     shared_->status.problem.clear();
     shared_->status.publish_problem.clear();
     shared_->status.face_problem.clear();
+    shared_->status.screen_problem.clear();
     shared_->status.host_name = session_.welcome().host_name;
     shared_->status.delivery = {};
     shared_->may_adjust = session_.has(wire::Feature::adjusting);
@@ -73,7 +74,7 @@ void Participant::on_welcome() {
     ping(steady_now());
     // Not where only messages were lost: the host still has them.
     offered_.clear();
-    for (const Offer offer : {Offer::cameras, Offer::face})
+    for (const Offer offer : all_offers)
         if (numbers(offer).empty())
             offer_cameras(offer);
     announce();

@@ -47,17 +47,21 @@ void Participant::on_standing() {
         remark(say(now.muted ? Phrase::you_are_muted : Phrase::no_longer_muted));
 }
 
-// The host withdraws the face of a person whose new role does not show one.
+// The host withdraws face and screen of a person whose new role does not show them.
 void Participant::follow_role(wire::Role before, wire::Role now) {
-    const bool may = session::may(now, session::Right::be_seen);
-    if (may == session::may(before, session::Right::be_seen))
-        return;
-    if (may)
-        return offer_cameras(Offer::face);
-    if (numbers(Offer::face).empty())
-        return;
-    forget_numbers(Offer::face);
-    refuse_cameras(Offer::face, {wire::TextCode::face_forbidden});
+    const auto follow = [&](Offer offer, session::Right right, wire::TextCode forbidden) {
+        const bool may = session::may(now, right);
+        if (may == session::may(before, right))
+            return;
+        if (may)
+            return offer_cameras(offer);
+        if (numbers(offer).empty())
+            return;
+        forget_numbers(offer);
+        refuse_cameras(offer, {forbidden});
+    };
+    follow(Offer::face, session::Right::be_seen, wire::TextCode::face_forbidden);
+    follow(Offer::screen, session::Right::show_screen, wire::TextCode::screen_forbidden);
 }
 
 void Participant::on_visitors() {

@@ -23,14 +23,35 @@ void Participant::publish(std::vector<wire::OfferedCamera> cameras) {
 }
 
 void Participant::publish_face(std::optional<wire::OfferedCamera> face) {
+    set_offer(Offer::face, std::move(face));
+}
+
+void Participant::show_screen(std::optional<wire::OfferedCamera> screen) {
+    set_offer(Offer::screen, std::move(screen));
+}
+
+void Participant::set_offer(Offer which, std::optional<wire::OfferedCamera> camera) {
     const std::lock_guard lock(shared_->mutex);
-    auto& offer = shared_->offers[std::size_t(Offer::face)];
+    auto& offer = shared_->offers[std::size_t(which)];
     offer.clear();
-    if (face)
-        offer.push_back(std::move(*face));
-    shared_->status.face_problem.clear();
+    if (camera)
+        offer.push_back(std::move(*camera));
+    problem_of(which).clear();
     if (shared_->client)
-        shared_->client->post([this] { offer_cameras(Offer::face); });
+        shared_->client->post([this, which] { offer_cameras(which); });
+}
+
+// The mutex is held.
+std::string& Participant::problem_of(Offer offer) const {
+    switch (offer) {
+        case Offer::face:
+            return shared_->status.face_problem;
+        case Offer::screen:
+            return shared_->status.screen_problem;
+        case Offer::cameras:
+            break;
+    }
+    return shared_->status.publish_problem;
 }
 
 // Frames have session times, so the clock comes first.
@@ -51,12 +72,14 @@ void Participant::offer_cameras(Offer what) {
         return refuse_cameras(what, {wire::TextCode::link_without_cameras});
     if (what == Offer::face && !session_.has(wire::Feature::webcam))
         return refuse_cameras(what, {wire::TextCode::host_without_faces});
+    if (what == Offer::screen && !session_.has(wire::Feature::shows_screen))
+        return refuse_cameras(what, {wire::TextCode::host_without_screens});
     offered_.push_back(what);
     shared_->client->send_control(wire::encode(offer));
 }
 
 void Participant::offer_all() {
-    for (const Offer offer : {Offer::cameras, Offer::face})
+    for (const Offer offer : all_offers)
         offer_cameras(offer);
 }
 
@@ -70,8 +93,7 @@ void Participant::refuse_cameras(Offer offer, const wire::Text& why) {
     const std::string problem = wire::sentence(why);
     {
         const std::lock_guard lock(shared_->mutex);
-        (offer == Offer::face ? shared_->status.face_problem : shared_->status.publish_problem) =
-            clean_text(problem, max_remark_characters);
+        problem_of(offer) = clean_text(problem, max_remark_characters);
     }
     remark(problem);
 }
@@ -109,8 +131,12 @@ void Participant::on_published() {
 }
 
 void Participant::on_share_ended() {
-    const wire::ShareEnded& message = session_.share_ended();
-    std::vector<CameraId>& own = numbers(Offer::cameras);
+    for (const Offer offer : {Offer::cameras, Offer::screen})
+        end_offered(offer, session_.share_ended());
+}
+
+void Participant::end_offered(Offer offer, const wire::ShareEnded& message) {
+    std::vector<CameraId>& own = numbers(offer);
     std::vector<CameraId> ended;
     for (const CameraId camera : message.cameras) {
         const auto found = std::find(own.begin(), own.end(), camera);
@@ -120,19 +146,19 @@ void Participant::on_share_ended() {
         {
             // Offers have the order of their numbers.
             const std::lock_guard lock(shared_->mutex);
-            auto& offers = shared_->offers[std::size_t(Offer::cameras)];
-            const auto offer = found - own.begin();
-            if (offer < std::ptrdiff_t(offers.size())) {
-                name = offers[std::size_t(offer)].name;
-                offers.erase(offers.begin() + offer);
+            auto& offered = shared_->offers[std::size_t(offer)];
+            const auto place = found - own.begin();
+            if (place < std::ptrdiff_t(offered.size())) {
+                name = offered[std::size_t(place)].name;
+                offered.erase(offered.begin() + place);
             }
         }
         own.erase(found);
         ended.push_back(camera);
         remark(say(Phrase::share_ended, message.by, name));
     }
-    if (!ended.empty() && options_.publishing.ended)
-        options_.publishing.ended(ended);
+    if (!ended.empty() && events(offer).ended)
+        events(offer).ended(ended);
 }
 
 void Participant::send_media(const wire::MediaHeader& header,
@@ -189,13 +215,13 @@ void Participant::push_media(const wire::MediaHeader& header,
 
 // Each publisher knows its own cameras.
 void Participant::on_encode() {
-    for (const Offer offer : {Offer::cameras, Offer::face})
+    for (const Offer offer : all_offers)
         if (events(offer).encode)
             events(offer).encode(session_.encode().settings);
 }
 
 void Participant::on_encode_key(StreamId stream, SettingId setting) {
-    for (const Offer offer : {Offer::cameras, Offer::face})
+    for (const Offer offer : all_offers)
         if (events(offer).encode_key)
             events(offer).encode_key(stream, setting);
 }

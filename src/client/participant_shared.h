@@ -64,17 +64,18 @@ struct Participant::Shared {
     bool is_asking_content = false;  // request_content() has been posted
     bool has_standing = false;       // on this connection
     std::vector<wire::Visitor> visitors;
-    std::uint32_t decisions = 0;                             // sent, for their numbers
-    std::deque<wire::Managed> managed;                       // answers not yet taken
-    bool may_adjust = false;                                 // the host knows adjustments
-    std::optional<wire::Playback> playback;                  // of the host's recording
-    bool can_look_back = false;                              // the host keeps the last minute
-    wire::Patient patient;                                   // empty: not known
-    wire::Patient asked_patient;                             // the newest answer
-    bool may_ask_patient = false;                            // the host answers
-    std::map<CameraId, wire::ChooseCodecs> camera_wishes;    // the same for single cameras
-    std::array<std::vector<wire::OfferedCamera>, 2> offers;  // by Participant::Offer
-    std::size_t media_waiting = 0;                           // for the participant's thread
+    std::uint32_t decisions = 0;                           // sent, for their numbers
+    std::deque<wire::Managed> managed;                     // answers not yet taken
+    bool may_adjust = false;                               // the host knows adjustments
+    std::optional<wire::Playback> playback;                // of the host's recording
+    bool can_look_back = false;                            // the host keeps the last minute
+    wire::Patient patient;                                 // empty: not known
+    wire::Patient asked_patient;                           // the newest answer
+    bool may_ask_patient = false;                          // the host answers
+    std::map<CameraId, wire::ChooseCodecs> camera_wishes;  // the same for single cameras
+    std::array<std::vector<wire::OfferedCamera>, Participant::offers>
+        offers;                     // by Participant::Offer
+    std::size_t media_waiting = 0;  // for the participant's thread
     LineLimit remarks_of_others{8};
     // Adds a remark about another participant, who must not hide what others do by all that it
     // does.

@@ -178,7 +178,7 @@ nlohmann::json to_json(const HostFigures& figures) {
                                 {"renderer", participant.renderer},
                                 {"refused_requests", participant.refused},
                                 {"denied_messages", participant.denied},
-                                {"refused_faces", participant.refused_faces},
+                                {"refused_pictures", participant.refused_pictures},
                                 {"role", wire::text_of(participant.role)},
                                 {"muted", participant.muted},
                                 {"direct", direct},
@@ -375,9 +375,9 @@ std::string to_prometheus(const PortFigures& figures_of_all) {
     per_participant("messages_denied_total", "counter",
                     "Messages that a participant's role does not allow.",
                     [](const Participant& p) { return double(p.denied); });
-    per_participant("faces_refused_total", "counter",
-                    "Pictures of a participant's face that were too large or too many.",
-                    [](const Participant& p) { return double(p.refused_faces); });
+    per_participant("pictures_refused_total", "counter",
+                    "Pictures of a participant's face or screen that were too large or too many.",
+                    [](const Participant& p) { return double(p.refused_pictures); });
     per_session("visitors", "People who wait to be let in.",
                 [](const HostFigures& f) { return f.visitors.size(); });
     per_session("past_bytes", "Encoded pictures that are kept for looking back.",

@@ -39,7 +39,7 @@ struct HostFigures {
         std::string renderer;                     // as it reports it; empty: unknown
         std::uint64_t refused = 0;                // requests that came too often
         std::uint64_t denied = 0;                 // messages that its role does not allow
-        std::uint64_t refused_faces = 0;          // pictures of its face beyond their limits
+        std::uint64_t refused_pictures = 0;       // of its face or screen, beyond their limits
         wire::Role role{};
         bool muted = false;
         std::set<CameraId> direct = {};  // whose pictures come directly from their publisher
@@ -103,7 +103,7 @@ struct PortFigures {
 // {"name","utc","session_us","seconds","automatic_color","cameras":[{"name","state","problem","adjusted",
 // "color_gain":{"red","green","blue","estimated"},
 // "fps","age_ms","stages":[…],"dropped":{…},"lost_pictures",…}],"participants":[{"id","name","age_ms",
-// "renderer","refused_requests","denied_messages","refused_faces","role","muted","direct",…}],"visitors":[{"id","name",
+// "renderer","refused_requests","denied_messages","refused_pictures","role","muted","direct",…}],"visitors":[{"id","name",
 // "person","role","records"}],"published":[{"id","name","publisher","whose","state",
 // "adjusted","dropped_slow","bytes"}],"overlaps":[{"a","b","apart_mm","alarm"}],
 // "registration":{"made","method","problem"},"case_problems":[…],"past_bytes","turned_away",

@@ -36,7 +36,7 @@ void Host::Impl::note_participants() {
         if (participant.joined)
             list.push_back({id, participant.name, session->step_of(id), participant.report,
                             participant.renderer, participant.budget.refused(), participant.denied,
-                            participant.refused_faces, participant.role, participant.muted,
+                            participant.refused_pictures, participant.role, participant.muted,
                             direct_cameras(id, participant.report)});
     participants = list.size();
     const auto& all = session->participants();

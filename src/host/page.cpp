@@ -22,7 +22,8 @@ const std::vector<std::pair<std::string, std::string>>& strict_headers() {
         {"Cross-Origin-Resource-Policy", "same-origin"},
         {"Referrer-Policy", "no-referrer"},
         {"Permissions-Policy",
-         "camera=(self), geolocation=(), microphone=(self), payment=(), usb=(), fullscreen=(self), "
+         "camera=(self), display-capture=(self), geolocation=(), microphone=(self), payment=(), "
+         "usb=(), fullscreen=(self), "
          "xr-spatial-tracking=(self)"},
     };
     return headers;

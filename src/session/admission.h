@@ -92,15 +92,15 @@ public:
         std::vector<wire::Feature> features;  // those of Join that hold here
         Role of_link = Role::expert, role = Role::expert;
         bool muted = false;
-        bool voice_recorded = false;      // it agrees that others record its voice
-        std::string link, token;          // by which it came
-        std::optional<wire::Join> asked;  // while it waits for admission
-        bool asks_to_publish = false;     // as in wire::Join
-        std::uint64_t denied = 0;         // messages that its role does not allow
-        std::uint64_t refused_faces = 0;  // pictures beyond face_limits.h
-        bool records = false;             // as in wire::Join
-        bool sends_only = false;          // as wire::Feature::sends_only
-        bool refused_for_good = false;    // see wire::is_for_good()
+        bool voice_recorded = false;         // it agrees that others record its voice
+        std::string link, token;             // by which it came
+        std::optional<wire::Join> asked;     // while it waits for admission
+        bool asks_to_publish = false;        // as in wire::Join
+        std::uint64_t denied = 0;            // messages that its role does not allow
+        std::uint64_t refused_pictures = 0;  // beyond face_limits.h or screen_limits.h
+        bool records = false;                // as in wire::Join
+        bool sends_only = false;             // as wire::Feature::sends_only
+        bool refused_for_good = false;       // see wire::is_for_good()
         // The newest message about the patient; nullopt: it may be lost.
         std::optional<wire::Patient> patient = wire::Patient{};
         // The newest message about cases, see OfferedCases; nullopt: it may be lost.

@@ -6,13 +6,27 @@
 
 #include "session/announced_cameras.h"
 #include "session/face_limits.h"
+#include "session/screen_limits.h"
 
 namespace theatron::session {
 namespace {
 
 using wire::TextCode;
 
-// The same for the faces among them, `new_faces` of them.
+std::size_t count_of(const std::vector<wire::Camera>& cameras, wire::CameraKind kind) {
+    return std::size_t(
+        std::count_if(cameras.begin(), cameras.end(),
+                      [&](const wire::Camera& camera) { return camera.kind == kind; }));
+}
+
+// True if the participant sends one of this kind already.
+bool has_one(ParticipantId id, const SessionCameras& present, wire::CameraKind kind) {
+    const std::vector<CameraId> own = present.of(id);
+    return std::any_of(own.begin(), own.end(),
+                       [&](CameraId camera) { return present.find(camera)->offered_as() == kind; });
+}
+
+// As problem_of_offer(), for the faces among them, `new_faces` of them.
 wire::Text problem_of_faces(ParticipantId id, const Admission::Participant& publisher,
                             const SessionCameras& present, const std::vector<wire::Camera>& cameras,
                             std::size_t new_faces) {
@@ -26,13 +40,30 @@ wire::Text problem_of_faces(ParticipantId id, const Admission::Participant& publ
             return {TextCode::face_beyond_limits,
                     {std::to_string(max_face_pixels), std::to_string(int(max_face_fps))}};
     }
-    const std::vector<CameraId> own = present.of(id);
-    const bool has_one = std::any_of(
-        own.begin(), own.end(), [&](CameraId camera) { return present.find(camera)->is_face(); });
-    if (new_faces > 1 || has_one)
+    if (new_faces > 1 || has_one(id, present, wire::CameraKind::face))
         return {TextCode::one_face};
     if (present.faces() >= max_faces)
         return {TextCode::too_many_faces, {std::to_string(max_faces)}};
+    return {};
+}
+
+// The same for the screens among them that a browser shows, `new_screens` of them.
+wire::Text problem_of_screens(ParticipantId id, const Admission::Participant& publisher,
+                              const SessionCameras& present,
+                              const std::vector<wire::Camera>& cameras, std::size_t new_screens) {
+    if (!publisher.has(wire::Feature::shows_screen))
+        return {TextCode::screen_forbidden};
+    for (const wire::Camera& camera : cameras) {
+        if (camera.kind != wire::CameraKind::screen)
+            continue;
+        const auto calibration = decode_calibration(camera.calibration);
+        if (!camera.has_color || !calibration ||
+            !is_shown_screen(*calibration, camera.frames_per_second))
+            return {TextCode::screen_beyond_limits,
+                    {std::to_string(max_screen_pixels), std::to_string(int(max_screen_fps))}};
+    }
+    if (new_screens > 1 || has_one(id, present, wire::CameraKind::screen))
+        return {TextCode::one_screen};
     return {};
 }
 
@@ -59,12 +90,14 @@ wire::Text problem_of_offer(ParticipantId id, const Admission::Participant& publ
                             const std::vector<wire::Camera>& cameras) {
     if (cameras.empty())
         return {TextCode::no_camera_offered};
-    const auto new_faces =
-        std::size_t(std::count_if(cameras.begin(), cameras.end(), [](const wire::Camera& camera) {
-            return camera.kind == wire::CameraKind::face;
-        }));
-    if (new_faces < cameras.size() && !publisher.has(wire::Feature::publish))
+    const std::size_t new_faces = count_of(cameras, wire::CameraKind::face);
+    const std::size_t new_screens = count_of(cameras, wire::CameraKind::screen);
+    if (new_faces + new_screens < cameras.size() && !publisher.has(wire::Feature::publish))
         return {TextCode::link_without_cameras};
+    if (new_screens > 0)
+        if (wire::Text problem = problem_of_screens(id, publisher, present, cameras, new_screens);
+            !problem.empty())
+            return problem;
     if (new_faces > 0)
         if (wire::Text problem = problem_of_faces(id, publisher, present, cameras, new_faces);
             !problem.empty())

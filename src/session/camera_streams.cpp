@@ -15,11 +15,14 @@ constexpr Duration longest_made_in = std::chrono::milliseconds(100);
 
 CameraStreams::CameraStreams(wire::Camera description, SettingNumbers& numbers, const Usual& usual,
                              const CodecSteps& codecs)
-    : description_(std::move(description)),
+    : offered_as_(description.kind),
+      description_(std::move(description)),
       depth_(numbers, usual.depth,
              [&codecs](const std::string& codec) { return depth_traits(codec, codecs); }),
       color_(numbers, usual.color),
       refers_(codecs.refers) {
+    if (is_shown_screen())
+        description_.kind = wire::CameraKind::room;
     if (const auto calibration = decode_calibration(description_.calibration)) {
         registered_ = calibration->room_from_camera;
         has_own_gain_ = calibration->color_gain.has_value();

@@ -42,6 +42,12 @@ public:
     bool set_estimated_gain(Vec3 gain);
     ParticipantId publisher() const { return description_.publisher; }
     bool is_face() const { return description_.kind == wire::CameraKind::face; }
+    // A screen that came as wire::CameraKind::screen, of which others are told as of any screen.
+    bool is_shown_screen() const { return offered_as_ == wire::CameraKind::screen; }
+    // Its publisher encodes it in one way alone, whatever its receivers wish.
+    bool has_one_encoding() const { return is_face() || is_shown_screen(); }
+    // On it depends the right that its publisher needs.
+    wire::CameraKind offered_as() const { return offered_as_; }
     // Nobody is told of its own camera, and of faces only programs that show them.
     bool is_told_to(ParticipantId receiver, bool takes_faces) const {
         return publisher() != receiver && (takes_faces || !is_face());
@@ -103,6 +109,7 @@ private:
         FrameNumber frame = 0;
         int layer = 0;
     };
+    const wire::CameraKind offered_as_;
     wire::Camera description_;
     Pose registered_;            // the room from the camera
     bool has_own_gain_ = false;  // in its calibration

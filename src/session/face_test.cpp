@@ -176,7 +176,7 @@ TEST_F(Faces, TooManyAndTooLargePicturesAreLeftOutAndCounted) {
     const auto both = settings(alice);
     ASSERT_EQ(both.size(), 2u);
     const std::vector<ParticipantId> to_bob{bob};
-    const auto refused = [&] { return session_->participants().at(alice).refused_faces; };
+    const auto refused = [&] { return session_->participants().at(alice).refused_pictures; };
     // Ten seconds at the allowed rate.
     for (int i = 0; i < 150; ++i) {
         now += 66'667us;

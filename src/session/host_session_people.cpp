@@ -23,6 +23,14 @@ bool is_on_person(ManageAction action) {
            action == ManageAction::set_role || action == ManageAction::remove;
 }
 
+// The refusal of an offer of cameras that needs this right.
+TextCode refusal_of(Right right) {
+    if (right == Right::be_seen)
+        return TextCode::face_forbidden;
+    return right == Right::show_screen ? TextCode::screen_forbidden
+                                       : TextCode::link_without_cameras;
+}
+
 }  // namespace
 
 bool HostSession::allow(ParticipantId id, Right right) {
@@ -38,10 +46,7 @@ bool HostSession::allow(ParticipantId id, Right right) {
 void HostSession::deny(ParticipantId id, const wire::ToHost& message) {
     ++admission_.find(id)->denied;
     if (const auto* offer = std::get_if<wire::Publish>(&message))
-        send(id, wire::Published{
-                     {},
-                     {needed_right(*offer) == Right::be_seen ? TextCode::face_forbidden
-                                                             : TextCode::link_without_cameras}});
+        send(id, wire::Published{{}, {refusal_of(needed_right(*offer))}});
     else if (const auto* request = std::get_if<wire::RoomRequest>(&message))
         room_.refuse(id, *request, Refusal::role);
     else if (const auto* decision = std::get_if<wire::Manage>(&message))
@@ -211,7 +216,7 @@ void HostSession::set_role(ParticipantId id, Role role) {
         std::erase(person.features, wire::Feature::publish);
         std::vector<CameraId> forbidden = streams_.cameras().of(id);
         std::erase_if(forbidden, [&](CameraId camera) {
-            return person.may(needed_right(streams_.cameras().find(camera)->description().kind));
+            return person.may(needed_right(streams_.cameras().find(camera)->offered_as()));
         });
         shared_.remove(id, forbidden);
     } else if (person.asks_to_publish && !could_publish) {

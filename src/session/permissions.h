@@ -11,16 +11,17 @@ namespace theatron::session {
 using wire::Role;
 
 enum class Right : std::uint8_t {
-    see,      // receive cameras and the room, and choose how
-    speak,    // taken away by muting
-    point,    // show hands, call others to oneself
-    handle,   // create, hold, change and remove objects
-    record,   // join as a recorder
-    publish,  // send cameras
-    manage,   // admit, mute and remove others, change their roles, end the session
-    adjust,   // nudge cameras, draw their regions
-    play,     // pause and seek the recording that the host plays
-    be_seen,  // send the picture of the own face, or its expression
+    see,          // receive cameras and the room, and choose how
+    speak,        // taken away by muting
+    point,        // show hands, call others to oneself
+    handle,       // create, hold, change and remove objects
+    record,       // join as a recorder
+    publish,      // send cameras
+    manage,       // admit, mute and remove others, change their roles, end the session
+    adjust,       // nudge cameras, draw their regions
+    play,         // pause and seek the recording that the host plays
+    be_seen,      // send the picture of the own face, or its expression
+    show_screen,  // send the pictures of a screen (wire::CameraKind::screen)
 };
 
 constexpr bool may(Role role, Right right) {
@@ -44,14 +45,28 @@ constexpr bool may_know_patient(Role role) {
 
 // The rights of messages that depend on what they say; request_kinds.cpp has those of all.
 constexpr Right needed_right(wire::CameraKind kind) {
-    return kind == wire::CameraKind::face ? Right::be_seen : Right::publish;
+    switch (kind) {
+        case wire::CameraKind::face:
+            return Right::be_seen;
+        case wire::CameraKind::screen:
+            return Right::show_screen;
+        case wire::CameraKind::room:
+        case wire::CameraKind::person:
+            break;
+    }
+    return Right::publish;
 }
-// One camera of the room is enough to need the right for it.
+// One camera of the room is enough to need the right for it, and one screen that for screens.
 inline Right needed_right(const wire::Publish& message) {
-    for (const wire::OfferedCamera& camera : message.cameras)
-        if (camera.kind != wire::CameraKind::face)
-            return Right::publish;
-    return message.cameras.empty() ? Right::publish : Right::be_seen;
+    Right needed = message.cameras.empty() ? Right::publish : Right::be_seen;
+    for (const wire::OfferedCamera& camera : message.cameras) {
+        const Right own = needed_right(camera.kind);
+        if (own == Right::publish)
+            return own;
+        if (own == Right::show_screen)
+            needed = own;
+    }
+    return needed;
 }
 // Number 0 asks for a snapshot.
 constexpr Right needed_right(const wire::RoomRequest& message) {

@@ -130,6 +130,7 @@ void SharedCameras::remove(ParticipantId id, const std::vector<CameraId>& camera
     }
     streams_.remove(cameras);
     face_paces_.clear();
+    screen_paces_.clear();
     set_budgets();
 }
 
@@ -170,8 +171,8 @@ SharedCameras::Received SharedCameras::on_media(ParticipantId id, ByteView messa
     if (!camera || camera->publisher() != id ||
         (!is_depth(header->stream) && !camera->description().has_color))
         return {{}, {TextCode::foreign_picture}};
-    if (camera->is_face() &&
-        !lets_face_through(*participant, *camera, *header, message.size(), now))
+    if (camera->has_one_encoding() &&
+        !lets_through(*participant, *camera, *header, message.size(), now))
         return {};
     look_back_.keep(*header, message, now);
     std::vector<ParticipantId> receivers = streams_.on_media(*header, message.size(), now);
@@ -181,14 +182,14 @@ SharedCameras::Received SharedCameras::on_media(ParticipantId id, ByteView messa
 }
 
 // Pictures of settings that are gone are ignored later, as those of all cameras.
-bool SharedCameras::lets_face_through(Admission::Participant& publisher,
-                                      const CameraStreams& camera, const wire::MediaHeader& header,
-                                      std::size_t size, TimePoint now) {
+bool SharedCameras::lets_through(Admission::Participant& publisher, const CameraStreams& camera,
+                                 const wire::MediaHeader& header, std::size_t size, TimePoint now) {
     if (!camera.table(is_depth(header.stream)).find(header.setting))
         return true;
-    if (size <= max_face_message && face_paces_[header.setting].take(now))
+    if (camera.is_face() ? size <= max_face_message && face_paces_[header.setting].take(now)
+                         : screen_paces_[header.setting].take(now, size))
         return true;
-    ++publisher.refused_faces;
+    ++publisher.refused_pictures;
     return false;
 }
 

@@ -18,6 +18,7 @@
 #include "session/host_actions.h"
 #include "session/host_room.h"
 #include "session/look_backs.h"
+#include "session/screen_limits.h"
 #include "session/streams.h"
 #include "wire/control.h"
 #include "wire/media_header.h"
@@ -77,8 +78,9 @@ private:
                                             Placing which) const;
     void name_cameras(ParticipantId publisher, std::vector<wire::Camera>& cameras) const;
     void take_media(ParticipantId publisher);
-    bool lets_face_through(Admission::Participant& publisher, const CameraStreams& camera,
-                           const wire::MediaHeader& header, std::size_t size, TimePoint now);
+    // A face and a screen of a browser have limits of their own.
+    bool lets_through(Admission::Participant& publisher, const CameraStreams& camera,
+                      const wire::MediaHeader& header, std::size_t size, TimePoint now);
     void audit(AuditEvent::What what, ParticipantId id, CameraId camera,
                const std::string& by = "");
     void send(ParticipantId id, wire::ToParticipant message) {
@@ -92,7 +94,8 @@ private:
     LookBacks& look_back_;
     DirectPaths& direct_;
     std::vector<Action>& actions_;
-    std::map<SettingId, FacePace> face_paces_;  // of active settings
+    std::map<SettingId, FacePace> face_paces_;      // of active settings
+    std::map<SettingId, ScreenPace> screen_paces_;  // of active settings
 };
 
 }  // namespace theatron::session

@@ -2,6 +2,7 @@
 #include "session/stream_receiver.h"
 
 #include "session/face_limits.h"
+#include "session/screen_limits.h"
 
 namespace theatron::session {
 
@@ -37,6 +38,8 @@ void StreamReceiver::request(CameraStreams& camera, ParticipantId id, bool depth
     SettingTable& table = camera.table(depth);
     if (camera.is_face())
         table.wish(id, std::string(depth ? face_depth_codec : face_color_codec));
+    else if (camera.is_shown_screen())
+        table.wish(id, std::string(depth ? screen_depth_codec : screen_color_codec));
     else
         table.wish(id, wished(camera.description().id, depth));
     if (records)
@@ -49,7 +52,7 @@ const LadderStep& StreamReceiver::step_for(const CameraStreams& camera, Particip
 }
 
 void StreamReceiver::take_step(CameraStreams& camera, ParticipantId id) {
-    if (camera.is_face())
+    if (camera.has_one_encoding())
         return;  // fewer pictures are sent, but no other ones
     const LadderStep step = step_for(camera, id);
     camera.table(true).stopgap(id, step.depth_codec);
@@ -57,7 +60,7 @@ void StreamReceiver::take_step(CameraStreams& camera, ParticipantId id) {
 }
 
 wire::Text StreamReceiver::note_on(const CameraStreams& camera, ParticipantId id) {
-    if (camera.is_face())
+    if (camera.has_one_encoding())
         return {};
     for (const bool depth : {true, false}) {
         const LadderStep& step = step_for(camera, id);

@@ -189,7 +189,7 @@ std::vector<ParticipantId> Streams::receivers(StreamId stream, SettingId setting
 std::vector<StreamUse> Streams::uses() const {
     std::vector<StreamUse> result;
     for (const auto& [id, camera] : cameras_) {
-        if (camera.publisher() == host_publisher || camera.is_face())
+        if (camera.publisher() == host_publisher || camera.has_one_encoding())
             continue;
         for (const bool depth : {true, false}) {
             const ActiveSetting* kept = kept_setting(camera.stream(depth));

@@ -157,7 +157,7 @@ bool is_sound(const CameraState& state) {
     return state.condition <= CameraCondition::failed;
 }
 bool is_sound(const OfferedCamera& camera) {
-    return camera.kind <= CameraKind::face;
+    return camera.kind <= CameraKind::screen;
 }
 bool is_sound(const Camera& camera) {
     return camera.kind <= CameraKind::face;

@@ -44,6 +44,7 @@ enum class Feature : std::uint16_t {
     patient = 11,       // shows who the patient of the open case is, to a person who may know it
     direct = 12,        // pictures go from publisher to receiver: OfferDirect, DirectGrants
     asks_patient = 13,  // may ask whose case it is before it is opened: AskPatient, AskedPatient
+    shows_screen = 14,  // may offer a screen as JPEG pictures: CameraKind::screen
 };
 inline constexpr std::size_t max_features = 32;
 inline constexpr std::size_t person_id_size = 16;

@@ -234,6 +234,20 @@ constexpr Row rows[] = {
     {TextCode::host_without_faces,
      {"This host is too old to show your face; you are seen without a picture.",
       "Dieser Gastgeber ist zu alt, um Ihr Gesicht zu zeigen; Sie werden ohne Bild gesehen."}},
+    {TextCode::screen_beyond_limits,
+     {"A screen shown from a browser has at most {0} pixels, {1} times a second.",
+      "Ein Bildschirm aus dem Browser darf höchstens {0} Bildpunkte haben und {1}-mal in der "
+      "Sekunde kommen."}},
+    {TextCode::one_screen,
+     {"A browser shows one screen; end the first one.",
+      "Ein Browser zeigt einen Bildschirm; beenden Sie zuerst den anderen."}},
+    {TextCode::screen_forbidden,
+     {"Observers show no screen; ask the operator to make you an expert.",
+      "Beobachter zeigen keinen Bildschirm; bitten Sie die Sitzungsleitung, Sie zum Experten zu "
+      "machen."}},
+    {TextCode::host_without_screens,
+     {"This host is too old to take a screen from a browser.",
+      "Dieser Gastgeber ist zu alt, um einen Bildschirm aus dem Browser anzunehmen."}},
 
     {TextCode::object_gone, {"That object is gone", "Dieses Objekt gibt es nicht mehr"}},
     {TextCode::held_by_another, {"Somebody else holds this", "Jemand anders hält das"}},

@@ -89,6 +89,10 @@ enum class TextCode : std::uint16_t {
     too_many_faces = 408,  // {0}: how many there can be
     face_forbidden = 409,
     host_without_faces = 410,
+    screen_beyond_limits = 411,  // {0}: pixels, {1}: pictures a second
+    one_screen = 412,
+    screen_forbidden = 413,
+    host_without_screens = 414,
 
     // Requests to change the room.
     object_gone = 500,

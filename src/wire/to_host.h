@@ -78,6 +78,10 @@ enum class CameraKind : std::uint8_t {
     // Its publisher's face, as a small screen (geometry/screen.h) that is drawn on the head: there
     // is no frame. For those who have Feature::webcam; others cannot read it.
     face = 2,
+    // A screen of the room whose pictures come as JPEG alone, as a browser makes them
+    // (session/screen_limits.h). In offers alone, to a host with Feature::shows_screen; the host
+    // announces it as a screen like any other, of kind `room`.
+    screen = 3,
 };
 
 // A camera that a participant offers. The host gives it its number.

@@ -300,7 +300,11 @@ TEST(Control, EveryMessageRoundTrips) {
         round_trip(Publish{{{"face", true, 30, numbered(5), true, CameraKind::person}}});
     EXPECT_EQ(offer.cameras.at(0).kind, CameraKind::person);
     EXPECT_FALSE(
-        decode_to_host(encode(Publish{{{"face", true, 30, numbered(5), true, CameraKind{3}}}})));
+        decode_to_host(encode(Publish{{{"face", true, 30, numbered(5), true, CameraKind{4}}}})));
+    EXPECT_EQ(round_trip(Publish{{{"mine", true, 8, numbered(5), false, CameraKind::screen}}})
+                  .cameras.at(0)
+                  .kind,
+              CameraKind::screen);
     ASSERT_EQ(offer.cameras.size(), 1u);
     EXPECT_EQ(offer.cameras[0].name, "face");
     EXPECT_EQ(offer.cameras[0].calibration, numbered(5));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The functions that page/page.js and page/face.js call for the person's voice and face.
+// The functions that page/page.js, page/face.js and page/screen.js call for the person's voice,
+// face and screen.
 #include <emscripten/emscripten.h>
 
 #include "visit.h"
@@ -37,7 +38,7 @@ EMSCRIPTEN_KEEPALIVE void theatron_show_face(int width, int height, double pictu
         return;
     std::optional<wire::OfferedCamera> offer;
     if (width > 0)
-        offer = client::FaceSender::offer({width, height}, pictures_per_s);
+        offer = client::PictureSender::face({width, height}, pictures_per_s);
     page().visit->participant.publish_face(std::move(offer));
 }
 // A picture of the face, a JPEG in theatron_memory(), and its age in microseconds.
@@ -47,6 +48,23 @@ EMSCRIPTEN_KEEPALIVE void theatron_send_face(double age_us) {
     client::Participant& participant = page().visit->participant;
     page().visit->face.send(participant, page().bytes,
                             participant.now() - Duration(std::int64_t(age_us)));
+}
+// Offers a screen of this name and size to all, or with width 0 withdraws it.
+EMSCRIPTEN_KEEPALIVE void theatron_show_screen(const char* name, int width, int height,
+                                               double pictures_per_s) {
+    if (!page().participant())
+        return;
+    std::optional<wire::OfferedCamera> offer;
+    if (width > 0)
+        offer = client::PictureSender::screen(name, {width, height}, pictures_per_s);
+    page().participant()->show_screen(std::move(offer));
+}
+// A picture of the screen, a JPEG in theatron_memory(), and its age in microseconds.
+EMSCRIPTEN_KEEPALIVE void theatron_send_screen(double age_us) {
+    client::Participant* participant = page().participant();
+    if (participant)
+        page().screen.send(*participant, page().bytes,
+                           participant->now() - Duration(std::int64_t(age_us)));
 }
 // For the panels: the camera is off (0), being opened (1) or sends (2).
 EMSCRIPTEN_KEEPALIVE void theatron_note_face(int state) {

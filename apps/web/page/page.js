@@ -10,11 +10,12 @@ import { Headset, headset_kinds } from "./headset.js";
 import { listen } from "./input.js";
 import { Lobby } from "./lobby.js";
 import { Notices } from "./notices.js";
-import { command_of, face_problem, fill_texts, show, show_face, show_voices } from "./panels.js";
+import { command_of, face_problem, fill_texts, show, show_face, show_own_screen, show_voices } from "./panels.js";
 import { Person } from "./person.js";
 import { PicturePanel } from "./picture.js";
 import { put_bytes, with_patience, with_program } from "./program.js";
 import { ask_for_right_link } from "./right_link.js";
+import { Screen } from "./screen.js";
 import { Sheet } from "./sheet.js";
 import { StillCover } from "./still.js";
 import { store, stored } from "./storage.js";
@@ -80,6 +81,8 @@ async function load_client() {
         show_face: [null, numbers(3)],
         send_face: [null, numbers(1)],
         note_face: [null, numbers(1)],
+        show_screen: [null, ["string", ...numbers(3)]],
+        send_screen: [null, numbers(1)],
         face_wish: ["number", []],
         picture_choices: ["string", []],
         choose: [null, ["string", "string"]],
@@ -92,6 +95,8 @@ async function load_client() {
         client.speak(number, age_us, pauses, level_db, opus, opus.length), () => show_voices(voice, page.state));
     module.on_voice = (speaker, packet) => voice.hear(speaker, packet);
     const face = page.face = new Face($("own_face_picture"), module, client);
+    const screen = page.screen = new Screen(module, client, () => text("name_of_screen", { name: $("name").value }),
+                                            () => show_own_screen(page.screen, page.state));
     page.reset_figures = client.reset_figures;
     page.time_strata = (hex, passes) => {
         put_bytes(module, Uint8Array.from(hex.match(/../g), digits => parseInt(digits, 16)).buffer);
@@ -104,9 +109,9 @@ async function load_client() {
     page.has_h264 = () => page.workers.length ? page.workers.every(({ has_h264 }) => has_h264) : page_has_h264;
     join_workers(module, page.workers, () => {
         client.leave();
-        leave(voice, face, text("decoder_ended"));
+        leave({ voice, face, screen }, text("decoder_ended"));
     });
-    return { client, voice, face, module, flat: new FlatView($("flat"), module, client) };
+    return { client, voice, face, screen, module, flat: new FlatView($("flat"), module, client) };
 }
 
 // For tests and measurements: the newest state, and milliseconds since the link was opened.
@@ -118,7 +123,7 @@ function is_complete({ cameras, has_picture }) {
         (camera.depth === "none" || camera.depth_frames) && (camera.color_frames || !camera.color));
 }
 
-function run({ client, voice, face, module, flat }) {
+function run({ client, voice, face, screen, module, flat }) {
     const canvas = $("view");
     let patience = new Patience();
     let next_texts = 0;
@@ -150,6 +155,8 @@ function run({ client, voice, face, module, flat }) {
     for (const id of ["door", "call"])
         $(id).addEventListener("click", event => sheet.open("people", event.detail === 0 ? $(id) : null));
     $("webcam").addEventListener("click", () => ["asking", "on"].includes(face.state) ? face.hide() : face.show());
+    for (const id of ["share_screen", "end_own_screen"])
+        $(id).addEventListener("click", () => ["asking", "on"].includes(screen.state) ? screen.hide() : screen.show());
     $("microphone").addEventListener("click", () => voice.toggle_microphone());
     $("push_to_talk").addEventListener("click", () => change_push_to_talk(voice));
     const change_voice_recording = () => {
@@ -214,6 +221,12 @@ function run({ client, voice, face, module, flat }) {
         client.note_face({ asking: 1, on: 2 }[face.state] ?? 0);
         show_face(face, page.way);
     };
+    // A refusal, and who has ended it for all, are remarks, which are shown.
+    const follow_screen = ({ may_show_screen, screen: told }) => {
+        if (told.has_ended || (screen.state === "on" && (told.problem || !may_show_screen)))
+            screen.hide();
+        show_own_screen(screen, page.state);
+    };
     const show_state = () => {
         page.state = JSON.parse(client.state());
         // Nothing of a session stays once it is over for this person.
@@ -226,9 +239,11 @@ function run({ client, voice, face, module, flat }) {
         }
         if (page.state.phase === "left") {
             sheet.close();
-            return leave(voice, face, page.state.problem);
+            return leave({ voice, face, screen }, page.state.problem);
         }
         follow_face();
+        if (page.state.phase === "joined")
+            follow_screen(page.state);
         page.state.face_problem ||= face_problem(face, page.way);
         const way_sentence = show_way(page.state);
         show(page.state, { sheet, notices, way: page.way, way_sentence, now_ms: performance.now() });
@@ -272,6 +287,7 @@ function run({ client, voice, face, module, flat }) {
         forget_picture();
         enter(client);
         follow_way(face);
+        screen.offer();
     };
     $("other_way").addEventListener("click", () => change_way(page.way === "flat" ? "room" : "flat", ""));
     $("next_camera").addEventListener("click", () => client.flat_next());
@@ -430,9 +446,10 @@ function follow_way(face) {
         face.offer();
 }
 
-function leave(voice, face, problem) {
+function leave({ voice, face, screen }, problem) {
     voice.leave();
     face.hide();
+    screen.hide();
     still.rest();
     $("view").hidden = $("flat").hidden = $("panels").hidden = $("session_picture").hidden = true;
     // The canvases would keep their last pictures.

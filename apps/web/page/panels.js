@@ -195,6 +195,15 @@ export function show_face(face, way) {
     set_text($("face_hint"), face.state === "asking" ? text("face_asking") : face_problem(face, way));
 }
 
+// The button, the panel that says so while a screen is shown, and why none is.
+export function show_own_screen(screen, { may_show_screen }) {
+    const is_on = screen.state === "on";
+    $("own_screen").hidden = !is_on;
+    $("share_screen").hidden = !screen.constructor.is_supported() || (!may_show_screen && !is_on);
+    set_text($("share_screen"), text(is_on ? "end_own_screen" : "share_screen"));
+    set_text($("share_hint"), { asking: text("screen_asking"), refused: text("screen_refused") }[screen.state] ?? "");
+}
+
 // The kinds of the client's panels that each of the page's panels has, from top to bottom.
 const kinds = { people: ["door", "call", "people", "screens", "sound", "places"], case: ["case"], draw: ["marks"], more: ["past"] };
 

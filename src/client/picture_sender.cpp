@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "client/face_sender.h"
+#include "client/picture_sender.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "codec/depth_stream.h"
 #include "geometry/screen.h"
@@ -28,7 +29,7 @@ Bytes encoded_plane(const std::string& codec, std::uint8_t& id) {
 
 }  // namespace
 
-wire::OfferedCamera FaceSender::offer(Size picture, double frames_per_second) {
+wire::OfferedCamera PictureSender::face(Size picture, double frames_per_second) {
     return {"face",
             true,
             frames_per_second,
@@ -37,7 +38,17 @@ wire::OfferedCamera FaceSender::offer(Size picture, double frames_per_second) {
             wire::CameraKind::face};
 }
 
-Participant::Publishing FaceSender::events() {
+wire::OfferedCamera PictureSender::screen(const std::string& name, Size picture,
+                                          double frames_per_second) {
+    return {name,
+            true,
+            frames_per_second,
+            encode_calibration(screen_calibration(picture, usual_screen_width_m, {})),
+            false,
+            wire::CameraKind::screen};
+}
+
+Participant::Publishing PictureSender::events() {
     Participant::Publishing events;
     events.published = [this](const std::vector<CameraId>& numbers) {
         const std::lock_guard lock(mutex_);
@@ -52,18 +63,32 @@ Participant::Publishing FaceSender::events() {
                 numbers_.end())
                 settings_.push_back(setting);
     };
+    events.ended = [this](const std::vector<CameraId>& numbers) {
+        const std::lock_guard lock(mutex_);
+        if (numbers_.empty() ||
+            std::find(numbers.begin(), numbers.end(), numbers_.front()) == numbers.end())
+            return;
+        numbers_.clear();
+        settings_.clear();
+        has_ended_ = true;
+    };
     // Every picture is a key frame.
     events.encode_key = [](StreamId, SettingId) {};
     return events;
 }
 
-bool FaceSender::is_taken() const {
+bool PictureSender::is_taken() const {
     const std::lock_guard lock(mutex_);
     return !numbers_.empty();
 }
 
-std::vector<FaceSender::Media> FaceSender::messages(ByteView jpeg, TimePoint captured,
-                                                    TimePoint encoded) {
+bool PictureSender::take_ended() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(has_ended_, false);
+}
+
+std::vector<PictureSender::Media> PictureSender::messages(ByteView jpeg, TimePoint captured,
+                                                          TimePoint encoded) {
     std::vector<Media> messages;
     const std::lock_guard lock(mutex_);
     ++frame_;
@@ -96,7 +121,7 @@ std::vector<FaceSender::Media> FaceSender::messages(ByteView jpeg, TimePoint cap
     return messages;
 }
 
-void FaceSender::send(Participant& participant, ByteView jpeg, TimePoint captured) {
+void PictureSender::send(Participant& participant, ByteView jpeg, TimePoint captured) {
     for (Media& media : messages(jpeg, captured, participant.now()))
         participant.send_media(media.header, std::move(media.message));
 }

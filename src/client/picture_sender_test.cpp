@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "client/face_sender.h"
+#include "client/picture_sender.h"
 
 #include <gtest/gtest.h>
 
 #include "codec/depth_stream.h"
 #include "geometry/screen.h"
 #include "session/face_limits.h"
+#include "session/screen_limits.h"
 #include "video/color_codec.h"
 
 namespace theatron::client {
@@ -13,18 +14,18 @@ namespace {
 
 constexpr CameraId own{5}, other{6};
 
-class FaceSenderTest : public ::testing::Test {
+class PictureSenderTest : public ::testing::Test {
 protected:
-    std::vector<FaceSender::Media> messages() {
+    std::vector<PictureSender::Media> messages() {
         return sender.messages(jpeg, from_us(1000), from_us(3000));
     }
     const Bytes jpeg = Bytes(100, std::byte{9});
-    FaceSender sender;
+    PictureSender sender;
     const Participant::Publishing events = sender.events();
 };
 
-TEST_F(FaceSenderTest, OffersWhatTheHostTakes) {
-    const wire::OfferedCamera offer = FaceSender::offer({320, 240}, 10);
+TEST_F(PictureSenderTest, OffersWhatTheHostTakes) {
+    const wire::OfferedCamera offer = PictureSender::face({320, 240}, 10);
     EXPECT_EQ(offer.kind, wire::CameraKind::face);
     EXPECT_FALSE(offer.may_record);
     const auto calibration = decode_calibration(offer.calibration);
@@ -32,7 +33,7 @@ TEST_F(FaceSenderTest, OffersWhatTheHostTakes) {
     EXPECT_TRUE(session::is_face(*calibration, offer.frames_per_second));
 }
 
-TEST_F(FaceSenderTest, SendsNothingUntilTheHostWantsIt) {
+TEST_F(PictureSenderTest, SendsNothingUntilTheHostWantsIt) {
     EXPECT_FALSE(sender.is_taken());
     EXPECT_TRUE(messages().empty());
     events.published({own});
@@ -44,14 +45,14 @@ TEST_F(FaceSenderTest, SendsNothingUntilTheHostWantsIt) {
     EXPECT_TRUE(messages().empty()) << "the connection is lost";
 }
 
-TEST_F(FaceSenderTest, APictureIsThePlaneOfAScreenAndTheJpeg) {
+TEST_F(PictureSenderTest, APictureIsThePlaneOfAScreenAndTheJpeg) {
     events.published({own});
     events.encode({{depth_stream(own), SettingId{2}, std::string(session::face_depth_codec)},
                    {color_stream(own), SettingId{3}, std::string(session::face_color_codec)},
                    {color_stream(other), SettingId{4}, "jpeg"}});
     const auto sent = messages();
     ASSERT_EQ(sent.size(), 2u);
-    for (const FaceSender::Media& media : sent) {
+    for (const PictureSender::Media& media : sent) {
         const auto header = wire::parse_media_header(*media.message);
         ASSERT_TRUE(header);
         EXPECT_TRUE(header->key);
@@ -73,11 +74,38 @@ TEST_F(FaceSenderTest, APictureIsThePlaneOfAScreenAndTheJpeg) {
     EXPECT_NE(messages()[0].header.frame, sent[0].header.frame);
 }
 
-TEST_F(FaceSenderTest, LeavesOutWhatItCannotEncode) {
+TEST_F(PictureSenderTest, LeavesOutWhatItCannotEncode) {
     events.published({own});
     events.encode({{depth_stream(own), SettingId{2}, "of next year"},
                    {color_stream(own), SettingId{3}, "h264:crf=20"}});
     EXPECT_TRUE(messages().empty());
+}
+
+TEST_F(PictureSenderTest, AScreenIsOfferedWithinTheHostsLimits) {
+    const wire::OfferedCamera offer = PictureSender::screen("Screen of Ada", {1920, 1200}, 8);
+    EXPECT_EQ(offer.kind, wire::CameraKind::screen);
+    EXPECT_EQ(offer.name, "Screen of Ada");
+    EXPECT_FALSE(offer.may_record);
+    const auto calibration = decode_calibration(offer.calibration);
+    ASSERT_TRUE(calibration);
+    EXPECT_TRUE(session::is_shown_screen(*calibration, offer.frames_per_second));
+    events.published({own});
+    events.encode({{depth_stream(own), SettingId{2}, std::string(session::screen_depth_codec)},
+                   {color_stream(own), SettingId{3}, std::string(session::screen_color_codec)}});
+    EXPECT_EQ(messages().size(), 2u);
+}
+
+TEST_F(PictureSenderTest, OneThatOthersEndedSendsNothingMore) {
+    events.published({own});
+    events.encode({{color_stream(own), SettingId{3}, "jpeg:quality=85"}});
+    events.ended({other});
+    EXPECT_FALSE(sender.take_ended());
+    EXPECT_EQ(messages().size(), 1u);
+    events.ended({other, own});
+    EXPECT_FALSE(sender.is_taken());
+    EXPECT_TRUE(messages().empty());
+    EXPECT_TRUE(sender.take_ended());
+    EXPECT_FALSE(sender.take_ended()) << "it is told once";
 }
 
 }  // namespace
