@@ -96,11 +96,12 @@ EMSCRIPTEN_KEEPALIVE void theatron_leave() {
 }
 
 // In the page's rhythm, with the pixels of the canvas: begins the next picture unless the GPU still
-// works on one. 1 while it does.
+// works on one. 1 while it does, and 2 more if this call has drawn the canvas.
 EMSCRIPTEN_KEEPALIVE int theatron_draw(int width, int height) {
+    bool is_drawn = false;
     if (page().visit)
-        web::guarded([&] { web::draw(*page().visit, {width, height}); });
-    return page().visit && page().visit->drawing.is_waiting();
+        web::guarded([&] { is_drawn = web::draw(*page().visit, {width, height}); });
+    return int(page().visit && page().visit->drawing.is_waiting()) | int(is_drawn) << 1;
 }
 
 // In the page's rhythm, also while the GPU draws: a step of the work on the room. The clouds come

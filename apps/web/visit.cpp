@@ -166,9 +166,9 @@ bool finish_drawing(Visit& visit) {
     return true;
 }
 
-void draw(Visit& visit, Size size) {
+bool draw(Visit& visit, Size size) {
     if (visit.drawing.is_waiting())
-        return;
+        return false;
     const TimePoint now = steady_now();
     want_frames(visit, now);
     const xr::WindowInput input = page().input.take();
@@ -178,7 +178,7 @@ void draw(Visit& visit, Size size) {
     // The picture follows in the next event.
     const bool made_cameras = visit.viewer.take_made_cameras();
     if ((!changed && !input.redraw) || made_cameras)
-        return;
+        return false;
     if (changed)
         visit.viewer.draw(size, visit.picture.begin(size, visit.viewer.way().scale), now);
     visit.picture.show(size);
@@ -188,6 +188,7 @@ void draw(Visit& visit, Size size) {
     }
     glFlush();
     visit.drawing_submitted = steady_now();
+    return true;
 }
 
 void draw_headset(Visit& visit, const xr::HeadsetFrame& frame, bool real_room) {

@@ -99,8 +99,8 @@ std::string ask_for_depth(client::Participant::Options& options, const std::stri
 void follow_color(Visit& visit, const client::ParticipantFigures& figures, TimePoint now);
 void follow_color(FlatVisit& visit, const client::ParticipantFigures& figures, TimePoint now);
 
-// Begins a picture if there is a new one and the GPU is free.
-void draw(Visit& visit, Size size);
+// Begins a picture if there is a new one and the GPU is free. True if the canvas was drawn.
+bool draw(Visit& visit, Size size);
 // A picture for a headset, whatever is new: its display needs one each time.
 void draw_headset(Visit& visit, const xr::HeadsetFrame& frame, bool real_room);
 // True once the GPU has finished the last picture. Waiting for it would block the page.

@@ -34,11 +34,12 @@ render::DrawTarget ScaledPicture::begin(Size window, double scale) {
 
 void ScaledPicture::show(Size window) const {
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
-    if (!parts_->target) {
-        glClearColor(background.r / 255.0f, background.g / 255.0f, background.b / 255.0f, 1);
-        glClear(GL_COLOR_BUFFER_BIT);
+    // Also below a picture: Chromium does not notice a canvas into which pixels are only copied, and
+    // neither shows it nor gives it to a file.
+    glClearColor(background.r / 255.0f, background.g / 255.0f, background.b / 255.0f, 1);
+    glClear(GL_COLOR_BUFFER_BIT);
+    if (!parts_->target)
         return;
-    }
     const render::DrawTarget from = parts_->target->target();
     glBindFramebuffer(GL_READ_FRAMEBUFFER, from.framebuffer);
     glBlitFramebuffer(0, 0, from.size.width, from.size.height, 0, 0, window.width, window.height,

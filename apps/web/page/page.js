@@ -15,6 +15,7 @@ import { Person } from "./person.js";
 import { PicturePanel } from "./picture.js";
 import { put_bytes, with_patience, with_program } from "./program.js";
 import { ask_for_right_link } from "./right_link.js";
+import { save_picture } from "./saved.js";
 import { Screen } from "./screen.js";
 import { Sheet } from "./sheet.js";
 import { StillCover } from "./still.js";
@@ -155,6 +156,13 @@ function run({ client, voice, face, screen, module, flat }) {
     for (const id of ["door", "call"])
         $(id).addEventListener("click", event => sheet.open("people", event.detail === 0 ? $(id) : null));
     $("webcam").addEventListener("click", () => ["asking", "on"].includes(face.state) ? face.hide() : face.show());
+    let is_to_save = false;
+    $("save_picture").addEventListener("click", () => {
+        if (page.way === "flat")
+            return save_picture($("flat"), page.state);
+        is_to_save = true;
+        client.redraw();
+    });
     for (const id of ["share_screen", "end_own_screen"])
         $(id).addEventListener("click", () => ["asking", "on"].includes(screen.state) ? screen.hide() : screen.show());
     $("microphone").addEventListener("click", () => voice.toggle_microphone());
@@ -370,7 +378,12 @@ function run({ client, voice, face, screen, module, flat }) {
             client.redraw();
         }
         prepare_room(now);
-        if (!is_drawing && client.draw(width, height))
+        const drawn = is_drawing ? 0 : client.draw(width, height);
+        if (drawn & 2 && is_to_save) {
+            is_to_save = false;
+            save_picture(canvas, page.state);
+        }
+        if (drawn & 1)
             wait_for_picture();
     };
     return () => {

@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The page saves the picture that is seen, and the file says from when it is and whether it is live."""
+import contextlib
+import pathlib
+import tempfile
+import unittest
+
+import patience
+from browser import CHROMIUM, Browser
+from theatron_process import PROGRAM, host, read_png
+
+PAGE = pathlib.Path(PROGRAM).parent / "web/files.txt"
+SIZE = (640, 360)
+LINE_PX = 28
+
+
+@unittest.skipUnless(CHROMIUM, "chromium is not installed: apt-get install chromium")
+@unittest.skipUnless(PAGE.exists(), "there is no browser client: make build")
+class WebSaved(unittest.TestCase):
+    def saved(self, browser, page, known):
+        page.open_sheet("more")
+        page.evaluate("document.getElementById('save_picture').click()")
+        page.open_sheet("")
+        new = lambda: [f for f in self.folder.glob("theatron-*.png") if f not in known and not list(self.folder.glob("*.crdownload"))]
+        return patience.wait_until(new, "a file", of=browser)[0]
+
+    def test_a_live_picture_and_one_that_is_not(self):
+        with contextlib.ExitStack() as stack:
+            self.folder = pathlib.Path(stack.enter_context(tempfile.TemporaryDirectory()))
+            served = stack.enter_context(host(self.folder / "host", "synthetic:seconds=2,fps=10,quality=quick,loop=1"))
+            browser = stack.enter_context(Browser())
+            browser.call("Browser.setDownloadBehavior", behavior="allow", downloadPath=str(self.folder))
+            known = []
+            for way in ("flat", "room"):
+                with self.subTest(way):
+                    page = browser.open(served.greeting["link"], SIZE)
+                    page.enter(way=way)
+                    page.wait_for("theatron.complete_ms !== null")
+                    known.append(self.saved(browser, page, known))
+                    self.assertNotIn("not-live", known[-1].name)
+                    width, height, _, rows = read_png(known[-1])
+                    canvas = page.evaluate(f"(c => [c.width, c.height])(document.getElementById('{'flat' if way == 'flat' else 'view'}'))")
+                    self.assertEqual([width, height], [canvas[0], canvas[1] + LINE_PX])
+                    picture, line = (b"".join(bytes(row) for row in part) for part in (rows[:-LINE_PX], rows[-LINE_PX:]))
+                    self.assertGreater(len(set(picture)), 50, "the picture is there")
+                    self.assertGreater(line.count(255), 100, "so is the line")
+                    if way == "flat":
+                        page.close()
+            served.process.kill()
+            page.wait_for("theatron.state.phase !== 'joined'")
+            self.assertIn("not-live", self.saved(browser, page, known).name)
+
+
+if __name__ == "__main__":
+    unittest.main()
