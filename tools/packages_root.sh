@@ -115,6 +115,11 @@ for change in "install --allow-downgrades /older/*.deb" "install /packages/*.deb
     [ "$(written)" = "$before" ] || fail "apt-get $change changed what a host or the administrator had written"
 done
 
+# As `systemctl enable theatron-host@or` does, which is not possible without systemd.
+enabled=$folder/etc/systemd/system/multi-user.target.wants/theatron-host@or.service
+mkdir -p "${enabled%/*}"
+ln -s /lib/systemd/system/theatron-host@.service "$enabled"
+
 say "purge"
 inside "apt-get purge -y -q theatron theatron-server theatron-doc python3-theatron" >> "$source/build/packages_root.log"
 left=$(cd "$folder" && find etc usr var/lib/theatron var/cache/theatron -iname '*theatron*' -not -path 'etc/theatron*' \
