@@ -32,7 +32,7 @@ tree=$folder/theatron-$version
 SOURCE_DATE_EPOCH=$(dpkg-parsechangelog --show-field Timestamp)
 export SOURCE_DATE_EPOCH
 mkdir "$tree"
-git ls-files -z | tar --create --null --files-from=- libraries | tar --extract --directory="$tree"
+git ls-files -z | tar --create --null --exclude='libraries/*/.pc' --files-from=- libraries | tar --extract --directory="$tree"
 (cd "$folder" && dpkg-source --build "$tree")
 rm -rf "$tree"
 

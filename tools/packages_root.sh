@@ -100,6 +100,26 @@ cp "$source/debian/tests/session" "$folder/tmp/session"
 unshare --net bash -c "set -euo pipefail; $(declare -f inside); $(declare -p environment folder); ip link set lo up; inside /tmp/session" ||
     fail "debian/tests/session fails"
 
+# The same program under another number. Neither another version nor removal changes what hosts and the administrator wrote.
+say "an older version, this one again, remove"
+mkdir "$folder/older"
+for package in theatron theatron-server; do
+    dpkg-deb --raw-extract "$source"/build/packages/"${package}"_[0-9]*.deb "$folder/older/$package"
+    sed -i 's/^Version: .*/Version: 0.0.1/; s/theatron (>= [^)]*)/theatron (>= 0.0.1)/' "$folder/older/$package/DEBIAN/control"
+    dpkg-deb --build -Znone "$folder/older/$package" "$folder/older/" > /dev/null
+done
+written() { (cd "$folder" && find etc/theatron var/lib/theatron -type f -exec sha256sum {} + | sort -k 2); }
+before=$(written)
+for change in "install --allow-downgrades /older/*.deb" "install /packages/*.deb" "remove theatron theatron-server"; do
+    inside "apt-get -y -q $change" >> "$source/build/packages_root.log"
+    [ "$(written)" = "$before" ] || fail "apt-get $change changed what a host or the administrator had written"
+done
+
+# As `systemctl enable theatron-host@or` does, which is not possible without systemd.
+enabled=$folder/etc/systemd/system/multi-user.target.wants/theatron-host@or.service
+mkdir -p "${enabled%/*}"
+ln -s /lib/systemd/system/theatron-host@.service "$enabled"
+
 say "purge"
 inside "apt-get purge -y -q theatron theatron-server theatron-doc python3-theatron" >> "$source/build/packages_root.log"
 left=$(cd "$folder" && find etc usr var/lib/theatron var/cache/theatron -iname '*theatron*' -not -path 'etc/theatron*' \

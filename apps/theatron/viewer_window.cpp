@@ -280,8 +280,7 @@ WindowEnd show(xr::DesktopWindow& window, ViewerWindow options) {
         remarks.add(text);
         window.wake();
     };
-    const std::string address =
-        options.join.link.host + ":" + std::to_string(options.join.link.port);
+    const std::string address = net::host_and_port(options.join.link);
     options.viewer.depth_codec = options.join.depth_codec;
     options.viewer.color_codec = options.join.color_codec;
     client::Participant participant(std::move(options.join));

@@ -48,8 +48,8 @@ EMSCRIPTEN_KEEPALIVE void theatron_join(const char* host, int port, const char* 
         const web::PageColor asked(color, can_h264 != 0);
         client::Participant::Options join = web::join_options(link, name, person, asked);
         const std::string problem = web::ask_for_depth(join, depth);
-        page().visit = std::make_unique<web::Visit>(
-            std::move(join), link.host + ":" + std::to_string(link.port), asked, scale);
+        page().visit =
+            std::make_unique<web::Visit>(std::move(join), net::host_and_port(link), asked, scale);
         if (!problem.empty())
             page().visit->viewer.note(problem, steady_now());
     });
@@ -64,9 +64,8 @@ EMSCRIPTEN_KEEPALIVE void theatron_join_flat(const char* host, int port, const c
     web::guarded([&] {
         const net::Link link{host, std::uint16_t(port), token, ""};
         const web::PageColor asked(color, can_h264 != 0);
-        page().flat =
-            std::make_unique<web::FlatVisit>(web::join_options(link, name, person, asked),
-                                             link.host + ":" + std::to_string(link.port), asked);
+        page().flat = std::make_unique<web::FlatVisit>(web::join_options(link, name, person, asked),
+                                                       net::host_and_port(link), asked);
     });
 }
 

@@ -59,9 +59,7 @@ std::string recent_link_text(const RecentLink& recent) {
     const auto link = parsed(recent.link);
     if (!link)
         return "";
-    const bool is_ipv6 = link->host.find(':') != std::string::npos;
-    const std::string place =
-        (is_ipv6 ? "[" + link->host + "]" : link->host) + ":" + std::to_string(link->port);
+    const std::string place = net::host_and_port(*link);
     const auto role = wire::parse_role(link->role);
     return clean_text(link->role.empty() ? say(Phrase::form_recent_host, place)
                                          : say(Phrase::form_recent_place,

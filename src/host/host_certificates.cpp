@@ -66,8 +66,17 @@ void HostPort::note_link() {
         const std::lock_guard lock(mutex_);
         link_ = link;
     }
-    write_address(state_folder_, link);
+    tell_address(link);
     note_certificates();
+}
+
+// A host goes on without it: those who have their links need no file.
+void HostPort::tell_address(const net::Link& link) const {
+    try {
+        write_address(state_folder_, link);
+    } catch (const Error& error) {
+        log::warning("host", "'theatron link' shows old links", {{"problem", error.what()}});
+    }
 }
 
 const net::Certificate& HostPort::linked_certificate() const {
@@ -113,11 +122,7 @@ void HostPort::follow_certificates() {
             link_.fingerprint = linked.fingerprint;
             address = link_;
         }
-        try {
-            write_address(state_folder_, address);
-        } catch (const Error& error) {
-            log::warning("host", "'theatron link' shows old links", {{"problem", error.what()}});
-        }
+        tell_address(address);
         log::info("host", "links changed with the certificate, browsers can use the old ones");
     }
     note_certificates();

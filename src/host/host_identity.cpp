@@ -129,7 +129,10 @@ bool is_host_running(const std::filesystem::path& folder) {
 void write_address(const std::filesystem::path& folder, const net::Link& link) {
     net::Link address = link;
     address.token = "none";
-    files::write_private_file(folder / address_file, net::format_link(address) + "\n");
+    const std::string text = net::format_link(address) + "\n";
+    // Where nothing changed, a full disk does not matter.
+    if (files::read_private_file(folder / address_file, files::Privacy::readable) != text)
+        files::write_private_file(folder / address_file, text);
 }
 
 net::Link read_address(const std::filesystem::path& folder, std::optional<files::Owner> owner) {

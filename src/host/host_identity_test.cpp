@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "files/private_file.h"
+#include "testing/full_disk.h"
 #include "testing/temporary_folder.h"
 
 namespace theatron::host {
@@ -66,6 +67,18 @@ TEST(StateFolder, IsNeverOneThatEverybodySharesWhereNothingIsNamed) {
         const Variable state("XDG_STATE_HOME", empty), home("HOME", empty);
         EXPECT_THAT(problem_of([] { default_state_folder(); }), HasSubstr("--state"));
     }
+}
+
+TEST(Address, ThatIsThereAlreadyNeedsNoRoomOnTheDisk) {
+    const testing::TemporaryFolder folder;
+    const net::Link link{"or-3.example", 4400, "secret", std::string(64, 'a')};
+    write_address(folder.path(), link);
+    net::Link other = link;
+    other.port = 4401;
+    const testing::FullDisk full(1);
+    write_address(folder.path(), link);
+    EXPECT_THROW(write_address(folder.path(), other), Error);
+    EXPECT_EQ(read_address(folder.path()).port, 4400);
 }
 
 TEST(Token, IsMadeOnceAndKept) {

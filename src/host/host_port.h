@@ -64,6 +64,7 @@ private:
     net::Server::Handler handler();
     net::HttpAnswer answer(const net::HttpRequest& request);
     void note_link();
+    void tell_address(const net::Link& link) const;
     const net::Certificate& linked_certificate() const;
     void note_certificates();
     void serve();

@@ -33,7 +33,7 @@ struct Client::Impl {
     std::shared_ptr<Connection> connection;
     End end;
 
-    std::string where() const { return link.host + ":" + std::to_string(link.port); }
+    std::string where() const { return host_and_port(link); }
 
     void finish(const std::string& why, bool final = false) {
         end = {why, final};
@@ -56,7 +56,7 @@ struct Client::Impl {
             if (unreached)
                 return finish(
                     say(Phrase::no_host_answers_because, where(), text_of(*unreached, proxy)),
-                    unreached->what == Unreached::What::proxy_wants_name);
+                    unreached->is_final());
             tune_socket(beast::get_lowest_layer(*socket).socket());
             set_receive_buffer(beast::get_lowest_layer(*socket).socket(), viewer_receive_buffer);
             handshake();

@@ -42,9 +42,7 @@ TimePoint wall_now() {
 }
 
 std::string url_of(const Link& link) {
-    const bool is_ipv6 = link.host.find(':') != std::string::npos;
-    return "wss://" + (is_ipv6 ? "[" + link.host + "]" : link.host) + ":" +
-           std::to_string(link.port) + "/connection";
+    return "wss://" + host_and_port(link) + "/connection";
 }
 
 }  // namespace
@@ -66,7 +64,7 @@ struct Client::Impl {
 
     ~Impl() { close(); }
 
-    std::string where() const { return link.host + ":" + std::to_string(link.port); }
+    std::string where() const { return host_and_port(link); }
 
     void close() {
         if (interval != 0)

@@ -84,7 +84,6 @@ void listen(tcp::acceptor& acceptor, const Endpoint& endpoint) {
             "'" + endpoint.address +
             "' is no address of this machine; write an IP address such as 0.0.0.0 or 127.0.0.1.");
     const tcp::endpoint where(address, endpoint.port);
-    const std::string text = endpoint.address + ":" + std::to_string(endpoint.port);
     acceptor.open(where.protocol(), error);
     if (!error)
         acceptor.set_option(asio::socket_base::reuse_address(true), error);
@@ -100,7 +99,8 @@ void listen(tcp::acceptor& acceptor, const Endpoint& endpoint) {
         throw Error("Port " + std::to_string(endpoint.port) + " on " + endpoint.address +
                     " is in use; stop the other program or choose another port with --listen.");
     if (error)
-        throw Error("Cannot listen on " + text + ": " + error.message() + ".");
+        throw Error("Cannot listen on " + host_and_port(endpoint.address, endpoint.port) + ": " +
+                    error.message() + ".");
 }
 
 }  // namespace

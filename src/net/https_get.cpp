@@ -43,7 +43,7 @@ struct Exchange {
         request.method(http::verb::get);
         request.target(target);
         request.version(11);
-        request.set(http::field::host, link.host);
+        request.set(http::field::host, host_and_port(link));
         request.set(http::field::authorization, "Bearer " + link.token);
         request.set(http::field::connection, "close");
         answer.body_limit(max_answer);
@@ -99,8 +99,8 @@ HttpsAnswer https_get(const Link& link, const std::string& target, Duration time
     Exchange exchange(link, target, timeout);
     exchange.run();
     if (!exchange.problem.empty())
-        throw Error("The host at " + link.host + ":" + std::to_string(link.port) +
-                    " does not answer: " + exchange.problem + ".");
+        throw Error("The host at " + host_and_port(link) + " does not answer: " + exchange.problem +
+                    ".");
     return {int(exchange.answer.get().result_int()), exchange.answer.get().body()};
 }
 

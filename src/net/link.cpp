@@ -56,11 +56,19 @@ std::string without_secrets(std::string_view text) {
 }  // namespace
 
 std::string format_link(const Link& link) {
-    const bool ipv6 = link.host.find(':') != std::string::npos;
-    return std::string(scheme) + (ipv6 ? "[" + link.host + "]" : link.host) + ":" +
-           std::to_string(link.port) + "/#join=" + link.token + "&cert=" + link.fingerprint +
-           (link.role.empty() ? "" : "&role=" + link.role) +
+    return std::string(scheme) + host_and_port(link) + "/#join=" + link.token +
+           "&cert=" + link.fingerprint + (link.role.empty() ? "" : "&role=" + link.role) +
            (link.until.empty() ? "" : "&until=" + link.until);
+}
+
+std::string host_and_port(std::string_view host, std::uint16_t port) {
+    const bool is_ipv6 = host.find(':') != host.npos;
+    return (is_ipv6 ? "[" + std::string(host) + "]" : std::string(host)) + ":" +
+           std::to_string(port);
+}
+
+std::string host_and_port(const Link& link) {
+    return host_and_port(link.host, link.port);
 }
 
 bool can_be_linked(std::string_view host) {

@@ -23,6 +23,10 @@ struct Link {
 
 std::string format_link(const Link& link);
 
+// "HOST:PORT" for sentences, URLs and HTTP; IPv6 in brackets.
+std::string host_and_port(std::string_view host, std::uint16_t port);
+std::string host_and_port(const Link& link);
+
 // Throws Error with one sentence about the problem, which does not contain the token.
 Link parse_link(std::string_view text);
 

@@ -42,6 +42,12 @@ TEST(Link, WhatIsSaidAboutAWrongOneShowsItsHost) {
     EXPECT_LT(problem_with("http://" + std::string(100'000, 'x')).size(), 200u);
 }
 
+TEST(Link, HostAndPortHaveIpv6InBrackets) {
+    EXPECT_EQ(host_and_port("or-3.example", 4400), "or-3.example:4400");
+    EXPECT_EQ(host_and_port("10.1.2.3", 4400), "10.1.2.3:4400");
+    EXPECT_EQ(host_and_port(Link{"2001:db8::7", 4400, "", ""}), "[2001:db8::7]:4400");
+}
+
 TEST(Link, NamesAHostThatParsesBack) {
     for (const char* host : {"or-3.hospital.example", "OR_3", "10.1.2.3", "fd00::1", "::1"}) {
         EXPECT_TRUE(can_be_linked(host)) << host;

@@ -10,6 +10,7 @@
 #include <cstdlib>
 
 #include "base/error.h"
+#include "net/link.h"
 
 namespace theatron::net {
 namespace {
@@ -37,11 +38,6 @@ std::optional<ip::address> address_of(std::string_view text) {
     boost::system::error_code none;
     const ip::address address = ip::make_address(std::string(text), none);
     return none ? std::nullopt : std::optional(address);
-}
-
-std::string in_brackets(std::string_view host) {
-    return host.find(':') == std::string_view::npos ? std::string(host)
-                                                    : "[" + std::string(host) + "]";
 }
 
 // "%41" is "A", as in each URL.
@@ -140,10 +136,29 @@ std::string variable(const char* small, const char* capital) {
     return "";
 }
 
+// Splits at commas that stand outside of quotes.
+std::vector<std::string_view> elements_of(std::string_view list) {
+    std::vector<std::string_view> elements;
+    std::size_t begin = 0;
+    bool is_quoted = false;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        if (list[i] == '"')
+            is_quoted = !is_quoted;
+        else if (list[i] == '\\' && is_quoted)
+            ++i;  // whatever is behind it
+        else if (list[i] == ',' && !is_quoted) {
+            elements.push_back(list.substr(begin, i - begin));
+            begin = i + 1;
+        }
+    }
+    elements.push_back(list.substr(begin));
+    return elements;
+}
+
 }  // namespace
 
 std::string OutgoingProxy::where() const {
-    return in_brackets(host) + ":" + std::to_string(port);
+    return host_and_port(host, port);
 }
 
 ProxySettings proxy_settings_of_environment() {
@@ -164,7 +179,7 @@ std::optional<OutgoingProxy> proxy_for(std::string_view host, const ProxySetting
 }
 
 std::string tunnel_request(const OutgoingProxy& proxy, std::string_view host, std::uint16_t port) {
-    const std::string target = in_brackets(host) + ":" + std::to_string(port);
+    const std::string target = host_and_port(host, port);
     std::string request = "CONNECT " + target + " HTTP/1.1\r\nHost: " + target + "\r\n";
     if (!proxy.credentials.empty()) {
         std::string encoded((proxy.credentials.size() + 2) / 3 * 4 + 1, '\0');
@@ -175,6 +190,23 @@ std::string tunnel_request(const OutgoingProxy& proxy, std::string_view host, st
         request += "Proxy-Authorization: Basic " + encoded + "\r\n";
     }
     return request + "\r\n";
+}
+
+std::vector<std::string> offered_schemes(std::string_view field) {
+    // RFC 9110, 5.6.2.
+    constexpr std::string_view of_tokens =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789!#$%&'*+-.^_`|~";
+    std::vector<std::string> schemes;
+    for (const std::string_view each : elements_of(field)) {
+        const std::string_view element = without_blanks(each);
+        const std::size_t end = std::min(element.find_first_not_of(of_tokens), element.size());
+        // "NAME = VALUE" is a parameter of the scheme before it.
+        const std::string_view rest = without_blanks(element.substr(end));
+        const bool is_separated = rest.empty() || element[end] == ' ' || element[end] == '\t';
+        if (end > 0 && is_separated && !rest.starts_with('='))
+            schemes.emplace_back(element.substr(0, end));
+    }
+    return schemes;
 }
 
 }  // namespace theatron::net

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace theatron::net {
 
@@ -37,5 +38,9 @@ std::optional<OutgoingProxy> proxy_for(std::string_view host, const ProxySetting
 
 // The request for a tunnel to this host (RFC 9110, 9.3.6, and RFC 7617 for the credentials).
 std::string tunnel_request(const OutgoingProxy& proxy, std::string_view host, std::uint16_t port);
+
+// The names of the schemes of one Proxy-Authenticate field (RFC 9110, 11.6.1), without their
+// parameters, as the proxy writes them: {"Negotiate", "Basic"}. Any bytes are allowed.
+std::vector<std::string> offered_schemes(std::string_view field);
 
 }  // namespace theatron::net

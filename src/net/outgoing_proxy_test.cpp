@@ -9,6 +9,7 @@
 namespace theatron::net {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -76,6 +77,18 @@ TEST(OutgoingProxy, IsAskedForATunnel) {
     EXPECT_EQ(tunnel_request({"proxy", 1, "Aladdin:open sesame"}, "fd00::5", 1),
               "CONNECT [fd00::5]:1 HTTP/1.1\r\nHost: [fd00::5]:1\r\n"
               "Proxy-Authorization: Basic QWxhZGRpbjpvcGVuIHNlc2FtZQ==\r\n\r\n");
+}
+
+TEST(OutgoingProxy, NamesTheSchemesThatItOffers) {
+    const auto offered = [](const char* field) { return offered_schemes(field); };
+    EXPECT_THAT(offered("Basic realm=\"x\""), ElementsAre("Basic"));
+    EXPECT_THAT(offered("Negotiate"), ElementsAre("Negotiate"));
+    EXPECT_THAT(
+        offered("Negotiate YII=, NTLM ,Digest realm = \"Basic , \\\"Basic\" , qop=auth,Basic"),
+        ElementsAre("Negotiate", "NTLM", "Digest", "Basic"));
+    EXPECT_THAT(offered("Basic\trealm=\"a, Negotiate"), ElementsAre("Basic"));
+    for (const char* none : {"", " , ", "realm=x", "realm =x", "\"Basic\"", "Ba/sic", "\\"})
+        EXPECT_THAT(offered(none), ElementsAre()) << none;
 }
 
 }  // namespace

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "net/way_to_host.h"
 
+#include <algorithm>
 #include <boost/asio/write.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/http.hpp>
+#include <iterator>
+#include <string_view>
+#include <vector>
 
+#include "base/outside_text.h"
 #include "phrases/phrase.h"
 
 namespace theatron::net {
@@ -17,8 +22,28 @@ using What = Unreached::What;
 
 struct WayToHost::Answer {
     beast::flat_buffer buffer;
-    http::response_parser<http::empty_body> parser;
+    std::optional<http::response_parser<http::empty_body>> parser;
 };
+
+namespace {
+
+Unreached sign_on_wanted(const http::fields& head) {
+    std::vector<std::string> schemes;
+    const auto [begin, end] = head.equal_range(http::field::proxy_authenticate);
+    for (auto field = begin; field != end; ++field)
+        std::ranges::copy(offered_schemes(std::string_view(field->value())),
+                          std::back_inserter(schemes));
+    const bool has_basic = std::ranges::any_of(
+        schemes, [](const std::string& scheme) { return beast::iequals(scheme, "Basic"); });
+    if (schemes.empty() || has_basic)
+        return {What::proxy_wants_name, ""};
+    std::string names;
+    for (const std::string& scheme : schemes)
+        names += (names.empty() ? "" : ", ") + scheme;
+    return {What::proxy_wants_other_scheme, clean_text(names, 80)};
+}
+
+}  // namespace
 
 std::string text_of(const Unreached& unreached, const std::optional<OutgoingProxy>& proxy) {
     const std::string where = proxy ? proxy->where() : "";
@@ -27,8 +52,12 @@ std::string text_of(const Unreached& unreached, const std::optional<OutgoingProx
             return say(Phrase::proxy_silent, where, unreached.because);
         case What::proxy_wants_name:
             return say(Phrase::proxy_wants_name, where);
+        case What::proxy_wants_other_scheme:
+            return say(Phrase::proxy_wants_other_scheme, where, unreached.because);
         case What::proxy_refuses:
             return say(Phrase::proxy_refuses, where, unreached.because);
+        case What::proxy_adds_data:
+            return say(Phrase::proxy_adds_data, where, unreached.because);
         case What::host_unknown:
         case What::host_silent:
             break;
@@ -82,30 +111,38 @@ void WayToHost::ask_for_tunnel() {
                           if (error)
                               return done_(Unreached{What::proxy_silent, error.message()});
                           answer_ = std::make_unique<Answer>();
-                          answer_->parser.header_limit(max_answer);
-                          answer_->parser.skip(true);  // a tunnel has no body
-                          http::async_read_header(
-                              stream_, answer_->buffer, answer_->parser,
-                              [this](beast::error_code failed, std::size_t) {
-                                  if (failed)
-                                      return done_(Unreached{What::proxy_silent, failed.message()});
-                                  take_answer();
-                              });
+                          read_answer();
                       });
 }
 
+void WayToHost::read_answer() {
+    answer_->parser.emplace();
+    answer_->parser->header_limit(max_answer);
+    answer_->parser->skip(true);  // a tunnel has no body
+    http::async_read_header(stream_, answer_->buffer, *answer_->parser,
+                            [this](beast::error_code error, std::size_t) {
+                                if (error)
+                                    return done_(Unreached{What::proxy_silent, error.message()});
+                                take_answer();
+                            });
+}
+
 void WayToHost::take_answer() {
-    const auto& head = answer_->parser.get();
+    const auto& head = answer_->parser->get();
     const unsigned code = head.result_int();
+    // The final answer follows an interim one ("100 Continue"); nothing follows "101 Switching
+    // Protocols", which nobody asked for.
+    if (code / 100 == 1 && code != 101)
+        return read_answer();
     if (code == 407)
-        return done_(Unreached{What::proxy_wants_name, ""});
+        return done_(sign_on_wanted(head));
     if (code < 200 || code > 299)
         return done_(Unreached{What::proxy_refuses,
                                std::to_string(code) + " " +
                                    std::string(http::obsolete_reason(http::int_to_status(code)))});
     // The host speaks second in TLS, so nothing of it can have come yet.
     if (answer_->buffer.size() > 0)
-        return done_(Unreached{What::proxy_refuses, std::to_string(code)});
+        return done_(Unreached{What::proxy_adds_data, std::to_string(code)});
     done_(std::nullopt);
 }
 

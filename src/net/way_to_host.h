@@ -16,10 +16,22 @@ namespace theatron::net {
 
 // The reason why a host was not reached.
 struct Unreached {
-    // host_unknown: its name has no address.
-    enum class What { host_unknown, host_silent, proxy_silent, proxy_wants_name, proxy_refuses };
+    enum class What {
+        host_unknown,  // its name has no address
+        host_silent,
+        proxy_silent,
+        proxy_wants_name,          // and a password, or others
+        proxy_wants_other_scheme,  // than names and passwords, which alone are supported
+        proxy_refuses,
+        proxy_adds_data  // behind its consent, where the host's bytes would come
+    };
     What what{};
     std::string because;  // the system's or the proxy's words
+
+    // Another attempt with the same settings has the same end.
+    bool is_final() const {
+        return what == What::proxy_wants_name || what == What::proxy_wants_other_scheme;
+    }
 };
 
 // A sentence without a full stop and without the host's name, in the person's language.
@@ -45,6 +57,7 @@ private:
     struct Answer;
     void connect(const boost::asio::ip::tcp::resolver::results_type& found);
     void ask_for_tunnel();
+    void read_answer();
     void take_answer();
 
     boost::beast::tcp_stream& stream_;

@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the packages do with running hosts when another version is installed (packaging/theatron-restart-hosts)."""
+import json
 import os
 import pathlib
 import shutil
+import signal
 import subprocess
 import tempfile
 import unittest
 
-from theatron_process import PROGRAM, Process, host, make_recording
+from theatron_process import PROGRAM, Process, host, make_recording, run, wait_until
 
 SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "packaging/theatron-restart-hosts"
 
@@ -58,7 +60,25 @@ fi
                 said, told = self.restart_hosts()
         self.assertEqual(told, [])
         self.assertIn("theatron-host@or-3.service goes on", said)
-        self.assertIn("people in its sessions (1). When they have left: systemctl restart theatron-host@or-3.service", said)
+        self.assertIn("(1). When they have left: systemctl restart theatron-host@or-3.service", said)
+
+    def test_people_who_wait_to_be_let_in_and_recorders_keep_a_host_from_it(self):
+        with host(self.states / "or-3", self.camera, options=("--admit", "ask")) as h:
+            links = h.greeting["links"]
+            with Process("join", links["expert"], "--no-window", "--every", "0.2", "--name", 'Ada ,"sessions":[') as ada:
+                ada.wait_for(lambda figures: figures["phase"] == "waiting")
+                said, told = self.restart_hosts()
+                self.assertEqual(told, [])
+                self.assertIn("in its sessions or at their doors (1).", said)
+            with Process("record", links["operator"], self.folder / "room.mkv", "--json") as recorder:
+                wait_until(lambda: json.loads(run("status", links["operator"], "--json")[1])["participants"])
+                said, told = self.restart_hosts()
+                self.assertEqual(told, [])
+                self.assertIn("in its sessions or at their doors (1).", said)
+                recorder.send(signal.SIGINT)
+                self.assertEqual(recorder.end(), 0)
+            wait_until(lambda: not json.loads(run("status", links["operator"], "--json")[1])["participants"])
+            self.assertEqual(self.restart_hosts()[1], ["restart theatron-host@or-3.service"])
 
     def test_one_that_does_not_start_again_keeps_no_other_from_it(self):
         (self.folder / "fails").touch()
