@@ -34,8 +34,8 @@ render::DrawTarget ScaledPicture::begin(Size window, double scale) {
 
 void ScaledPicture::show(Size window) const {
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
-    // Also below a picture: Chromium does not notice a canvas into which pixels are only copied, and
-    // neither shows it nor gives it to a file.
+    // Also below a picture: Chromium does not notice a canvas into which pixels are only copied,
+    // and neither shows it nor gives it to a file.
     glClearColor(background.r / 255.0f, background.g / 255.0f, background.b / 255.0f, 1);
     glClear(GL_COLOR_BUFFER_BIT);
     if (!parts_->target)

@@ -5,7 +5,7 @@ import { text } from "./texts.js";
 
 const line_px = 28, margin_px = 10;
 
-// What stands below the picture and in the name of its file. `state` is the client's, `date` the time of saving.
+// The line below the picture, and the name of its file. `state` is the client's, `date` the time of saving.
 export function describe_picture({ host, age_ms, is_not_live, phase }, date) {
     const is_live = phase === "joined" && !is_not_live;
     const at = date.toISOString();
