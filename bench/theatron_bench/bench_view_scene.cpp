@@ -228,7 +228,8 @@ ViewBenchPlace make_view_bench_place(const OperatingRoom& room, const synthetic:
     place.view = render::view_of_camera(exact.depth, exact.room_from_camera, picture);
     place.exact_color = std::move(truth.color);
     place.exact_mm.resize(picture);
-    for (auto* mask : {&place.seen, &place.overlap, &place.person, &place.patterned})
+    for (auto* mask :
+         {&place.seen, &place.overlap, &place.person, &place.patterned, &place.instrument})
         mask->resize(picture);
     for (int y = 0; y < picture.height; ++y)
         for (int x = 0; x < picture.width; ++x) {
@@ -250,6 +251,7 @@ ViewBenchPlace make_view_bench_place(const OperatingRoom& room, const synthetic:
             place.seen.view().row(y)[x] = seen_by >= 1;
             place.overlap.view().row(y)[x] = measured_by >= 2;
             place.person.view().row(y)[x] = seen_by >= 1 && is_person(surface.material);
+            place.instrument.view().row(y)[x] = surface.material == Material::polished;
             place.patterned.view().row(y)[x] = measured_by >= 1 && is_patterned(surface.material);
         }
     return place;

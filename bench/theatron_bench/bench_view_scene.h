@@ -35,8 +35,8 @@ struct ViewBenchPlace {
     ColorImage exact_color;
     // Masks as render::MaskView. seen: pixels whose surface a camera sees at 10 degrees or more.
     // overlap: measured by two cameras. person: of a person, and seen. patterned: finely
-    // patterned, and measured.
-    Image<std::uint8_t> seen, overlap, person, patterned;
+    // patterned, and measured. instrument: of polished metal, whether a camera sees it or not.
+    Image<std::uint8_t> seen, overlap, person, patterned, instrument;
 };
 
 // From where, and to which point of the room, a picture is taken.

@@ -24,6 +24,15 @@ struct CompareLikeness {
     double see_through_percent = 0;
 };
 
+// Why surfaces are missing, in percent of the same pixels; together they are the missing share.
+struct CompareCauses {
+    double no_camera = 0;  // no camera sees the surface
+    double sensor = 0;     // a camera sees it and does not measure it
+    double filters = 0;    // measured, and lost by filters
+    double drawing = 0;    // there when the picture was drawn
+    double sum() const { return no_camera + sensor + filters + drawing; }
+};
+
 // A camera's picture that came back, beside what the camera sees.
 struct CompareOwnView {
     double psnr_db = 0, ssim = 0;
@@ -33,7 +42,11 @@ struct CompareOwnView {
 // a camera's picture.
 struct CompareCloseUp {
     ColorImage picture;
-    std::optional<CompareLikeness> likeness;  // none of a camera's picture
+    std::optional<CompareLikeness> likeness;   // none of a camera's picture
+    std::optional<CompareCauses> see_through;  // of CompareLikeness::see_through_percent
+    // Shares of instruments' surfaces, whether a camera sees them or not: nothing or something more
+    // than 2 cm behind is drawn.
+    std::optional<CompareCauses> instruments;
 };
 
 struct CompareMethod {
@@ -87,7 +100,8 @@ struct Compared {
 };
 
 inline constexpr double compare_pictures_per_s = 30;
-inline constexpr const char *video_call_id = "video_call", *paper_id = "paper", *pcl_id = "pcl",
-                            *theatron_id = "theatron";
+inline constexpr const char *video_call_id = "video_call", *zoomed_call_id = "video_call_zoomed",
+                            *paper_id = "paper", *pcl_id = "pcl", *theatron_id = "theatron",
+                            *theatron_near_id = "theatron_near";
 
 }  // namespace theatron::bench

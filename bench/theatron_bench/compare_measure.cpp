@@ -9,6 +9,7 @@
 #include "base/statistics.h"
 #include "bench_libjpeg.h"
 #include "camera_frames.h"
+#include "compare_causes.h"
 #include "compare_close_up.h"
 #include "compare_pcl.h"
 #include "compare_points.h"
@@ -197,6 +198,15 @@ struct ArrivedCamera {
     std::vector<ColorImage> color;
 };
 
+// Pixels in which something is drawn.
+Image<std::uint8_t> drawn_mask(DepthView drawn_mm) {
+    Image<std::uint8_t> mask(drawn_mm.size);
+    for (int y = 0; y < mask.size.height; ++y)
+        for (int x = 0; x < mask.size.width; ++x)
+            mask.view().row(y)[x] = drawn_mm.row(y)[x] != 0;
+    return mask;
+}
+
 CompareOwnView own_view_of(const ColorImage& exact, const ColorImage& arrived) {
     Image<std::uint8_t> all(exact.size);
     std::fill(all.pixels.begin(), all.pixels.end(), 255);
@@ -214,15 +224,13 @@ public:
         error_.add(drawn.color.view(), place.exact_color.view(), place.seen.view());
         similarity_.add(drawn.color.view(), place.exact_color.view(), place.seen.view());
         holes_.add(drawn.depth_mm.view(), place.exact_mm.view(), place.seen.view());
-        Image<std::uint8_t> is_drawn(drawn.depth_mm.size);
+        const Image<std::uint8_t> is_drawn = drawn_mask(drawn.depth_mm.view());
         for (std::size_t i = 0; i < is_drawn.pixels.size(); ++i) {
-            is_drawn.pixels[i] = drawn.depth_mm.pixels[i] != 0;
             undrawn_ += !is_drawn.pixels[i];
             undrawn_unseen_ += !is_drawn.pixels[i] && !place.seen.pixels[i];
         }
         pixels_ += double(is_drawn.pixels.size());
-        see_through_.add(drawn.depth_mm.view(), place.exact_mm.view(),
-                         std::as_const(is_drawn).view());
+        see_through_.add(drawn.depth_mm.view(), place.exact_mm.view(), is_drawn.view());
     }
     CompareLikeness result() const {
         return {.psnr_db = error_.psnr_db(),
@@ -257,15 +265,17 @@ public:
         out_.depth = scene_.cameras.front().calibration.depth.size;
         out_.color = scene_.cameras.front().color.front().size;
         out_.places = scene_.place_names;
-        for (const ViewBenchPlace& place : scene_.places)
+        for (const ViewBenchPlace& place : scene_.without_near.places)
             out_.truth.push_back(place.exact_color);
-        out_.close_up_truth = scene_.close_up.exact_color;
+        out_.close_up_truth = scene_.without_near.close_up.exact_color;
         out_.close_up_width_m = close_up_width_m;
         begin_drawing();
-        step("measuring a video call", [&] { return video_call(); });
+        step("measuring a video call", [&] { return video_call(false); });
+        step("measuring a video call with a zoomed camera", [&] { return video_call(true); });
         step("measuring the published pipeline", [&] { return paper(); });
         step("measuring PCL's codec", [&] { return pcl(); });
-        step("measuring Theatron", [&] { return theatron(); });
+        step("measuring Theatron", [&] { return theatron(false); });
+        step("measuring Theatron with a near camera", [&] { return theatron(true); });
         if (context_ && context_->errors() > 0)
             throw Error("The graphics driver reports an error: " + context_->first_error());
         return std::move(out_);
@@ -297,25 +307,47 @@ private:
              double(scene_.cameras.size()));
     }
 
+    // The cameras that all methods have: without the near one.
+    std::size_t usual_cameras() const { return scene_.cameras.size() - 1; }
+
     // One picture from each place and the close-up.
-    void add_pictures(CompareMethod& method, std::vector<render::Picture> drawn,
-                      render::Picture close_up) const {
+    void add_pictures(CompareMethod& method, const CompareViews& views,
+                      std::vector<render::Picture> drawn, render::Picture close_up,
+                      const std::vector<CauseCamera>& cameras) const {
         LikenessSum all, close;
         for (std::size_t i = 0; i < drawn.size(); ++i) {
             LikenessSum one;
-            one.add(drawn[i], scene_.places[i]);
-            all.add(drawn[i], scene_.places[i]);
+            one.add(drawn[i], views.places[i]);
+            all.add(drawn[i], views.places[i]);
             method.from_place.push_back(one.result());
         }
         method.expert = all.result();
         for (render::Picture& picture : drawn)
             method.pictures.push_back(std::move(picture.color));
-        close.add(close_up, scene_.close_up);
-        method.close_up = {std::move(close_up.color), close.result()};
+        close.add(close_up, views.close_up);
+        const ViewBenchPlace& place = views.close_up;
+        const Image<std::uint8_t> is_drawn = drawn_mask(close_up.depth_mm.view());
+        CauseInput input{place.view, close_up.depth_mm.view(), place.exact_mm.view(),
+                         place.seen.view(), is_drawn.view()};
+        const CompareCauses see_through = causes_of(input, cameras);
+        constexpr int behind_instruments_mm = 20;
+        input.where = place.instrument.view();
+        input.jump_mm = behind_instruments_mm;
+        method.close_up = {std::move(close_up.color), close.result(), see_through,
+                           causes_of(input, cameras)};
     }
 
-    void draw(CompareMethod& method, const std::vector<ArrivedCamera>& cameras,
-              const std::string& renderer) const {
+    // The last depth images of the first cameras, beside what arrived of them.
+    std::vector<CauseCamera> causes_with(const std::vector<ArrivedCamera>& arrived) const {
+        std::vector<CauseCamera> cameras;
+        for (std::size_t c = 0; c < arrived.size(); ++c)
+            cameras.push_back({scene_.cameras[c].calibration, scene_.cameras[c].depth.back().view(),
+                               arrived[c].depth.back().view()});
+        return cameras;
+    }
+
+    void draw(CompareMethod& method, const CompareViews& views,
+              const std::vector<ArrivedCamera>& cameras, const std::string& renderer) const {
         if (!context_) {
             method.expert_reason = no_gl_;
             return;
@@ -330,24 +362,26 @@ private:
                                   cameras[c].color[i].view()) != Status::ok)
                     throw Error("A generated camera's images do not have its calibrated size.");
             if (i + 1 < cameras.front().depth.size())
-                (void)clouds.render(scene_.places[0].view, options_.scene.picture, renderer);
+                (void)clouds.render(views.places[0].view, options_.scene.picture, renderer);
             tell(0.7 + 0.2 * double(i) / double(cameras.front().depth.size()));
         }
-        for (const ViewBenchPlace& place : scene_.places) {
+        for (const ViewBenchPlace& place : views.places) {
             drawn.push_back(clouds.render(place.view, options_.scene.picture, renderer));
-            tell(0.9 + 0.1 * double(drawn.size()) / double(scene_.places.size()));
+            tell(0.9 + 0.1 * double(drawn.size()) / double(views.places.size()));
         }
-        add_pictures(method, std::move(drawn),
-                     clouds.render(scene_.close_up.view, options_.scene.picture, renderer));
+        add_pictures(method, views, std::move(drawn),
+                     clouds.render(views.close_up.view, options_.scene.picture, renderer),
+                     causes_with(cameras));
     }
 
-    CompareMethod video_call() const {
+    CompareMethod video_call(bool zoomed) const {
         CompareMethod method{
-            .id = video_call_id,
-            .name = "Video call",
-            .plain =
-                "The picture of one camera, as in any video call. The expert sees what that "
-                "camera sees"};
+            .id = zoomed ? zoomed_call_id : video_call_id,
+            .name = zoomed ? "Video call, zoomed" : "Video call",
+            .plain = zoomed ? "A video call whose camera hangs at the same place and is zoomed to "
+                              "the wound. It shows nothing else"
+                            : "The picture of one camera, as in any video call. The expert sees "
+                              "what that camera sees"};
         method.rate_setting_mbit = call_mbit;
         const std::string rate = "h264:bitrate_mbit=" + formatted("%g", call_mbit);
         const std::string x264 = rate + ",preset=veryfast,encoder=x264";
@@ -355,9 +389,9 @@ private:
             video::missing_color_encoder(video::parse_color_setting(x264).setting).empty();
         const std::string codec = has_x264 ? x264 : rate;
         method.reason = video::missing_color_encoder(video::parse_color_setting(codec).setting);
-        method.ran = "one camera, " + std::to_string(out_.color.width) + "x" +
-                     std::to_string(out_.color.height) + ", H.264 set to " +
-                     formatted("%g", call_mbit) + " Mbit/s by " +
+        method.ran = std::string("one camera") + (zoomed ? " zoomed to the wound, " : ", ") +
+                     std::to_string(out_.color.width) + "x" + std::to_string(out_.color.height) +
+                     ", H.264 set to " + formatted("%g", call_mbit) + " Mbit/s by " +
                      (has_x264 ? "FFmpeg's libx264 (veryfast)" : "OpenH264");
         method.expert_reason =
             "A video call shows what its camera sees; it has no picture from another place.";
@@ -366,7 +400,7 @@ private:
         const CompareCamera& camera = scene_.cameras.front();
         ColorWay way = color_way(codec);
         CameraStream stream;
-        for (const ColorData& picture : camera.color) {
+        for (const ColorData& picture : zoomed ? scene_.zoomed : camera.color) {
             ByteView bytes;
             ColorImage back;
             const double sent = processor_ms_of([&] { bytes = way.encode(picture); });
@@ -375,10 +409,13 @@ private:
             method.pictures = {std::move(back)};
         }
         const ColorImage& shown = method.pictures.front();
-        method.own_view = own_view_of(camera.last_exact, shown);
-        if (const auto part =
-                part_around(camera.calibration, shown.size, scene_.wound, close_up_width_m))
-            method.close_up = {parts_of(method.pictures, *part).front(), std::nullopt};
+        method.own_view = own_view_of(zoomed ? scene_.zoomed_exact : camera.last_exact, shown);
+        if (zoomed) {
+            method.close_up = {shown, {}, {}, {}};
+            method.pictures.clear();
+        } else if (const auto part =
+                       part_around(camera.calibration, shown.size, scene_.wound, close_up_width_m))
+            method.close_up = {parts_of(method.pictures, *part).front(), {}, {}, {}};
         add_costs(method, {stream}, options_.links);
         return method;
     }
@@ -391,12 +428,13 @@ private:
                 "The method of a published study, built again from its text. Cameras that also "
                 "measure distance; the expert's computer draws surfaces from them",
             .ran =
-                "Fischer et al. 2022: filters `paper`, colour registered to depth as JPEG of "
+                "Fischer et al. 2022: filters of the study (\"paper\"), colour registered to depth "
+                "as JPEG of "
                 "quality 85 (libjpeg-turbo), depth as temporal RVL without loss, drawn as mesh"};
         std::vector<CameraStream> streams;
         std::vector<ArrivedCamera> arrived;
         const auto setting = video::parse_color_setting("jpeg:quality=85").setting;
-        for (std::size_t c = 0; c < scene_.cameras.size(); ++c) {
+        for (std::size_t c = 0; c < usual_cameras(); ++c) {
             const CompareCamera& camera = scene_.cameras[c];
             RegisteredImages images(camera.calibration, "paper");
             ColorWay color(make_libjpeg_encoder(setting), make_libjpeg_decoder());
@@ -423,7 +461,7 @@ private:
             }
         }
         add_costs(method, streams, options_.links);
-        draw(method, arrived, "mesh");
+        draw(method, scene_.without_near, arrived, "mesh");
         return method;
     }
 
@@ -440,9 +478,10 @@ private:
         std::vector<CameraStream> streams;
         std::vector<PointCloud> last;
         std::vector<PlacedCloud> placed;
+        std::vector<ArrivedCamera> filtered;
         last.reserve(scene_.cameras.size());
         double edge_m = 0;
-        for (std::size_t c = 0; c < scene_.cameras.size(); ++c) {
+        for (std::size_t c = 0; c < usual_cameras(); ++c) {
             const CompareCamera& camera = scene_.cameras[c];
             RegisteredImages images(camera.calibration, "default");
             const Image<Ray> rays = make_ray_table(camera.calibration.depth);
@@ -464,39 +503,47 @@ private:
                            made_ms[i] + figures.clouds[i].encode_ms, figures.clouds[i].decode_ms);
             last.push_back(std::move(figures.last));
             placed.push_back({&last.back(), camera.calibration.room_from_camera});
+            filtered.push_back({camera.calibration, {std::move(images.depth)}, {}});
             // Points of a grid touch if they are as large as its cells are wide at a slant.
             edge_m = figures.resolution_m * 1.5;
-            method.ran = "PCL " + figures.version +
-                         ", octree codec at medium resolution with colour (points of " +
-                         std::to_string(int(figures.resolution_m * 1000 + 0.5)) +
-                         " mm), the family that cwipc's codec comes from; filters `default`; "
-                         "drawn as squares";
+            method.ran =
+                "PCL " + figures.version +
+                ", octree codec at medium resolution with colour (points of " +
+                std::to_string(int(figures.resolution_m * 1000 + 0.5)) +
+                " mm), the family that cwipc's codec comes from; usual filters (\"default\"); "
+                "drawn as squares";
         }
         add_costs(method, streams, options_.links);
         std::vector<render::Picture> drawn;
-        for (const ViewBenchPlace& place : scene_.places)
+        const CompareViews& views = scene_.without_near;
+        for (const ViewBenchPlace& place : views.places)
             drawn.push_back(draw_points(placed, place.view, options_.scene.picture, edge_m));
-        add_pictures(method, std::move(drawn),
-                     draw_points(placed, scene_.close_up.view, options_.scene.picture, edge_m));
+        add_pictures(method, views, std::move(drawn),
+                     draw_points(placed, views.close_up.view, options_.scene.picture, edge_m),
+                     causes_with(filtered));
         return method;
     }
 
-    CompareMethod theatron() const {
-        CompareMethod method{.id = theatron_id,
-                             .name = "Theatron",
-                             .plain =
-                                 "The same cameras as above. Theatron removes noise, sends "
-                                 "distances in a form of its "
-                                 "own and colours as video, and draws surfaces from both"};
+    CompareMethod theatron(bool near) const {
+        CompareMethod method{
+            .id = near ? theatron_near_id : theatron_id,
+            .name = near ? "Theatron, near camera" : "Theatron",
+            .plain = near ? "Theatron with one camera more, on an arm over the foot of the table, "
+                            "about a metre from the wound, on the expert's side"
+                          : "The cameras of the research system. Theatron removes noise, sends "
+                            "distances in a form of its "
+                            "own and colours as video, and draws surfaces from both"};
         // A host sends this to `auto`, where it has an encoder and time.
         std::string codec = "h264:crf=20";
         if (!video::missing_color_encoder(video::parse_color_setting(codec).setting).empty())
             codec = "jpeg:quality=85";
-        method.ran = "filters `default`, depth as strata without loss, colour as " + codec +
-                     ", drawn by the renderer blend";
+        method.ran =
+            "usual filters (\"default\"), distances without loss by Theatron's codec strata, "
+            "colour as " +
+            codec + ", drawn by the renderer blend";
         std::vector<CameraStream> streams;
         std::vector<ArrivedCamera> arrived;
-        for (std::size_t c = 0; c < scene_.cameras.size(); ++c) {
+        for (std::size_t c = 0; c < usual_cameras() + std::size_t(near); ++c) {
             const CompareCamera& camera = scene_.cameras[c];
             filter::Chain filters = filters_of("default", camera.calibration);
             ColorWay color = color_way(codec);
@@ -529,7 +576,7 @@ private:
         method.own_view =
             own_view_of(scene_.cameras.front().last_exact, arrived.front().color.back());
         add_costs(method, streams, options_.links);
-        draw(method, arrived, "blend");
+        draw(method, near ? scene_.with_near : scene_.without_near, arrived, "blend");
         return method;
     }
 

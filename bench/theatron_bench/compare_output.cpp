@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "compare_verdict.h"
 #include "svg_drawing.h"
 #include "table1_inputs.h"
 #include "table1_output.h"
@@ -22,6 +23,14 @@ std::string counted(int number, const char* one, const char* many) {
     return std::to_string(number) + " " + (number == 1 ? one : many);
 }
 
+std::string drawn_by(const std::string& renderer) {
+    if (renderer.empty())
+        return "no GL.";
+    return renderer.find("llvmpipe") == std::string::npos
+               ? "pictures drawn by " + renderer + "."
+               : "pictures drawn by the processor, without a graphics card (" + renderer + ").";
+}
+
 nlohmann::json size_json(Size size) {
     return {{"width", size.width}, {"height", size.height}};
 }
@@ -37,6 +46,22 @@ nlohmann::json likeness_json(const CompareLikeness& likeness) {
             {"undrawn_percent", likeness.undrawn_percent},
             {"undrawn_unseen_percent", likeness.undrawn_unseen_percent},
             {"see_through_percent", likeness.see_through_percent}};
+}
+
+nlohmann::json causes_json(const CompareCauses& causes) {
+    return {{"no_camera_percent", causes.no_camera},
+            {"sensor_percent", causes.sensor},
+            {"filters_percent", causes.filters},
+            {"drawing_percent", causes.drawing}};
+}
+
+nlohmann::json close_up_json(const CompareCloseUp& close_up) {
+    nlohmann::json result = likeness_json(*close_up.likeness);
+    if (close_up.see_through)
+        result["see_through_causes"] = causes_json(*close_up.see_through);
+    if (close_up.instruments)
+        result["instruments_missing"] = causes_json(*close_up.instruments);
+    return result;
 }
 
 nlohmann::json method_json(const CompareMethod& method) {
@@ -69,7 +94,7 @@ nlohmann::json method_json(const CompareMethod& method) {
     if (method.expert)
         result["expert"] = likeness_json(*method.expert);
     if (method.close_up && method.close_up->likeness)
-        result["close_up"] = likeness_json(*method.close_up->likeness);
+        result["close_up"] = close_up_json(*method.close_up);
     return result;
 }
 
@@ -85,9 +110,8 @@ std::vector<std::string> compare_remarks(const Compared& c) {
         "Input: the generated operating room, " + counted(c.cameras, "camera", "cameras") + ", " +
         counted(c.frames, "picture", "pictures") + " each at 30 a second; depth " +
         size_text(c.depth) + ", colour " + size_text(c.color) + ", with the noise of sensors.");
-    remarks.push_back(
-        "Machine: " + c.processor + ", " + counted(c.cores, "core", "cores") + "; " +
-        (c.gl_renderer.empty() ? "no GL." : "pictures drawn by " + c.gl_renderer + "."));
+    remarks.push_back("Machine: " + c.processor + ", " + counted(c.cores, "core", "cores") + "; " +
+                      drawn_by(c.gl_renderer));
     if (c.cores_of_others > 0.2)
         remarks.push_back("Other programs used " + formatted("%.1f", c.cores_of_others) +
                           " cores before the first measurement. Processor times are those of the "
@@ -99,10 +123,13 @@ std::vector<std::string> compare_limits() {
     return {
         "The operation is generated. Its cameras have the noise and the gaps of real ones, but no "
         "blood on a lens, no smoke and no lamp that blinds a sensor.",
-        "The lines are simulated, without losses and without other users. Ages lack the delays of "
-        "camera, drawing and display, in each way alike.",
-        "The video call's camera hangs where Theatron's first one does. Somebody in the room could "
-        "put it nearer or turn it when the expert asks.",
+        "The lines are simulated, without losses and without other users. The age of a "
+        "picture is without the time that camera, drawing and display take; this holds for every "
+        "way.",
+        "The video call's camera hangs where Theatron's first one does, once with a usual lens and "
+        "once "
+        "zoomed to the wound. Somebody in the room could put it nearer or turn it when the expert "
+        "asks.",
         "No figure says whether an expert decides better or sooner. That takes a study with "
         "surgeons."};
 }
@@ -116,6 +143,8 @@ std::vector<std::string> compare_notes() {
         "larger.",
         "The video call is one encoder at one rate. Products for video calls add and leave out "
         "much that is not measured here, sound among it.",
+        "The near camera hangs on the side from which the expert looks; other places were not "
+        "measured.",
         "The research system is rebuilt from what its authors say (Fischer et al. 2022); their own "
         "program was not run. Its depth loses detail for fewer bytes, the one here does not.",
         "PCL's codec is the one that cwipc's grew out of. cwipc itself was not run."};
@@ -159,6 +188,11 @@ std::string compare_text(const Compared& c) {
         else
             text += "  none";
         text += "\n";
+    }
+    if (const std::vector<std::string> verdict = compare_verdict(c); !verdict.empty()) {
+        text += "\nWhat may be judged from it:\n";
+        for (const std::string& sentence : verdict)
+            text += "  " + sentence + "\n";
     }
     text += "\nWhat ran:\n";
     for (const CompareMethod& m : c.methods) {

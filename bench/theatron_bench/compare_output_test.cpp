@@ -23,6 +23,7 @@ TEST(CompareText, EachMethodHasItsFiguresOrItsReason) {
                                 "       3.0        19.0         99        20.9   0.772      3.3"
                                 "    17.4      15.2        4.3\n"));
     EXPECT_THAT(text, HasSubstr("It has no other picture."));
+    EXPECT_THAT(text, HasSubstr("\nWhat may be judged from it:\n  At the wound Theatron's"));
     for (const auto& sentences : {compare_limits(), compare_notes()})
         for (const std::string& sentence : sentences)
             EXPECT_THAT(text, HasSubstr(sentence));
@@ -46,6 +47,8 @@ TEST(CompareJson, WhatIsNotThereIsNull) {
     EXPECT_EQ(methods[2]["expert"]["undrawn_unseen_percent"], 15.23);
     EXPECT_EQ(methods[2]["expert"]["see_through_percent"], 4.31);
     EXPECT_EQ(methods[2]["close_up"]["holes_percent"], 6.7);
+    EXPECT_EQ(methods[2]["close_up"]["see_through_causes"]["no_camera_percent"], 1.5);
+    EXPECT_EQ(methods[2]["close_up"]["instruments_missing"]["drawing_percent"], 2);
     EXPECT_DOUBLE_EQ(methods[2]["mbit_of_all"], 2 * 15.48);
     EXPECT_EQ(methods[2]["own_view"], nullptr);
     EXPECT_EQ(json["picture"]["width"], 16);

@@ -7,6 +7,7 @@
 
 #include "compare_output.h"
 #include "compare_page_parts.h"
+#include "compare_verdict.h"
 #include "compare_words.h"
 #include "svg_drawing.h"
 
@@ -18,6 +19,21 @@ std::string whole_text(double value) {
 
 std::string tenths_text(double value) {
     return formatted("%.1f", value);
+}
+
+std::string kept_together(const std::string& text) {
+    constexpr std::array<std::string_view, 7> units = {"%",  "dB", "ms",      "Mbit/s",
+                                                       "mm", "cm", "pictures"};
+    std::string kept;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const bool may_break = text[i] == ' ' && i > 0 && text[i - 1] >= '0' && text[i - 1] <= '9';
+        const std::string_view rest = std::string_view(text).substr(i + 1);
+        kept += may_break && std::any_of(units.begin(), units.end(),
+                                         [&](std::string_view u) { return rest.starts_with(u); })
+                    ? "\u00a0"
+                    : std::string(1, text[i]);
+    }
+    return kept;
 }
 
 std::string line_text(const CompareLink& link) {
@@ -44,8 +60,8 @@ std::string arrival_text(const LinkFigures& f) {
 }
 
 std::string ways_text(std::size_t count) {
-    constexpr std::array<const char*, 5> numbers = {"No way", "One way", "Two ways", "Three ways",
-                                                    "Four ways"};
+    constexpr std::array<const char*, 7> numbers = {
+        "No way", "One way", "Two ways", "Three ways", "Four ways", "Five ways", "Six ways"};
     return count < numbers.size() ? numbers[count] : std::to_string(count) + " ways";
 }
 
@@ -58,14 +74,16 @@ std::string lead(const Compared& c) {
     std::string text = ways_text(std::size_t(measured)) +
                        " to show an operation to an expert elsewhere " +
                        (measured < 2 ? "was" : "were") +
-                       " compared: with the same cameras, in the same second, over the same "
-                       "lines.";
+                       " compared, in the same second of the same operation and over the same "
+                       "lines. The table says how many cameras each had.";
     if (ours && call) {
         text +=
             " With Theatron the expert can look from any place, which a video call does not "
             "allow; it needs " +
             tenths_text(ours->mbit_of_all()) + " Mbit/s in place of " +
-            tenths_text(call->mbit_of_all());
+            tenths_text(call->mbit_of_all()) + " (" + std::to_string(ours->cameras) +
+            (ours->cameras == 1 ? " camera" : " cameras") + " in place of " +
+            std::to_string(call->cameras) + ")";
         if (ours->expert)
             text += ", and " + tenths_text(ours->expert->undrawn_percent) +
                     " % of its picture stays dark";
@@ -87,7 +105,8 @@ std::vector<std::string> gaps(const CompareMethod& ours) {
     const double dark = in_tenths(all.undrawn_percent),
                  unseen = in_tenths(all.undrawn_unseen_percent);
     std::vector<std::string> sentences = {
-        tenths_text(dark) + " % of Theatron's picture stays dark: " + tenths_text(unseen) +
+        "On the mean of the expert's standing places " + tenths_text(dark) +
+            " % of Theatron's picture stays dark: " + tenths_text(unseen) +
             " % because no camera sees the place, " + tenths_text(dark - unseen) +
             " % although a camera does. In " + tenths_text(all.see_through_percent) +
             " % of the rest a surface is missing, and something behind it shows.",
@@ -117,28 +136,32 @@ std::string in_short(const Compared& c) {
             " Mbit/s. The expert sees what one camera sees, and cannot step aside or look past a "
             "head or a hand that is in the way.");
     if (ours) {
-        points.push_back("With Theatron the expert looks from any place. The whole view of " +
-                         std::to_string(ours->cameras) +
-                         (ours->cameras == 1 ? " camera" : " cameras") + " needs " +
-                         tenths_text(ours->mbit_of_all()) + " Mbit/s" +
-                         (call ? ", " + whole_text(ours->mbit_of_all() / call->mbit_of_all()) +
-                                     " times the video call"
-                               : "") +
-                         ", and the expert a computer with a graphics card.");
+        points.push_back(
+            "With Theatron the expert looks from any place. The whole view of " +
+            std::to_string(ours->cameras) + (ours->cameras == 1 ? " camera" : " cameras") +
+            " needs " + tenths_text(ours->mbit_of_all()) + " Mbit/s" +
+            (call ? ", " + whole_text(ours->mbit_of_all() / call->mbit_of_all()) +
+                        " times what the video call needs for its one camera; one "
+                        "camera's " +
+                        tenths_text(ours->mbit_per_camera) + " Mbit/s are " +
+                        whole_text(ours->mbit_per_camera / call->mbit_per_camera) + " times as many"
+                  : "") +
+            ". The expert needs a computer with a graphics card.");
         if (ours->expert)
             for (const std::string& sentence : gaps(*ours))
                 points.push_back(sentence);
     }
     for (const char* id : {paper_id, pcl_id})
         if (const CompareMethod* other = c.find_measured(id))
-            points.push_back(other->name + ": looks from any place, too; " +
-                             tenths_text(other->mbit_of_all()) + " Mbit/s for the whole view" +
-                             (other->expert
-                                  ? ", " + tenths_text(other->expert->undrawn_percent) +
-                                        " % dark, " + tenths_text(other->expert->holes_percent) +
-                                        " % of what cameras see missing"
-                                  : "") +
-                             ".");
+            points.push_back(
+                other->name + ": looks from any place, too; " + tenths_text(other->mbit_of_all()) +
+                " Mbit/s for the whole view" +
+                (other->id == paper_id ? std::string(" (") + paper_caveat() + ")" : "") +
+                (other->expert ? ", " + tenths_text(other->expert->undrawn_percent) + " % dark, " +
+                                     tenths_text(other->expert->holes_percent) +
+                                     " % of what cameras see missing"
+                               : "") +
+                ".");
     if (ours && call)
         for (std::size_t i = 0; i < ours->links.size(); ++i)
             points.push_back("On " + line_text(ours->links[i].link) + ": Theatron has " +
@@ -162,6 +185,13 @@ std::string ways(const Compared& c) {
     return text + "</dl>\n";
 }
 
+std::string verdict(const Compared& c) {
+    const std::vector<std::string> sentences = compare_verdict(c);
+    return sentences.empty() ? ""
+                             : "<div class=\"verdict\"><h2>What may be judged from it</h2>\n" +
+                                   list(sentences) + "</div>\n";
+}
+
 // For people who check: input, machine, limits of each method, its settings and its reason.
 std::string how_measured(const Compared& c) {
     std::vector<std::string> settings;
@@ -180,13 +210,15 @@ std::string how_measured(const Compared& c) {
 
 std::string compare_page(const Compared& c) {
     return compare_page_head() +
-           std::string(
+           kept_together(
                "<h1>An expert looks into the operating room from afar: a video call, and "
-               "what Theatron adds</h1>\n<p class=\"lead\">") +
-           escaped(lead(c)) + "</p>\n<div class=\"limits\"><h2>What this page does not say</h2>\n" +
-           list(compare_limits()) + "</div>\n" + in_short(c) + ways(c) + compare_pictures(c) +
-           compare_table(c) + how_measured(c) +
-           "<p class=\"quiet\">Made by theatron bench compare.</p>\n" + compare_page_end();
+               "what Theatron adds</h1>\n<p class=\"lead\">" +
+               escaped(lead(c)) + "</p>\n" + verdict(c) +
+               "<div class=\"limits\"><h2>What this page does not say</h2>\n" +
+               list(compare_limits()) + "</div>\n" + in_short(c) + ways(c) + compare_pictures(c) +
+               compare_table(c) + how_measured(c) +
+               "<p class=\"quiet\">Made by theatron bench compare.</p>\n") +
+           compare_page_end();
 }
 
 }  // namespace theatron::bench

@@ -3,8 +3,8 @@
 
 namespace theatron::bench {
 
-// Below 42rem the titles of the table's rows are lines of their own, so that the figures of four
-// methods have the whole width.
+// Below 52rem the table is a list: each figure has a line, with the name of its way before it, so
+// that no title of a column has to stay in view.
 const char* compare_page_head() {
     return R"(<!doctype html>
 <html lang="en">
@@ -23,12 +23,17 @@ h1 { font-size: 1.7rem; line-height: 1.25; margin-top: 0; }
 h2 { font-size: 1.25rem; margin-top: 2.2rem; }
 .lead { font-size: 1.1rem; }
 .quiet, small { color: var(--quiet); }
+.verdict { border: 3px solid var(--ours); padding: .6rem 1rem; margin-bottom: 1.2rem; }
+.verdict h2 { font-size: 1.25rem; margin: 0; }
+.verdict ul { margin: .3rem 0 0; padding-left: 1.2rem; }
+.verdict li:first-child { font-weight: bold; }
 .limits { border-left: 4px solid var(--ours); background: var(--part); padding: .6rem 1rem; }
 .limits h2 { font-size: 1rem; margin: 0; }
 .limits ul { margin: .3rem 0 0; padding-left: 1.2rem; }
 dt { font-weight: bold; margin-top: .6rem; }
 dd { margin-left: 0; }
-.pictures { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(16rem, 100%), 1fr)); gap: 1.2rem; }
+.pictures { display: grid; grid-template-columns: repeat(3, minmax(0, 1fr)); gap: 1.2rem; }
+@media (max-width: 60rem) { .pictures { grid-template-columns: repeat(2, minmax(0, 1fr)); } }
 @media (max-width: 42rem) { .pictures { grid-template-columns: minmax(0, 1fr); } }
 figure { margin: 0; }
 figure button { display: block; width: 100%; padding: 0; border: 1px solid var(--line); background: none; cursor: zoom-in; }
@@ -48,25 +53,27 @@ dialog .below button { font: inherit; min-width: 2.8rem; min-height: 2.8rem; col
 table { border-collapse: collapse; table-layout: fixed; width: 100%; font-size: .95rem; }
 th, td { text-align: left; vertical-align: top; padding: .45rem .6rem; border-bottom: 1px solid var(--line); overflow-wrap: anywhere; }
 thead th { position: sticky; top: 0; background: var(--page); border-bottom: 2px solid var(--quiet); }
-thead th:first-child { width: 36%; }
+thead th:first-child { width: 28%; }
 tbody th { font-weight: normal; }
 th small, td small { display: block; }
 td.ours, thead th.ours { background: var(--tint); }
 tr.part th { font-weight: bold; background: var(--part); }
-@media screen and (max-width: 42rem) {
+@media screen and (max-width: 52rem) {
 body { padding: 1rem; }
-table, thead, tbody { display: block; }
-tr { display: grid; grid-template-columns: repeat(var(--methods), minmax(0, 1fr)); }
-thead { position: sticky; top: 0; }
-thead th:first-child { display: none; }
-tbody th { grid-column: 1 / -1; border-bottom: 0; padding: .5rem .3rem .1rem; }
-thead th, td { font-size: .8rem; line-height: 1.3; padding: .25rem .3rem; }
+table, tbody, tr { display: block; }
+thead { display: none; }
+tr { border-bottom: 1px solid var(--line); padding-bottom: .3rem; }
+tbody th { display: block; border-bottom: 0; padding: .5rem .3rem .1rem; font-weight: bold; }
+tbody th small { font-weight: normal; }
+td { display: grid; grid-template-columns: 45% 1fr; border-bottom: 0; padding: .1rem .3rem; }
+td::before { content: attr(data-way); grid-row: span 2; }
+td small { grid-column: 2; }
 }
 @page { size: A4; margin: 14mm; }
 @media print {
 body { font-size: 10pt; max-width: none; padding: 0; }
 .pictures { grid-template-columns: repeat(3, minmax(0, 1fr)); gap: 4mm; }
-figure, tr, li, dt, dd, .limits { break-inside: avoid; }
+figure, tr, li, dt, dd, .limits, .verdict { break-inside: avoid; }
 h2, dt { break-after: avoid; }
 thead th { position: static; }
 table { font-size: 9pt; }

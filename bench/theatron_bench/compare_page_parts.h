@@ -21,6 +21,10 @@ std::string compare_pictures(const Compared& compared);
 // Costs and figures of each method; empty if none was measured.
 std::string compare_table(const Compared& compared);
 
+// The text with spaces that do not break between a figure and its unit.
+std::string kept_together(const std::string& text);
+// Where bytes of the research system stand: that its depth is sent without loss here.
+const char* paper_caveat();
 // "15.5".
 std::string tenths_text(double value);
 // "19".

@@ -22,11 +22,23 @@ std::string likeness_line(const CompareLikeness& likeness) {
            tenths_text(likeness.psnr_db) + " dB: " + psnr_words(likeness.psnr_db) + ".";
 }
 
+bool is_theatron(const CompareMethod& method) {
+    return method.id == theatron_id || method.id == theatron_near_id;
+}
+
 // `line` is HTML, and may be empty.
 std::string row_of(const std::string& title, const std::string& line, const std::string& figures) {
     return "<h2>" + escaped(title) + "</h2>\n" +
            (line.empty() ? "" : "<p class=\"quiet\">" + line + "</p>\n") +
            "<div class=\"pictures\">\n" + figures + "</div>\n";
+}
+
+// The caption of a camera's picture, which is a close-up by its lens or by a cut.
+std::string pixels_line(const CompareMethod& method) {
+    return std::string(method.id == zoomed_call_id ? "The zoomed camera's picture: "
+                                                   : "Cut out of the camera's picture: ") +
+           std::to_string(method.close_up->picture.size.width) +
+           " pixels wide, from the camera's place.";
 }
 
 std::string close_up_row(const Compared& c) {
@@ -36,12 +48,10 @@ std::string close_up_row(const Compared& c) {
         if (!method.is_measured() || !method.close_up)
             continue;
         const CompareCloseUp& close_up = *method.close_up;
-        figures += figure(close_up.picture, method.name,
-                          close_up.likeness ? likeness_line(*close_up.likeness)
-                                            : "Cut out of the camera's picture: " +
-                                                  std::to_string(close_up.picture.size.width) +
-                                                  " pixels wide, from the camera's place.",
-                          method.id == theatron_id);
+        figures +=
+            figure(close_up.picture, method.name,
+                   close_up.likeness ? likeness_line(*close_up.likeness) : pixels_line(method),
+                   is_theatron(method));
     }
     return row_of(
         "Close to the wound",
@@ -69,10 +79,13 @@ std::string place_row(const Compared& c, std::size_t place) {
                                 "expert.";
         else if (place < method.from_place.size())
             line = likeness_line(method.from_place[place]);
-        figures += figure(picture, method.name, line, method.id == theatron_id);
+        figures += figure(picture, method.name, line, is_theatron(method));
     }
     return row_of((place == 0 ? "The expert stands " : "The expert takes ") + c.places[place],
-                  place == 0 ? "All ways had the same cameras and the same moment." : "", figures);
+                  place == 0
+                      ? "All ways show the same moment; the table says how many cameras each had."
+                      : "",
+                  figures);
 }
 
 }  // namespace

@@ -8,6 +8,8 @@
 #include "codec/rvl.h"
 #include "compare.h"
 #include "synthetic/frame_maker.h"
+#include "synthetic/sensor_model.h"
+#include "video/color_codec.h"
 
 namespace theatron::bench {
 namespace {
@@ -36,6 +38,45 @@ Duration moment_of(int frame) {
     return seconds_to_duration(first_moment_s + frame / compare_pictures_per_s);
 }
 
+// An arm over the table's foot, below the lamps: about a metre from the wound.
+constexpr Vec3 near_place{0.8, 1.85, 0.05};
+
+Calibration calibration_of(const synthetic::LoopOptions& loop, bool is_near) {
+    Calibration calibration = synthetic::loop_calibration(loop);
+    if (is_near)
+        calibration.room_from_camera = look_at(near_place, wound, {0, 1, 0});
+    return calibration;
+}
+
+double fov_of_close_up(Vec3 eye) {
+    return 2 * std::atan(close_up_width_m / 2 / length(wound - eye)) / radians_of(1);
+}
+
+// The pictures of a video camera at `eye` that is zoomed to the wound.
+void add_zoomed(CompareScene& scene, const synthetic::OperatingRoom& room, Vec3 eye, Size size,
+                int frames) {
+    constexpr std::uint32_t seed = 5003;
+    const auto view =
+        room.look_from(synthetic::free_viewpoint(eye, wound, size, fov_of_close_up(eye)),
+                       {.depth = false, .surface = false, .color = true});
+    const auto encoder =
+        video::make_color_encoder(video::parse_color_setting("jpeg:quality=90").setting);
+    for (int i = 0; i < frames; ++i) {
+        scene.zoomed_exact = view->render(*room.at(moment_of(i))).color;
+        ColorData noisy;
+        noisy.size = size;
+        noisy.pixels.resize(size);
+        synthetic::apply_color_sensor({}, seed, std::uint32_t(i), scene.zoomed_exact.view(),
+                                      noisy.pixels.view());
+        const auto encoded = encoder->encode(noisy, true);
+        if (!encoded)
+            throw Error("A picture of the generated room could not be compressed.");
+        ColorData& jpeg = scene.zoomed.emplace_back();
+        jpeg.size = size;
+        jpeg.jpeg.assign(encoded->bytes.begin(), encoded->bytes.end());
+    }
+}
+
 void add_frame(CompareCamera& camera, synthetic::FrameMaker& maker,
                const synthetic::GroundTruth& truth, int number) {
     synthetic::EncodedFrame encoded = maker.encode(truth, std::uint32_t(number));
@@ -56,16 +97,17 @@ CompareScene make_compare_scene(const CompareSceneOptions& options,
     progress("building the generated operating room", 0);
     const synthetic::OperatingRoom room(loop_of(options, 0).scene);
     CompareScene scene;
-    scene.cameras.resize(std::size_t(options.cameras));
+    const int cameras = options.cameras + 1;
+    scene.cameras.resize(std::size_t(cameras));
     std::vector<ViewBenchCamera> last(scene.cameras.size());
     std::atomic<int> done = 0;
-    const int all = options.cameras * options.frames;
+    const int all = (cameras + 1) * options.frames;
     std::vector<std::exception_ptr> failures(scene.cameras.size());
     std::mutex telling;
     const auto make = [&](int index) {
         const synthetic::LoopOptions loop = loop_of(options, index);
         CompareCamera& camera = scene.cameras[std::size_t(index)];
-        camera.calibration = synthetic::loop_calibration(loop);
+        camera.calibration = calibration_of(loop, index == options.cameras);
         const auto view = room.look_from(camera.calibration, {true, true, true});
         synthetic::FrameMaker maker(loop);
         for (int i = 0; i < options.frames; ++i) {
@@ -83,7 +125,7 @@ CompareScene make_compare_scene(const CompareSceneOptions& options,
         }
     };
     std::vector<std::jthread> threads;
-    for (int i = 0; i < options.cameras; ++i)
+    for (int i = 0; i < cameras; ++i)
         threads.emplace_back([&, i] {
             try {
                 make(i);
@@ -96,24 +138,31 @@ CompareScene make_compare_scene(const CompareSceneOptions& options,
         if (failure)
             std::rethrow_exception(failure);
 
+    add_zoomed(scene, room, scene.cameras.front().calibration.room_from_camera.translation,
+               loop_of(options, 0).color, options.frames);
     const auto moment = room.at(moment_of(options.frames - 1));
     const std::pair<double, const char*> places[] = {
         {2, "at the foot of the table"}, {24, "a step to the left"}, {-20, "a step to the right"}};
-    const double all_pictures = double(std::size(places)) + 1;
-    const auto seen_from = [&](Vec3 eye, double fov_degrees) {
-        return make_view_bench_place(room, *moment, last, {eye, wound, fov_degrees},
-                                     options.picture);
+    const auto without_near = std::vector(last.begin(), last.end() - 1);
+    const double all_pictures = 2 * (double(std::size(places)) + 1);
+    int drawn = 0;
+    const auto seen_from = [&](const std::vector<ViewBenchCamera>& by, Vec3 eye, double fov) {
+        ViewBenchPlace place =
+            make_view_bench_place(room, *moment, by, {eye, wound, fov}, options.picture);
+        progress("drawing what the expert would see", ++drawn / all_pictures);
+        return place;
     };
-    for (const auto& [degrees, name] : places) {
-        scene.places.push_back(seen_from(beside_table(degrees, 1.6, 1.75), 60));
-        scene.place_names.emplace_back(name);
-        progress("drawing what the expert would see", double(scene.places.size()) / all_pictures);
-    }
-    const Vec3 first = beside_table(places[0].first, 1.6, 1.75);
     scene.wound = wound;
-    scene.close_up = seen_from(
-        first, 2 * std::atan(close_up_width_m / 2 / length(wound - first)) / radians_of(1));
-    progress("drawing what the expert would see", 1);
+    for (const bool near : {false, true}) {
+        const std::vector<ViewBenchCamera>& by = near ? last : without_near;
+        CompareViews& views = near ? scene.with_near : scene.without_near;
+        for (const auto& [degrees, name] : places)
+            views.places.push_back(seen_from(by, beside_table(degrees, 1.6, 1.75), 60));
+        const Vec3 first = beside_table(places[0].first, 1.6, 1.75);
+        views.close_up = seen_from(by, first, fov_of_close_up(first));
+    }
+    for (const auto& [degrees, name] : places)
+        scene.place_names.emplace_back(name);
     return scene;
 }
 

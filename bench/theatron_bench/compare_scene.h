@@ -10,7 +10,7 @@
 namespace theatron::bench {
 
 struct CompareSceneOptions {
-    int cameras = 2;         // 1 to 4
+    int cameras = 2;         // 1 to 4, without the near one
     int frames = 30;         // of each, at 30 a second
     Size picture{960, 540};  // of the expert
     bool quick = false;      // a coarse room and small pictures
@@ -26,11 +26,21 @@ struct CompareCamera {
 // The width of the close-up at the wound.
 inline constexpr double close_up_width_m = 0.6;
 
-struct CompareScene {
-    std::vector<CompareCamera> cameras;
-    std::vector<ViewBenchPlace> places;  // at the moment of the last frames
-    std::vector<std::string> place_names;
+// The expert's exact pictures at the moment of the last frames, with masks of what some cameras
+// see.
+struct CompareViews {
+    std::vector<ViewBenchPlace> places;
     ViewBenchPlace close_up;  // the wound from the first place
+};
+
+struct CompareScene {
+    std::vector<CompareCamera> cameras;  // the near one last: it hangs over the table's foot
+    CompareViews without_near, with_near;
+    std::vector<std::string> place_names;
+    // A video camera at the first camera's place whose lens shows the wound as wide as the
+    // close-up, as JPEG, and its last picture before noise and JPEG.
+    std::vector<ColorData> zoomed;
+    ColorImage zoomed_exact;
     Vec3 wound;
 };
 

@@ -41,8 +41,9 @@ public:
                  small(meaning) + "</th>";
         for (const CompareMethod* method : methods_) {
             const Cell cell = cell_of(*method);
-            text_ += "<td role=\"cell\"" + class_of(*method) + ">" + escaped(cell.figure) +
-                     small(cell.words) + "</td>";
+            text_ += "<td role=\"cell\"" + class_of(*method) + " data-way=\"" +
+                     escaped(method->name) + "\">" + escaped(cell.figure) + small(cell.words) +
+                     "</td>";
         }
         text_ += "</tr>\n";
     }
@@ -51,7 +52,7 @@ public:
 
 private:
     static std::string class_of(const CompareMethod& method) {
-        return method.id == theatron_id ? " class=\"ours\"" : "";
+        return method.id == theatron_id || method.id == theatron_near_id ? " class=\"ours\"" : "";
     }
     static std::string small(const std::string& words) {
         return words.empty() ? "" : "<small>" + escaped(words) + "</small>";
@@ -67,16 +68,78 @@ Cell psnr_cell(double db) {
     return {tenths_text(db) + " dB", psnr_words(db)};
 }
 
-void add_pictures(Table& table) {
-    const auto percent = [](double CompareLikeness::*figure) {
+using Percent = double CompareLikeness::*;
+using CausePercent = double CompareCauses::*;
+
+Cell percent_cell(double percent) {
+    return {tenths_text(percent) + " %", ""};
+}
+
+// The rows of the close-up, first: they decide.
+void add_close_up(Table& table, double width_m) {
+    const auto of = [](Percent figure) {
         return [=](const CompareMethod& m) {
-            return m.expert ? Cell{tenths_text((*m.expert).*figure) + " %", ""} : no_such_picture;
+            return m.close_up && m.close_up->likeness
+                       ? percent_cell((*m.close_up->likeness).*figure)
+                       : no_such_picture;
         };
     };
-    table.part("What the expert gets");
+    const auto cause = [](CausePercent figure) {
+        return [=](const CompareMethod& m) {
+            return m.close_up && m.close_up->see_through
+                       ? percent_cell((*m.close_up->see_through).*figure)
+                       : no_such_picture;
+        };
+    };
+    table.part("Close to the wound: the " + whole_text(width_m * 100) +
+               " cm around it, from the foot of the table");
+    table.row("Seen through at the wound",
+              "of what is drawn: a surface is missing, and something behind it shows; lower is "
+              "better",
+              of(&CompareLikeness::see_through_percent));
+    table.row("because no camera sees the place", "the four causes together are the row above",
+              cause(&CompareCauses::no_camera));
+    table.row("because the sensor measures nothing there", "although its camera sees the place",
+              cause(&CompareCauses::sensor));
+    table.row("because filters drop it", "", cause(&CompareCauses::filters));
+    table.row("because drawing loses it", "although it arrived", cause(&CompareCauses::drawing));
+    table.row(
+        "Instruments missing",
+        "of the surface of instruments: nothing, or something more than 2 cm behind, is drawn",
+        [](const CompareMethod& m) {
+            return m.close_up && m.close_up->instruments
+                       ? percent_cell(m.close_up->instruments->sum())
+                       : no_such_picture;
+        });
+    table.row("Dark at the wound", "of the whole close-up", of(&CompareLikeness::undrawn_percent));
+    table.row("Missing at the wound although a camera sees it",
+              "of the surfaces that a camera sees, without their edges",
+              of(&CompareLikeness::holes_percent));
+    table.row("Likeness at the wound",
+              "against the exact picture, where a camera sees the surface; higher is better",
+              [](const CompareMethod& m) {
+                  return m.close_up && m.close_up->likeness
+                             ? psnr_cell(m.close_up->likeness->psnr_db)
+                             : no_such_picture;
+              });
+}
+
+std::string places_title(std::size_t count) {
+    return count == 1 ? "From the expert's standing place"
+                      : "Mean of the expert's " + std::to_string(count) +
+                            " standing places, without the close-up";
+}
+
+void add_pictures(Table& table, std::size_t places) {
+    const auto percent = [](Percent figure) {
+        return [=](const CompareMethod& m) {
+            return m.expert ? percent_cell((*m.expert).*figure) : no_such_picture;
+        };
+    };
+    table.part(places_title(places));
     table.row("Looks from any place", "or only from where a camera hangs",
               [](const CompareMethod& m) {
-                  return Cell{m.id == video_call_id ? "no" : "yes", ""};
+                  return Cell{m.id == video_call_id || m.id == zoomed_call_id ? "no" : "yes", ""};
               });
     table.row("Dark part of the picture", "of the whole picture; lower is better",
               percent(&CompareLikeness::undrawn_percent));
@@ -117,7 +180,8 @@ void add_costs(Table& table) {
     });
     table.row("Data for the whole view", "all cameras together, at 30 pictures a second",
               [](const CompareMethod& m) {
-                  return Cell{tenths_text(m.mbit_of_all()) + " Mbit/s", ""};
+                  return Cell{tenths_text(m.mbit_of_all()) + " Mbit/s",
+                              m.id == paper_id ? paper_caveat() : ""};
               });
     table.row("Data of one camera", "", [](const CompareMethod& m) {
         return Cell{tenths_text(m.mbit_per_camera) + " Mbit/s",
@@ -139,11 +203,16 @@ void add_costs(Table& table) {
 
 }  // namespace
 
+const char* paper_caveat() {
+    return "its depth is sent without loss here; the study's own loses detail for fewer bytes";
+}
+
 std::string compare_table(const Compared& c) {
     Table table(c);
     if (table.empty())
         return "";
-    add_pictures(table);
+    add_close_up(table, c.close_up_width_m);
+    add_pictures(table, c.places.size());
     add_costs(table);
     for (std::size_t i = 0; i < c.links.size(); ++i) {
         table.part("Over " + line_text(c.links[i]) + " with " + whole_text(c.links[i].latency_ms) +

@@ -34,7 +34,7 @@ inline Compared given_comparison() {
     call.own_view = CompareOwnView{31.1, 0.961};
     call.expert_reason = "It has no other picture.";
     call.pictures = {ColorImage({16, 8})};
-    call.close_up = CompareCloseUp{ColorImage({8, 4}), std::nullopt};
+    call.close_up = CompareCloseUp{ColorImage({8, 4}), {}, {}, {}};
     CompareMethod pcl{.id = pcl_id, .name = "A point cloud codec", .plain = "Points", .ran = "PCL"};
     pcl.reason = "This build has no PCL.";
     CompareMethod ours{.id = theatron_id, .name = "Theatron", .plain = "Ours", .ran = "strata"};
@@ -46,7 +46,8 @@ inline Compared given_comparison() {
     ours.expert = CompareLikeness{20.91, 0.7725, 3.26, 17.43, 15.23, 4.31};
     ours.from_place = {{21.5, 0.78, 2.5, 17, 16, 3}, {19.4, 0.76, 4.5, 18, 17, 4}};
     ours.pictures = {ColorImage({16, 8}), ColorImage({16, 8})};
-    ours.close_up = CompareCloseUp{ColorImage({16, 8}), CompareLikeness{22, 0.8, 6.7, 8.9, 1, 2}};
+    ours.close_up = CompareCloseUp{ColorImage({16, 8}), CompareLikeness{22, 0.8, 6.7, 8.9, 1, 2},
+                                   CompareCauses{1.5, 0.3, 0.1, 0.1}, CompareCauses{20, 9, 1, 2}};
     c.methods = {call, pcl, ours};
     return c;
 }

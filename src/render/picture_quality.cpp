@@ -94,11 +94,11 @@ void OutlineError::add(DepthView drawn_mm, DepthView exact_mm, MaskView mask) {
 namespace {
 
 // True if a pixel at most two columns and two rows away shows another surface.
-bool near_outline(DepthView depth_mm, int x, int y) {
+bool near_outline(DepthView depth_mm, int x, int y, int jump_mm) {
     const int mm = depth_mm.row(y)[x];
     for (int ny = std::max(y - 2, 0); ny <= std::min(y + 2, depth_mm.size.height - 1); ++ny)
         for (int nx = std::max(x - 2, 0); nx <= std::min(x + 2, depth_mm.size.width - 1); ++nx)
-            if (std::abs(depth_mm.row(ny)[nx] - mm) > Holes::jump_mm)
+            if (std::abs(depth_mm.row(ny)[nx] - mm) > jump_mm)
                 return true;
     return false;
 }
@@ -108,8 +108,8 @@ bool near_outline(DepthView depth_mm, int x, int y) {
 void Holes::add(DepthView drawn_mm, DepthView exact_mm, MaskView mask) {
     for (int y = 0; y < exact_mm.size.height; ++y)
         for (int x = 0; x < exact_mm.size.width; ++x)
-            if (mask.row(y)[x] && !near_outline(exact_mm, x, y)) {
-                holes_ += lies_behind(exact_mm.row(y)[x], drawn_mm.row(y)[x], jump_mm);
+            if (mask.row(y)[x] && !near_outline(exact_mm, x, y, jump_mm_)) {
+                holes_ += lies_behind(exact_mm.row(y)[x], drawn_mm.row(y)[x], jump_mm_);
                 ++count_;
             }
 }

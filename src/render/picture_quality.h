@@ -52,12 +52,15 @@ private:
 // measures them.
 class Holes {
 public:
-    static constexpr int jump_mm = 150;
+    static constexpr int usual_jump_mm = 150;
 
+    explicit Holes(int jump_mm = usual_jump_mm) : jump_mm_(jump_mm) {}
     void add(DepthView drawn_mm, DepthView exact_mm, MaskView mask);
     double percent() const { return count_ > 0 ? 100 * holes_ / count_ : 0; }
+    double missing_pixels() const { return holes_; }
 
 private:
+    int jump_mm_;
     double holes_ = 0, count_ = 0;
 };
 

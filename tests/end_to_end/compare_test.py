@@ -10,7 +10,7 @@ import unittest
 
 from theatron_process import PROGRAM, run
 
-METHODS = ["video_call", "paper", "pcl", "theatron"]
+METHODS = ["video_call", "video_call_zoomed", "paper", "pcl", "theatron", "theatron_near"]
 
 
 class Compare(unittest.TestCase):
@@ -47,7 +47,11 @@ class Compare(unittest.TestCase):
                 self.assertEqual(method["expert"] is None, method["close_up"] is None)
                 if method["expert"]:
                     self.assertLessEqual(method["expert"]["undrawn_unseen_percent"], method["expert"]["undrawn_percent"])
+                if method["close_up"]:
+                    causes = method["close_up"]["see_through_causes"]
+                    self.assertAlmostEqual(sum(causes.values()), method["close_up"]["see_through_percent"])
                 pictures += len(found["places"]) + 1 if method["expert"] or method["id"] == "video_call" else 0
+                pictures += method["id"] == "video_call_zoomed"  # the close-up alone
         self.assertEqual(shown.count("<figure"), pictures)
         self.assertEqual(shown.count('src="data:image/jpeg;'), pictures)
         self.assertNotIn("http", shown)
@@ -58,8 +62,12 @@ class Compare(unittest.TestCase):
             self.assertEqual(methods[name]["expert"] is None, found["here"]["gl_renderer"] is None)
             self.assertEqual(methods[name]["cameras"], 2)
         self.assertIsNone(methods["video_call"]["expert"])
+        self.assertEqual(methods["theatron_near"]["cameras"], 3)
         if methods["theatron"]["expert"]:
             self.assertLess(methods["theatron"]["expert"]["holes_percent"], methods["paper"]["expert"]["holes_percent"])
+            near, usual = methods["theatron_near"]["close_up"], methods["theatron"]["close_up"]
+            self.assertLess(near["see_through_percent"], usual["see_through_percent"])
+            self.assertIn("What may be judged from it", shown)
             self.assertGreater(methods["theatron"]["expert"]["psnr_db"], methods["paper"]["expert"]["psnr_db"])
         self.assertEqual(methods["pcl"]["reason"] is None, (pathlib.Path(PROGRAM).parent / "theatron_bench_pcl").exists())
 
