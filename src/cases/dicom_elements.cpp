@@ -68,24 +68,19 @@ public:
             at_ += 8;  // the end of an item or of a sequence
             return false;
         }
-        std::uint32_t length;
         const char* letters = reinterpret_cast<const char*>(bytes_.data()) + at_ + 4;
-        // Some devices leave the representation out of single elements.
-        if (!encoding_.has_representations || !is_representation(letters)) {
-            length = number(at_ + 4, 4);
-            at_ += 8;
-        } else {
+        Head head = Head::bare;
+        if (encoding_.has_representations && is_representation(letters)) {
             out.representation = {letters[0], letters[1]};
-            if (!has_long_length(out.representation)) {
-                length = number(at_ + 6, 2);
-                at_ += 8;
-            } else {
-                if (bytes_.size() - at_ < 12)
-                    return false;
-                length = number(at_ + 8, 4);
-                at_ += 12;
-            }
+            head = has_long_length(out.representation) ? Head::long_length : Head::short_length;
+        } else if (encoding_.has_representations) {
+            head = head_of_unknown();
         }
+        const std::size_t size = size_of(head);
+        if (bytes_.size() - at_ < size)
+            return false;
+        const std::uint32_t length = length_at(head);
+        at_ += size;
         const std::size_t begin = at_;
         if (length == undefined_length) {
             out.is_open = true;
@@ -104,6 +99,35 @@ private:
         return number_at(bytes_, at, size, encoding_.big_endian);
     }
     DicomTag tag_at(std::size_t at) const { return number(at, 2) << 16 | number(at + 2, 2); }
+
+    // How the head of an element goes on behind its tag: with a length of 32 bits; with two letters
+    // and a length of 16; with two letters, two empty bytes and a length of 32.
+    enum class Head : std::uint8_t { bare, short_length, long_length };
+    static std::size_t size_of(Head head) { return head == Head::long_length ? 12 : 8; }
+    std::uint32_t length_at(Head head) const {
+        return head == Head::bare           ? number(at_ + 4, 4)
+               : head == Head::short_length ? number(at_ + 6, 2)
+                                            : number(at_ + 8, 4);
+    }
+    // Some devices leave the representation out of single elements, others write one that the
+    // standard has not: the head is the one behind whose value an element follows, or nothing.
+    Head head_of_unknown() const {
+        const std::size_t left = bytes_.size() - at_;
+        for (const Head head : {Head::bare, Head::short_length, Head::long_length}) {
+            const std::size_t size = size_of(head);
+            if (left < size || length_at(head) > left - size)
+                continue;
+            const ByteView behind = bytes_.subspan(at_ + size + length_at(head));
+            if (behind.empty() || (behind.size() >= 8 && has_letters(behind)))
+                return head;
+        }
+        return Head::bare;
+    }
+    // True if an element with a representation begins here, or with the letters of the one at hand.
+    bool has_letters(ByteView element) const {
+        const char* letters = reinterpret_cast<const char*>(element.data()) + 4;
+        return is_representation(letters) || std::memcmp(letters, bytes_.data() + at_ + 4, 2) == 0;
+    }
 
     // Moves behind the end of a sequence of undefined length. False if that does not come.
     bool skip_items(bool is_unknown) {

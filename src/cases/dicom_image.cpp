@@ -166,7 +166,9 @@ constexpr DicomTag key_tags[slice_keys] = {0x00200100,   // temporal position
                                            0x00080008,   // kind of image
                                            0x00181210,   // kernel
                                            0x00181060,   // time after the trigger
-                                           0x00080032};  // time of acquisition
+                                           0x00180082,   // time after an inversion
+                                           0x00080032,   // time of acquisition
+                                           0x00080033};  // time of the content
 
 void read_padding(const DicomSet& set, bool is_signed, DicomSlice& slice) {
     const std::vector<int> one = set.words(0x00280120, is_signed);
@@ -177,6 +179,17 @@ void read_padding(const DicomSet& set, bool is_signed, DicomSlice& slice) {
     slice.has_padding = true;
     slice.padding_low = low;
     slice.padding_high = high;
+}
+
+// Maps, masks and doses (PS3.4, B.5): their values mean nothing without other fields, as of a dose
+// its scaling and of a mask its segments.
+bool is_no_image_of_scanner(const DicomSet& set) {
+    const std::string kind_of_object = set.text(0x00080016);
+    for (const char* other : {"30", "66", "66.4", "66.7", "481.2"})
+        if (kind_of_object == std::string("1.2.840.10008.5.1.4.1.1.") + other)
+            return true;
+    const std::string modality = set.text(0x00080060);
+    return modality == "RTDOSE" || modality == "SEG";
 }
 
 Answer kind_of(const DicomSet& set, const DicomImage& image) {
@@ -199,12 +212,15 @@ Answer kind_of(const DicomSet& set, const DicomImage& image) {
     if (set.integer(0x00280002, 1) != 1 || kind.starts_with("PALETTE") || kind.starts_with("RGB") ||
         kind.starts_with("YBR"))
         return Answer::color;
-    if (image.bits.allocated != 8 && image.bits.allocated != 16)
+    if ((image.bits.allocated != 8 && image.bits.allocated != 16) || is_no_image_of_scanner(set))
         return Answer::other_samples;
     if (image.columns > medical::max_volume_side || image.rows > medical::max_volume_side)
         return Answer::too_large;
     const bool has_places = !image.of_each.empty() || !image.of_all.empty();
-    if (image.frames < 1 || image.frames > max_frames || (image.frames > 1 && !has_places))
+    // Siemens lays the slices of a volume side by side in one picture.
+    const bool is_mosaic = set.text(0x00080008).find("MOSAIC") != std::string::npos;
+    if (image.frames < 1 || image.frames > max_frames || (image.frames > 1 && !has_places) ||
+        (is_mosaic && !has_places))
         return Answer::many_frames;
     return Answer::content;
 }
@@ -227,6 +243,10 @@ DicomImage describe_image(const DicomFile& file) {
         image.frames = 1;  // some programs say 0 of a single image
     image.of_all = set.items(DicomTag(0x52009229));
     image.of_each = set.items(DicomTag(0x52009230));
+    if (!image.of_each.empty() && image.of_each.size() != std::size_t(std::max(image.frames, 0)))
+        common.problem = "says that it has " + std::to_string(image.frames) +
+                         " images and describes " + std::to_string(image.of_each.size()) +
+                         "; export it again";
     image.bits = bits_of(set, common.problem);
     image.table = table_of(set, image.bits, common.problem);
     common.series_uid = set.text(0x0020000e, max_dicom_text);

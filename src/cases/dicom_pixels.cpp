@@ -23,7 +23,9 @@ Answer read_plain(const DicomFile& file, const DicomElement& pixels, const Dicom
     if (pixels.value.size() < begin || pixels.value.size() - begin < values.size() * width)
         return Answer::cut_off;
     const ByteView bytes = pixels.value.subspan(begin, values.size() * width);
-    const bool big_endian = file.set.encoding().big_endian;
+    // Old scanners of GE swap the bytes of their pixels alone.
+    const bool big_endian = file.set.encoding().big_endian ||
+                            (width == 2 && file.transfer_syntax == "1.2.840.113619.5.2");
     const bool in_words = pixels.representation != std::array{'O', 'B'};
     for (std::size_t i = 0; i < values.size(); ++i) {
         if (width == 1) {

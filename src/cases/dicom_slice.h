@@ -29,7 +29,8 @@ struct Identifier {
 };
 
 // Texts that tell phases and reconstructions of one series apart: see series_parts.h.
-inline constexpr std::size_t slice_keys = 8;
+inline constexpr std::size_t slice_keys = 10;
+inline constexpr std::size_t image_kind_key = 4;  // "ORIGINAL\\PRIMARY\\AXIAL"
 
 struct DicomSlice {
     std::string series_uid, frame_uid, modality;

@@ -17,6 +17,7 @@ enum class Answer : std::uint8_t {
     unreadable,        // damaged
     cut_off,           // ends before its pixels do
     lacks,             // triangles that it announces
+    more,              // triangles than it announces
     compression,       // in a way that is not known
     too_large,         // for the shared memory, or for a case
     // Not for us: see NotForUs.

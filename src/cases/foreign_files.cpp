@@ -116,6 +116,8 @@ const char* reason_of(Answer what) {
         case Answer::lacks:
             return "holds fewer triangles than it announces: it is cut off or damaged; export it "
                    "again";
+        case Answer::more:
+            return "holds more triangles than it announces; export it again";
         case Answer::compression:
             return "is damaged, or compressed in a way that is not supported";
         case Answer::too_large:

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <optional>
+#include <utility>
 
 #include "base/outside_text.h"
 #include "cases/label_map.h"
@@ -228,6 +229,22 @@ std::string_view attribute(std::string_view tag, std::string_view name) {
     return tag.substr(begin, tag.find('"', begin) - begin);
 }
 
+// A text of XML with the characters that its entities stand for.
+std::string without_entities(std::string_view text) {
+    constexpr std::pair<std::string_view, char> known[] = {
+        {"&amp;", '&'}, {"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&apos;", '\''}};
+    std::string out;
+    while (!text.empty()) {
+        const auto* entity = std::find_if(std::begin(known), std::end(known), [&](const auto& one) {
+            return text.starts_with(one.first);
+        });
+        const bool is_known = entity != std::end(known);
+        out += is_known ? entity->second : text.front();
+        text.remove_prefix(is_known ? entity->first.size() : 1);
+    }
+    return out;
+}
+
 // Names that TotalSegmentator and Connectome Workbench write behind the header:
 // <Label Key="1" ...><![CDATA[liver]]></Label>.
 std::vector<LabelName> names_in(ByteView behind_header) {
@@ -240,10 +257,12 @@ std::vector<LabelName> names_in(ByteView behind_header) {
         if (open == std::string_view::npos || close == std::string_view::npos || close < open)
             break;
         const std::string_view key = attribute(text.substr(at, open - at), "Key");
-        std::string_view name = text.substr(open + 1, close - open - 1);
+        std::string name(text.substr(open + 1, close - open - 1));
         constexpr std::string_view quote = "<![CDATA[";
         if (name.starts_with(quote) && name.ends_with("]]>"))
             name = name.substr(quote.size(), name.size() - quote.size() - 3);
+        else
+            name = without_entities(name);
         int value = 0;
         std::from_chars(key.data(), key.data() + key.size(), value);
         if (value >= 1 && value <= 65'535 && !name.empty())

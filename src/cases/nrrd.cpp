@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <map>
 #include <optional>
+#include <sstream>
 #include <string_view>
 
 #include "base/outside_text.h"
@@ -200,6 +201,15 @@ std::optional<Directions> directions_of(const std::string& text) {
     return axes;
 }
 
+// True for the kind of an axis whose samples make one value together: a colour, a vector, a matrix.
+bool is_of_parts(const std::string& kind) {
+    for (const char* part :
+         {"vector", "color", "complex", "matrix", "gradient", "normal", "point", "quaternion"})
+        if (kind.find(part) != std::string::npos)
+            return true;
+    return false;
+}
+
 struct Axes {
     std::vector<std::size_t> sizes;  // of space
     std::vector<Vec3> directions;
@@ -237,6 +247,11 @@ std::string read_axes(const Fields& fields, Axes& axes) {
                    "as the first or the last axis; save it so";
         }
     }
+    std::istringstream kinds(lower(field(fields, "kinds")));
+    for (std::string kind; axes.layers > 1 && kinds >> kind;)
+        if (is_of_parts(kind) && field(fields, "Segment0_Name").empty())
+            return "has the kind '" + clean_text(kind, 40) +
+                   "' (kinds), so its samples are no labels";
     if (axes.layers > max_label_layers)
         return "has more than " + std::to_string(max_label_layers) + " layers, so it is an image";
     return "";

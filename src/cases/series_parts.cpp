@@ -114,10 +114,22 @@ void add_phases(Slices slices, SeriesParts& out) {
     }
 }
 
+// Scouts that say so, beside at least three images that do not. Returns their number.
+std::size_t take_out_scouts(Slices& slices) {
+    const auto is_scout = [](const DicomSlice& slice) {
+        return slice.keys[image_kind_key].find("LOCALIZER") != std::string::npos;
+    };
+    const auto count = std::size_t(std::count_if(slices.begin(), slices.end(), is_scout));
+    if (slices.size() - count < 3)
+        return 0;
+    return std::erase_if(slices, is_scout);
+}
+
 }  // namespace
 
 SeriesParts split_series(std::vector<DicomSlice> slices) {
     std::vector<Slices> groups;
+    std::size_t scouts = take_out_scouts(slices);
     for (DicomSlice& slice : slices) {
         auto group = std::find_if(groups.begin(), groups.end(), [&](const Slices& one) {
             return one[0].has_place == slice.has_place && place_difference(one[0], slice).empty();
@@ -131,7 +143,6 @@ SeriesParts split_series(std::vector<DicomSlice> slices) {
     std::stable_sort(groups.begin(), groups.end(),
                      [](const Slices& a, const Slices& b) { return a.size() > b.size(); });
     SeriesParts split;
-    std::size_t scouts = 0;
     const bool is_series = !groups.empty() && groups[0].size() >= 3;
     for (std::size_t i = 0; i < groups.size(); ++i)
         if (is_series && i > 0 && (groups[i].size() == 1 || !groups[i][0].has_place))

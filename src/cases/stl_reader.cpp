@@ -21,13 +21,30 @@ void add_corner(NamedMesh& named, const float (&p)[3]) {
     }
 }
 
+// The number of facets. Programs that write to a pipe leave 0 or the largest number in its place:
+// then all that follows are facets, if they are whole ones.
+std::size_t facets_of(ByteView file) {
+    const auto said = load_le<std::uint32_t>(file.data() + 80);
+    const std::size_t behind = file.size() - head_bytes;
+    const bool is_said = said != 0 && said != 0xffffffff;
+    return is_said || behind % facet_bytes != 0 ? said : behind / facet_bytes;
+}
+
+// True if whole facets follow those that are announced: the file has two numbers of them.
+bool has_more_facets(ByteView behind) {
+    return behind.size() >= facet_bytes && behind.size() % facet_bytes == 0 &&
+           std::any_of(behind.begin(), behind.end(), [](std::byte b) { return b != std::byte(0); });
+}
+
 Answer read_binary(ByteView file, const TakeMesh& take) {
-    const std::size_t count = load_le<std::uint32_t>(file.data() + 80);
+    const std::size_t count = facets_of(file);
     if (count > medical::max_mesh_triangles)
         return count <= (file.size() - head_bytes) / facet_bytes ? Answer::too_large
                                                                  : Answer::lacks;
     if (count > (file.size() - head_bytes) / facet_bytes)
         return Answer::lacks;
+    if (has_more_facets(file.subspan(head_bytes + facet_bytes * count)))
+        return Answer::more;
     NamedMesh named;
     named.mesh.positions.reserve(3 * count);
     named.mesh.triangles.reserve(count);

@@ -16,6 +16,7 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import case_seeds  # noqa: E402
+import device_inputs  # noqa: E402
 import dicom_inputs  # noqa: E402
 import folder_inputs  # noqa: E402
 import label_inputs  # noqa: E402
@@ -33,7 +34,8 @@ LONGEST_SEED = 1 << 16
 
 
 def inputs():
-    for module in (dicom_inputs, label_inputs, mesh_inputs, packed_glb, folder_inputs, more_inputs, unusual_inputs):
+    for module in (dicom_inputs, label_inputs, mesh_inputs, packed_glb, folder_inputs, more_inputs, unusual_inputs,
+                   device_inputs):
         yield from module.inputs()
 
 
@@ -100,6 +102,9 @@ class ForeignFiles(unittest.TestCase):
 
     def test_unusual_values(self):
         self.run_all(unusual_inputs)
+
+    def test_habits_of_devices(self):
+        self.run_all(device_inputs)
 
     def test_there_are_enough_and_each_has_its_name(self):
         names = [one.name for one in inputs()]
