@@ -40,7 +40,7 @@ PosedMoment::PosedMoment(const SceneData& scene, Duration time) : time_(time) {
 
 struct OperatingRoom::Scene : SceneData {};
 
-OperatingRoom::OperatingRoom(const SceneOptions& options) {
+OperatingRoom::OperatingRoom(const SceneOptions& options, const Pulse& pulse) {
     if (options.loop < 2s || options.loop > 120s)
         throw Error("The synthetic room's loop must last between 2 and 120 seconds.");
     auto scene = std::make_unique<Scene>();
@@ -65,7 +65,7 @@ OperatingRoom::OperatingRoom(const SceneOptions& options) {
     split_long_edges(still, 0.16f);
     Mesh together = still;
     together.append(cover);
-    bake_openness(together, options.detail >= 1 ? 64 : options.detail > 0.1 ? 12 : 3);
+    bake_openness(together, options.detail >= 1 ? 64 : options.detail > 0.1 ? 12 : 3, pulse);
     const auto first = together.openness.begin();
     const auto seam = first + std::ptrdiff_t(still.openness.size());
     std::copy(first, seam, still.openness.begin());
@@ -86,8 +86,9 @@ std::shared_ptr<const RoomMoment> OperatingRoom::at(Duration time) const {
 }
 
 std::unique_ptr<RoomView> OperatingRoom::look_from(const Calibration& camera,
-                                                   const RenderOptions& options) const {
-    return make_view(*scene_, camera, options);
+                                                   const RenderOptions& options,
+                                                   const Pulse& pulse) const {
+    return make_view(*scene_, camera, options, pulse);
 }
 
 GroundTruth OperatingRoom::render(const Calibration& camera, Duration time,

@@ -57,6 +57,6 @@ std::vector<Affine> pose_bones(double phase, double loop_seconds, std::uint32_t 
 
 // Computes ambient occlusion: renders the mesh from many directions and counts how often each
 // vertex is visible.
-void bake_openness(Mesh& mesh, int directions);
+void bake_openness(Mesh& mesh, int directions, const Pulse& pulse);
 
 }  // namespace theatron::synthetic
