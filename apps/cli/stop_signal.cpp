@@ -20,8 +20,8 @@ namespace {
 
 constexpr Duration last_words = std::chrono::milliseconds(200);
 
-std::atomic<bool> requested{false};
-static_assert(std::atomic<bool>::is_always_lock_free);
+std::atomic<int> requested{0};  // the first signal
+static_assert(std::atomic<int>::is_always_lock_free);
 
 // Ends the process. Never destroyed, since its thread goes on until the very end.
 class Watcher {
@@ -81,8 +81,9 @@ Watcher* caught = nullptr;
 
 void catch_stop_signals() {
     caught = &Watcher::of_this_process();
-    const auto stop = [](int) {
-        requested = true;
+    const auto stop = [](int signal) {
+        int none = 0;
+        requested.compare_exchange_strong(none, signal);
         caught->tell();
     };
     std::signal(SIGINT, stop);
@@ -93,7 +94,11 @@ void catch_stop_signals() {
 }
 
 bool stop_requested() {
-    return requested;
+    return requested != 0;
+}
+
+bool stopped_by_person() {
+    return requested == SIGINT;
 }
 
 void begin_end(int exit_code) {

@@ -11,6 +11,9 @@ namespace theatron::cli {
 // From now on the signals only set a flag.
 void catch_stop_signals();
 bool stop_requested();
+// The first of these signals was Ctrl-C: a person at the terminal ends the command, and no service
+// manager that may start it again.
+bool stopped_by_person();
 
 // The command ends by itself, because of a key, a line or the end of a session: from now on it has
 // as long as after a signal. The exit code is that of a process which must be ended.

@@ -186,7 +186,7 @@ Pair pair_of(const std::vector<std::string>& certificates, const CertificatePlac
     bool is_any = false;
     for (const fs::path& file : keys) {
         const auto key =
-            files::read_private_file(file, Privacy::secret, files::max_private_file_bytes, owner);
+            files::read_named_file(file, Privacy::secret, files::max_private_file_bytes, owner);
         if (!key)
             continue;
         is_any = true;

@@ -32,6 +32,13 @@ bool can_send(const client::Participant& participant) {
     return status.clock_known && status.phase == client::Participant::Phase::joined;
 }
 
+// Its role has not been changed to one whose face nobody sees.
+bool may_be_seen(const client::Participant& participant) {
+    const auto status = participant.status();
+    return status.phase != client::Participant::Phase::joined ||
+           session::may(status.standing.role, session::Right::be_seen);
+}
+
 // The sentence that tells a person of the change; empty: none.
 std::string sentence_of(face::Tracking tracking) {
     switch (tracking) {
@@ -120,7 +127,7 @@ void FaceLine::send(client::Participant& participant, const std::stop_token& sto
             if (const std::string sentence = sentence_of(face.tracking);
                 tracked_ && !sentence.empty())
                 log::say(sentence);
-        const bool shown = shown_;
+        const bool shown = shown_ && may_be_seen(participant);
         note(shown ? std::string(to_text(face.tracking)) : "off",
              shown ? std::string(to_text(told.told)) : "");
         if (due < send_at || !can_send(participant))

@@ -292,6 +292,9 @@ void run(HostFlags& flags) {
     }
     cli::begin_end();
     notice.stopping();
+    if (cli::stop_requested() && !cli::stopped_by_person())
+        for (const auto& [name, host] : sessions.open())
+            host->end_for_now();
     output::end_status_line();
     const std::string room_problem = sessions.room_problem();
     if (!flags.summary.empty()) {

@@ -5,12 +5,15 @@
 #include <cctype>
 #include <cstdio>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/steady_clock.h"
 #include "files/file_bytes.h"
 #include "files/png_file.h"
 #include "viewer/renderer_text.h"
+#include "viewer/still_cover.h"
 
 namespace theatron::app {
 namespace {
@@ -53,6 +56,7 @@ OffscreenPicture::OffscreenPicture(ViewPicture wanted)
 
 void OffscreenPicture::take(client::Participant& participant, RoomLines& room) {
     (void)scene_.take(participant);
+    (void)scene_.fade(participant, steady_now());
     if (scene_.can_draw(wanted_.view) && !first_head_) {
         first_head_ = scene_.view(wanted_.view, wanted_.size).room_from_eye * eye_from_head;
         if (!room.head())
@@ -70,9 +74,16 @@ std::string OffscreenPicture::drawn_with() const {
     return viewer::renderer_for(renderer_.renderer(), scene_.cameras());
 }
 
+void OffscreenPicture::add_to(nlohmann::json& json) const {
+    const auto still = scene_.still();
+    json["still_seconds"] = still ? nlohmann::json(to_seconds(*still)) : nlohmann::json();
+}
+
 void OffscreenPicture::write() {
     if (!scene_.can_draw())
         throw Error("No picture came from the host, so none was written.");
+    if (const std::string cover = viewer::still_text(scene_.still()); !cover.empty())
+        log::say(cover + "; it stands on the picture that is written.");
     for (const std::string& text : scene_.unseen_people())
         log::say(text);
     viewer::OffscreenView::Wish wish{wanted_.view, wanted_.size, drawn_with(), {}, {}};

@@ -46,6 +46,9 @@ public:
     // placed is the picture's viewpoint. Follows the host's renderer command.
     void take(client::Participant& participant, RoomLines& room) override;
     void write() override;
+    // "still_seconds": the age of a picture that is covered since no camera's is newer; null: it is
+    // not.
+    void add_to(nlohmann::json& json) const override;
 
 private:
     std::string drawn_with() const;

@@ -251,7 +251,7 @@ bool fetch_rest(record::RecordSource& source, const Say& say) {
     const TimePoint begin = steady_now(), end_of_recording = source.now().clock.session;
     TimePoint progressed = begin;
     std::optional<TimePoint> newest;
-    while (source.is_connected() && steady_now() - begin < patience &&
+    while (source.is_connected() && !source.is_silent() && steady_now() - begin < patience &&
            steady_now() - progressed < no_progress) {
         std::this_thread::sleep_for(20ms);
         source.tick();

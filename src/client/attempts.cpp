@@ -35,9 +35,11 @@ Attempts::Judged Attempts::after(const End& end) {
     }
     if (end.final)
         return {Next::refused, end.why, {}};
-    if (!end.goodbye.empty())
+    const bool may_return = end.goodbye.code == wire::TextCode::host_may_return;
+    if (!end.goodbye.empty() && !may_return)
         return {Next::ended, wire::sentence(end.goodbye), {}};
-    return {Next::again, end.why, std::exchange(wait_, std::min(2 * wait_, longest_wait))};
+    return {Next::again, may_return ? wire::sentence(end.goodbye) : end.why,
+            std::exchange(wait_, std::min(2 * wait_, longest_wait))};
 }
 
 }  // namespace theatron::client

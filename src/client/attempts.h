@@ -41,7 +41,7 @@ public:
         bool is_outdated = false;
     };
     // A refusal that is not for good (wire::is_for_good()) is final only for somebody who was never
-    // in.
+    // in. A goodbye is final, but that of a host that may return.
     Judged after(const End& end);
 
 private:

@@ -66,6 +66,18 @@ TEST(Attempts, AnotherCertificateAndTheEndOfTheSessionAreFinal) {
               Next::refused);
 }
 
+TEST(Attempts, AHostThatMayReturnIsWaitedFor) {
+    Attempts attempts;
+    attempts.came_in();
+    for (int i = 0; i < 10; ++i) {
+        const auto judged = attempts.after({{}, {TextCode::host_may_return}, "", false});
+        EXPECT_EQ(judged.next, Next::again);
+        EXPECT_FALSE(judged.why.empty());
+    }
+    EXPECT_EQ(attempts.after({{}, {TextCode::ended_by_operator}, "", false}).next, Next::ended);
+    EXPECT_EQ(attempts.after({{}, {TextCode{199}}, "", false}).next, Next::ended);
+}
+
 // The host's protocol is newer and then older; the numbers of the refusal change their places.
 TEST(Attempts, APageOfAnotherVersionThanItsHostSaysThatItIsToBeLoadedAgain) {
     for (const bool was_in : {false, true}) {

@@ -25,11 +25,13 @@ namespace theatron::client {
 namespace {
 
 constexpr Duration join_patience = std::chrono::seconds(15);
-constexpr Duration said_after = std::chrono::seconds(1);
+constexpr Duration said_after = std::chrono::seconds(1), said_again_after = std::chrono::minutes(1);
 constexpr Duration room_interval = std::chrono::milliseconds(10),
                    room_part = std::chrono::milliseconds(100);
 // The room is known at once after the first pictures.
 constexpr Duration room_patience = std::chrono::seconds(1);
+// The host answers once a second.
+constexpr Duration silent_after = std::chrono::milliseconds(1500);
 // Pictures may come before the session's clock is known, on a connection of long delay.
 constexpr std::size_t max_early_bytes = std::size_t(64) << 20;
 
@@ -88,6 +90,8 @@ public:
         const Participant::Status status = participant_->status();
         const bool begun = intake_.recorder() != nullptr;
         wait(status);
+        if (std::exchange(pongs_, status.pongs) != status.pongs)
+            heard_ = steady_now();
         if (status.phase == Participant::Phase::refused && !begun)
             throw Error(status.problem);
         // A person decides, who may need a while; a recorder that was in waits as long as it must.
@@ -118,6 +122,10 @@ public:
     std::optional<End> ended() override { return end_; }
     bool is_connected() const override {
         return participant_->status().phase == Participant::Phase::joined;
+    }
+    bool is_silent() const override {
+        const std::lock_guard lock(mutex_);
+        return steady_now() - std::max(heard_, media_heard_) > silent_after;
     }
     std::uint64_t not_encoded(CameraId) const override { return 0; }
     std::uint64_t lost_in_source(CameraId) const override { return 0; }
@@ -154,17 +162,22 @@ private:
                            status.phase != Participant::Phase::lost;
         if (there || gone_since_ == TimePoint{}) {
             gone_since_ = now;
-            said_ = false;
+            next_said_ = now + said_after;
         }
         if (there)
             return;
         const bool begun = intake_.recorder() != nullptr;
         const bool was_in = begun || status.joins > 0;
-        if (now - gone_since_ > said_after && !std::exchange(said_, true)) {
+        if (now > next_said_) {
             const std::string until =
                 was_in && !patience_ ? "until it is back; Ctrl-C ends the recording"
                                      : "up to " + seconds_text(patience_.value_or(join_patience));
-            log::say("Waiting for the host, " + until + ".");
+            const auto minutes =
+                std::chrono::duration_cast<std::chrono::minutes>(now - gone_since_).count();
+            log::say(minutes == 0 ? "Waiting for the host, " + until + "."
+                                  : "Waiting for the host, which has been away for " +
+                                        std::to_string(minutes) + " min, " + until + ".");
+            next_said_ = gone_since_ + (minutes + 1) * said_again_after;
         }
         if (begun && patience_ && now - gone_since_ > *patience_)
             end_ = End{"The host did not come back within " + seconds_text(*patience_) +
@@ -448,6 +461,7 @@ private:
 
     void on_media(wire::MediaHeader header, std::shared_ptr<Bytes> message) {
         const std::lock_guard lock(mutex_);
+        media_heard_ = steady_now();
         const auto number = numbers_.of(camera_of(header.stream));
         if (stopped_ || !number)
             return;
@@ -476,7 +490,9 @@ private:
     TimePoint created_;
     const std::optional<Duration> patience_;
     TimePoint gone_since_;
-    bool said_ = false;
+    TimePoint next_said_;
+    int pongs_ = 0;
+    TimePoint heard_;  // when the newest answer was seen
     record::Intake intake_;
     std::optional<End> end_;
 
@@ -487,6 +503,7 @@ private:
     std::vector<record::RecordedVoice> agreed_;
     std::vector<std::string> silent_;  // names of people whose voices may not be recorded
     bool stopped_ = false;
+    TimePoint media_heard_;
     int joins_ = 0;
     bool new_connection_ = false;
     bool clock_known_ = false, has_room_ = false;

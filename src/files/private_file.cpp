@@ -97,15 +97,20 @@ void open_private_folder(const fs::path& folder) {
                     ".");
 }
 
-std::optional<std::string> read_private_file(const fs::path& path, Privacy privacy,
-                                             std::size_t max_bytes, std::optional<Owner> owner) {
-    const Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY));
+namespace {
+
+std::optional<std::string> read_text(const fs::path& path, bool is_named, Privacy privacy,
+                                     std::size_t max_bytes, std::optional<Owner> owner) {
+    // A pipe that nobody writes to is opened at once, so that it can be refused.
+    const Descriptor file(
+        open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | (is_named ? 0 : O_NONBLOCK)));
     if (!file.is_open() && errno == ENOENT)
         return std::nullopt;
     struct stat info {};
     if (!file.is_open() || fstat(file.get(), &info) != 0)
         refuse("read", path);
-    // A pipe is not checked: the user passed it on the command line.
+    if (!is_named && !S_ISREG(info.st_mode))
+        throw Error(quoted(path) + " is no file; delete it, or name another folder with --state.");
     if (S_ISREG(info.st_mode)) {
         require_own(info, path, owner);
         if (info.st_mode & (S_IWGRP | S_IWOTH))
@@ -132,6 +137,18 @@ std::optional<std::string> read_private_file(const fs::path& path, Privacy priva
         throw Error(quoted(path) + " is too long for a key or a token.");
     text.resize(size);
     return text;
+}
+
+}  // namespace
+
+std::optional<std::string> read_private_file(const fs::path& path, Privacy privacy,
+                                             std::size_t max_bytes, std::optional<Owner> owner) {
+    return read_text(path, false, privacy, max_bytes, owner);
+}
+
+std::optional<std::string> read_named_file(const fs::path& path, Privacy privacy,
+                                           std::size_t max_bytes, std::optional<Owner> owner) {
+    return read_text(path, true, privacy, max_bytes, owner);
 }
 
 void write_private_file(const fs::path& path, const std::string& text, std::optional<Owner> owner) {

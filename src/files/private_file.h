@@ -29,10 +29,15 @@ struct Owner {
 };
 
 // The text of a file that belongs to this user, root or `owner`; nullopt if there is no file. A
-// file of more than `max_bytes` is refused.
+// file of more than `max_bytes` is refused, and what is no file (a pipe would be waited for).
 std::optional<std::string> read_private_file(const std::filesystem::path& path, Privacy privacy,
                                              std::size_t max_bytes = max_private_file_bytes,
                                              std::optional<Owner> owner = std::nullopt);
+
+// The same for a file that the user has named. A pipe or a device is read, too, whoever's it is.
+std::optional<std::string> read_named_file(const std::filesystem::path& path, Privacy privacy,
+                                           std::size_t max_bytes = max_private_file_bytes,
+                                           std::optional<Owner> owner = std::nullopt);
 
 // Atomic and durable: after a crash at any time, `path` has its previous content or all of
 // `text`. A draft left by a crash is replaced. The file belongs to this user, or to `owner`.

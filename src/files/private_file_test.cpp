@@ -123,5 +123,16 @@ TEST(PrivateFile, SaysWhatIsInTheWay) {
     EXPECT_THROW(write_private_file(folder.path() / "none" / "key", "secret"), Error);
 }
 
+// A test that waits for the pipe never ends.
+TEST(PrivateFile, APipeOrADeviceIsRefusedUnlessTheUserNamedIt) {
+    const theatron::testing::TemporaryFolder folder;
+    const fs::path pipe = folder.path() / "pipe";
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    for (const fs::path& path : {pipe, fs::path("/dev/null"), fs::path("/dev/zero"), folder.path()})
+        for (const Privacy privacy : {Privacy::secret, Privacy::readable})
+            EXPECT_THAT(problem_with_reading(path, privacy), HasSubstr("is no file")) << path;
+    EXPECT_EQ(read_named_file("/dev/null", Privacy::secret), "");
+}
+
 }  // namespace
 }  // namespace theatron::files

@@ -264,6 +264,11 @@ void Host::set_closed(std::vector<ClosedSession> closed) {
 
 void Host::end_by_host() {
     impl_->ends_by_host = true;
+    impl_->farewell = wire::TextCode::ended_by_operator;
+}
+
+void Host::end_for_now() {
+    impl_->farewell = wire::TextCode::host_may_return;
 }
 
 void Host::note_deleted(const std::string& session) {

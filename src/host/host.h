@@ -36,8 +36,12 @@ public:
 
     // Other sessions on this port that are not open now, instead of those before.
     void set_closed(std::vector<ClosedSession> closed);
-    // When it ends, the audit log says that the person at this machine has ended it.
+    // When it ends, the audit log and its participants are told that it was ended for good, the log
+    // also that this was done at the host. To be called by the thread that destroys it.
     void end_by_host();
+    // When it ends, its participants are told that its program may be started again; those with a
+    // link then wait for it. Without this the session is over for them. As above.
+    void end_for_now();
     // The audit log says that this further session was deleted.
     void note_deleted(const std::string& session);
 

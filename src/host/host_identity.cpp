@@ -50,7 +50,7 @@ void check_token(const std::string& token) {
 }
 
 std::string read_token(const std::filesystem::path& path) {
-    const auto text = files::read_private_file(path, files::Privacy::secret);
+    const auto text = files::read_named_file(path, files::Privacy::secret);
     if (!text)
         throw Error("There is no file '" + path.string() + "' with a join token.");
     std::string token;

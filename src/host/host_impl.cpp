@@ -19,18 +19,6 @@ net::PeerId peer_of(ParticipantId participant) {
     return net::PeerId(std::uint32_t(participant));
 }
 
-// The pose of a person who may not point: without hands, and it calls nobody. Nullopt if it is the
-// same.
-std::optional<Bytes> without_pointing(const wire::State& state) {
-    auto pose = wire::decode_person_pose(state.body);
-    if (!pose || (!pose->left_hand && !pose->right_hand && !pose->calls))
-        return std::nullopt;
-    pose->left_hand.reset();
-    pose->right_hand.reset();
-    pose->calls = false;
-    return wire::encode_person_pose(*pose);
-}
-
 }  // namespace
 
 net::Server::Handler Host::Impl::handler() {
@@ -192,6 +180,16 @@ void Host::Impl::carry_out(const session::action::SetCeiling& a) {
     server->set_ceiling(peer_of(a.participant), double(a.bytes_per_second));
 }
 
+void Host::Impl::carry_out(const session::action::ChangeRights& a) {
+    const auto found = session->participants().find(a.participant);
+    if (found == session->participants().end())
+        return;
+    poses.follow_rights(
+        a.participant, [&](session::Right right) { return found->second.may(right); },
+        steady_now());
+    set_alarm();
+}
+
 void Host::Impl::carry_out(const session::action::Stepped& a) {
     if (changes.take(std::to_string(int(a.participant)), steady_now()))
         log::info("host", "sending changed", {{"id", int(a.participant)}, {"to", a.to}});
@@ -240,7 +238,7 @@ void Host::Impl::say_goodbye() {
         // A placeholder, so that `leaving` is not empty until all goodbyes are queued.
         constexpr net::PeerId nobody{};
         leaving.insert(nobody);
-        session->end();
+        session->end(farewell);
         carry_out();
         note_left(nobody);
     });
@@ -387,16 +385,8 @@ void Host::Impl::take_state(net::PeerId peer, const wire::State& state) {
         return;
     if (state.key.topic == wire::StateTopic::object)
         return forward_object_pose(peer, state);
-    // An expression that may not be sent still counts against a flood.
-    const bool is_denied = state.key.topic == wire::StateTopic::expression &&
-                           !session->allow(sender, session::Right::be_seen);
-    const auto without =
-        state.key.topic == wire::StateTopic::pose ? without_pointing(state) : std::nullopt;
-    const bool hides = without && !session->allow(sender, session::Right::point);
-    const wire::State shown{state.key, is_denied ? ByteView()
-                                       : hides   ? ByteView(*without)
-                                                 : state.body};
-    if (poses.put(sender, shown, steady_now()) == session::PoseBoard::Answer::flood)
+    const auto may = [&](session::Right right) { return session->allow(sender, right); };
+    if (poses.put(sender, state, may, steady_now()) == session::PoseBoard::Answer::flood)
         end_flood(peer, "there were far more poses or expressions than a host sends on");
     set_alarm();
 }
@@ -433,8 +423,9 @@ void Host::Impl::replay_room(const RoomReplay::Change& change) {
     for (const ParticipantId person : change.left)
         poses.remove(ParticipantId(replayed(person)), now);
     for (const auto& [person, body] : change.poses)
-        (void)poses.put(ParticipantId(replayed(person)),
-                        {{wire::StateTopic::pose, replayed(person)}, body}, now);
+        (void)poses.put(
+            ParticipantId(replayed(person)), {{wire::StateTopic::pose, replayed(person)}, body},
+            [](session::Right) { return true; }, now);
     set_alarm();
 }
 

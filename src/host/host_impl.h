@@ -52,8 +52,9 @@ struct Host::Impl {
     std::atomic<std::uint64_t> links_applied = 0;  // the newest that the session knows
     std::string metrics_token;
     bool asks = false;
-    bool has_ended = false;               // the session, before the host did
-    bool ends_by_host = false;            // as in Host
+    bool has_ended = false;     // the session, before the host did
+    bool ends_by_host = false;  // as in Host
+    wire::TextCode farewell = wire::TextCode::session_over;
     std::string in_logs;                  // the session's name; empty: the first one
     std::unique_ptr<SessionAudit> audit;  // may be null
     session::AuditBudget audited;         // server's thread
@@ -191,6 +192,7 @@ struct Host::Impl {
     void carry_out(const session::action::TakeMedia& a);
     void carry_out(const session::action::KeepEverything& a);
     void carry_out(const session::action::SetCeiling& a);
+    void carry_out(const session::action::ChangeRights& a);
     void carry_out(const session::action::Stepped& a);
     void carry_out(const session::action::Drawing& a);
     void carry_out(const session::action::Audit& a);

@@ -71,16 +71,6 @@ KnownLink read_link(const fs::path& path, const std::string& text) {
     return link;
 }
 
-// Throws Error where something else is there.
-void require_file(const fs::path& path) {
-    std::error_code unreadable;
-    const fs::file_type kind = fs::status(path, unreadable).type();
-    if (kind == fs::file_type::none)
-        throw Error("'" + path.string() + "' cannot be read: " + unreadable.message() + ".");
-    if (kind != fs::file_type::regular && kind != fs::file_type::not_found)
-        throw Error("'" + path.string() + "' is no file, so it is no link; delete it.");
-}
-
 // Throws Error.
 std::vector<std::string> names_of_made_links(const fs::path& folder) {
     std::vector<std::string> names;
@@ -116,8 +106,6 @@ KnownLinks load_made_links(const fs::path& folder) {
     for (const std::string& name : names) {
         const fs::path path = made_links(folder) / name;
         try {
-            // A pipe or a device would be waited for.
-            require_file(path);
             // Another program may delete it meanwhile.
             if (const auto text = files::read_private_file(path, files::Privacy::secret))
                 book.links.push_back(read_link(path, *text));
@@ -153,7 +141,6 @@ void make_role_links(const fs::path& folder) {
         wire::roles, [&](wire::Role role) { return fs::exists(folder / token_file(role)); });
     for (const wire::Role role : wire::roles) {
         const bool was_missing = !fs::exists(folder / token_file(role));
-        require_file(folder / token_file(role));
         (void)load_or_make_token(folder, token_file(role));
         if (has_some && was_missing)
             log::warning("host",
@@ -167,7 +154,6 @@ KnownLinks load_links(const fs::path& folder) {
     KnownLinks book;
     for (const wire::Role role : wire::roles) {
         try {
-            require_file(folder / token_file(role));
             book.links.push_back({wire::text_of(role), role,
                                   load_or_make_token(folder, token_file(role)), std::nullopt, ""});
         } catch (const Error& error) {

@@ -149,7 +149,7 @@ Certificate read_certificate(const std::filesystem::path& certificate,
                              const std::filesystem::path& key) {
     using files::Privacy;
     const auto read = [](const std::filesystem::path& file, Privacy privacy) {
-        if (auto text = files::read_private_file(file, privacy))
+        if (auto text = files::read_named_file(file, privacy))
             return *std::move(text);
         throw Error("There is no file '" + file.string() + "'; name one with PEM blocks.");
     };

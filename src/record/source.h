@@ -31,6 +31,8 @@ public:
 
     // Pictures can come now: the connection stands.
     virtual bool is_connected() const { return true; }
+    // Nothing has come from the host for some time, not even an answer, although it is connected.
+    virtual bool is_silent() const { return false; }
 
     // Frames that a camera gave but that were never encoded.
     virtual std::uint64_t not_encoded(CameraId camera) const = 0;

@@ -64,6 +64,10 @@ struct SetCeiling {
     ParticipantId participant{};
     std::uint64_t bytes_per_second = 0;
 };
+// The participant has other rights: take back from the others what it may not send any more.
+struct ChangeRights {
+    ParticipantId participant{};
+};
 // The participant gets more or less, `to`; for the log.
 struct Stepped {
     ParticipantId participant{};
@@ -105,8 +109,8 @@ struct RevokeLink {
 
 using Action = std::variant<action::Send, action::Close, action::Drop, action::End, action::Joined,
                             action::TakeMedia, action::RequestKey, action::ChangeSettings,
-                            action::KeepEverything, action::SetCeiling, action::Stepped,
-                            action::Drawing, action::Audit, action::RevokeLink, action::SendContent,
-                            action::Adjusted, action::Play>;
+                            action::KeepEverything, action::SetCeiling, action::ChangeRights,
+                            action::Stepped, action::Drawing, action::Audit, action::RevokeLink,
+                            action::SendContent, action::Adjusted, action::Play>;
 
 }  // namespace theatron::session

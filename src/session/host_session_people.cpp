@@ -210,6 +210,7 @@ void HostSession::set_role(ParticipantId id, Role role) {
     const bool could_publish = person.may(Right::publish);
     const bool could_manage = person.may(Right::manage);
     person.role = role;
+    actions_.push_back(action::ChangeRights{id});
     if (person.records && !person.may(Right::record))
         return refuse(id, {TextCode::observer_records});
     if (!person.may(Right::publish)) {

@@ -12,11 +12,15 @@ LinkBudgets::Answer LinkBudgets::join(const std::string& name, const Bytes& pers
     if (!comes_back) {
         if (!link.newcomers.take(now))
             return Answer::too_often;
-        (void)link.people.note(person, now);
+        link.people.note(person, now) = {.came = now};
         return Answer::granted;
     }
     Person& own = link.people.note(person, now);
-    return own.returns.take(now) && link.returns.take(now) ? Answer::granted : Answer::too_often;
+    TokenBucket& shared = own.has_settled ? link.settled : link.returns;
+    if (!own.returns.take(now) || !shared.take(now))
+        return Answer::too_often;
+    own.came = now;
+    return Answer::granted;
 }
 
 bool LinkBudgets::offer(const std::string& name, const Bytes& person, std::size_t cameras,
@@ -34,7 +38,8 @@ void LinkBudgets::note_flood(const std::string& name, const Bytes& person, TimeP
 }
 
 void LinkBudgets::note_here(const std::string& link, const Bytes& person, TimePoint now) {
-    (void)links_[link].people.note(person, now);
+    Person& own = links_[link].people.note(person, now);
+    own.has_settled = own.has_settled || (!person.empty() && now - own.came >= settles_after);
 }
 
 }  // namespace theatron::session

@@ -27,6 +27,10 @@ public:
     // network that breaks brings all of them at once.
     static constexpr Limit returns{8, 128};
     static constexpr Limit own_returns{1, 20};
+    // The share of a link for those who were here for `settles_after` without a break, so that
+    // others who come and go by the same link do not keep them out.
+    static constexpr Limit settled_returns{64, 512};
+    static constexpr Duration settles_after = std::chrono::seconds(10);
     // Cameras that are offered, by one link and by each person.
     static constexpr Limit offers{4, 128};
     static constexpr Limit own_offers{2, 40};
@@ -54,10 +58,13 @@ private:
         TokenBucket returns{own_returns.per_second, own_returns.at_once};
         TokenBucket offers{own_offers.per_second, own_offers.at_once};
         std::optional<TimePoint> kept_out_until;
+        TimePoint came;  // the last time
+        bool has_settled = false;
     };
     struct Link {
         TokenBucket newcomers{LinkBudgets::newcomers.per_second, LinkBudgets::newcomers.at_once};
         TokenBucket returns{LinkBudgets::returns.per_second, LinkBudgets::returns.at_once};
+        TokenBucket settled{settled_returns.per_second, settled_returns.at_once};
         TokenBucket offers{LinkBudgets::offers.per_second, LinkBudgets::offers.at_once};
         RememberedPeople<Person> people{max_people};
     };

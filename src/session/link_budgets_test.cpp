@@ -68,6 +68,32 @@ TEST_F(Budgets, ManyPeopleOfALinkComeBackEightTimesASecond) {
     EXPECT_LE(in, 60 * LinkBudgets::returns.per_second + LinkBudgets::returns.at_once + 1);
 }
 
+TEST_F(Budgets, SomebodyWhoStayedComesBackWhileOthersComeAndGoByTheSameLink) {
+    ASSERT_EQ(budgets.join("expert", joining_person(1), now), Answer::granted);
+    for (int i = 0; i < 12; ++i, now += seconds(1))
+        budgets.note_here("expert", joining_person(1), now);
+    newcomers("expert", 64, Duration(0));
+    for (int i = 0; i < 60'000; ++i, now += milliseconds(1)) {
+        (void)budgets.join("expert", joining_person(1001 + i % 64), now);
+        if (i % 5000 == 0) {
+            EXPECT_EQ(budgets.join("expert", joining_person(1), now), Answer::granted) << i;
+        }
+    }
+}
+
+// Each is seen once in a short visit.
+TEST_F(Budgets, ManyShortVisitsAreNoStay) {
+    for (int i = 0; i < 64; ++i, now += milliseconds(10)) {
+        ASSERT_EQ(budgets.join("expert", joining_person(2000 + i), now), Answer::granted);
+        budgets.note_here("expert", joining_person(2000 + i), now + seconds(1));
+    }
+    now += seconds(60);
+    int in = 0;
+    for (int i = 0; i < 60'000; ++i, now += milliseconds(1))
+        in += budgets.join("expert", joining_person(2000 + i % 64), now) == Answer::granted;
+    EXPECT_LE(in, 60 * LinkBudgets::returns.per_second + LinkBudgets::returns.at_once + 1);
+}
+
 TEST_F(Budgets, PeopleWithoutANumberNeverComeBack) {
     int in = 0;
     for (int i = 0; i < 1000; ++i)

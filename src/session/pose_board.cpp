@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "session/state_rights.h"
 #include "wire/face_expression.h"
 #include "wire/person_pose.h"
 
@@ -29,11 +30,8 @@ Result<TimePoint> time_of(const wire::State& state) {
 
 // The state by which the others know that nothing is there any more.
 Bytes nothing_of(StateTopic topic, TimePoint time) {
-    if (topic == StateTopic::expression) {
-        wire::FaceExpression nothing;
-        nothing.time = time;
-        return wire::encode_face_expression(nothing);
-    }
+    if (topic == StateTopic::expression)
+        return without_right({{topic, 0}, {}}, time);
     wire::PersonPose nothing;
     nothing.time = time;
     return wire::encode_person_pose(nothing);
@@ -47,7 +45,8 @@ void PoseBoard::note_new(Kept& kept, TimePoint now) {
         new_since_ = now;
 }
 
-PoseBoard::Answer PoseBoard::put(ParticipantId sender, const wire::State& state, TimePoint now) {
+PoseBoard::Answer PoseBoard::put(ParticipantId sender, const wire::State& state, const May& may,
+                                 TimePoint now) {
     const StateKey key = key_of(sender, state.key.topic);
     Kept& kept =
         states_.try_emplace(key, key.topic == StateTopic::expression ? expression_limit : limit)
@@ -58,10 +57,32 @@ PoseBoard::Answer PoseBoard::put(ParticipantId sender, const wire::State& state,
     const auto time = own ? time_of(state) : Status::malformed;
     if (!time || *time > now + max_pose_lead || (!kept.body.empty() && *time <= kept.time))
         return Answer::ignored;
+    const auto right = needed_right(state);
+    const bool is_whole = !right || may(*right);
+    if (!is_whole && key.topic == StateTopic::expression)
+        return Answer::ignored;
     kept.time = *time;
-    kept.body.assign(state.body.begin(), state.body.end());
+    if (is_whole)
+        kept.body.assign(state.body.begin(), state.body.end());
+    else
+        kept.body = without_right(state, *time);
     note_new(kept, now);
     return Answer::kept;
+}
+
+void PoseBoard::follow_rights(ParticipantId participant, const May& may, TimePoint now) {
+    for (auto& [key, kept] : states_) {
+        if (key.id != std::uint32_t(participant) || kept.body.empty() || kept.has_left)
+            continue;
+        const wire::State state{key, kept.body};
+        const auto right = needed_right(state);
+        if (!right || may(*right))
+            continue;
+        // Behind the newest of the sender, or the others would take it for an older one.
+        kept.time = std::max(now, kept.time + Duration(1));
+        kept.body = without_right(state, kept.time);
+        note_new(kept, now);
+    }
 }
 
 void PoseBoard::remove(ParticipantId participant, TimePoint now) {

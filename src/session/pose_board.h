@@ -5,10 +5,12 @@
 // Pure; time is passed in.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <vector>
 
+#include "session/permissions.h"
 #include "session/request_budget.h"
 #include "wire/envelope.h"
 
@@ -26,8 +28,15 @@ public:
     static constexpr Duration max_pose_lead = std::chrono::seconds(1);
 
     enum class Answer : std::uint8_t { kept, ignored, flood };
-    // A state came from `sender`. All but its own newest pose and expression are ignored.
-    Answer put(ParticipantId sender, const wire::State& state, TimePoint now);
+    // True for the rights that a participant has.
+    using May = std::function<bool(Right)>;
+    // A state came from `sender`. All but its own newest pose and expression are ignored; of these
+    // only what it may send is kept, and an expression only where it may be seen.
+    Answer put(ParticipantId sender, const wire::State& state, const May& may, TimePoint now);
+
+    // The participant has other rights: what it may not send any more is taken back from the others
+    // and from those who join.
+    void follow_rights(ParticipantId participant, const May& may, TimePoint now);
 
     // The participant has left: the others get a pose without parts, and an expression of state
     // `none`, of what it had sent.

@@ -10,6 +10,12 @@ namespace theatron::session {
 namespace {
 
 constexpr ParticipantId alice{1}, bob{2};
+bool everything(Right) {
+    return true;
+}
+bool seeing(Right right) {
+    return may(Role::observer, right);
+}
 using Answer = PoseBoard::Answer;
 
 Bytes pose_at(TimePoint time, float x) {
@@ -25,7 +31,8 @@ struct Board {
 
     Answer put(ParticipantId sender, float x, Duration age = {}) {
         const Bytes body = pose_at(now - age, x);
-        return board.put(sender, {{wire::StateTopic::pose, std::uint32_t(sender)}, body}, now);
+        return board.put(sender, {{wire::StateTopic::pose, std::uint32_t(sender)}, body},
+                         everything, now);
     }
     // The places of the gathered poses, by owner.
     std::map<ParticipantId, float> gathered() { return places(board.gather(now)); }
@@ -88,11 +95,14 @@ TEST(PoseBoard, IsDueAtOnceAfterAPauseAndNeverWhileNobodyMoves) {
 TEST(PoseBoard, IgnoresPosesOfOthersOldOnesAndOnesOfTheFuture) {
     Board b;
     const Bytes body = pose_at(b.now, 1);
-    EXPECT_EQ(b.board.put(alice, {{wire::StateTopic::pose, std::uint32_t(bob)}, body}, b.now),
-              Answer::ignored);
-    EXPECT_EQ(b.board.put(alice, {{wire::StateTopic(9), std::uint32_t(alice)}, body}, b.now),
-              Answer::ignored);
-    EXPECT_EQ(b.board.put(alice, {{wire::StateTopic::pose, std::uint32_t(alice)}, Bytes(5)}, b.now),
+    EXPECT_EQ(
+        b.board.put(alice, {{wire::StateTopic::pose, std::uint32_t(bob)}, body}, everything, b.now),
+        Answer::ignored);
+    EXPECT_EQ(
+        b.board.put(alice, {{wire::StateTopic(9), std::uint32_t(alice)}, body}, everything, b.now),
+        Answer::ignored);
+    EXPECT_EQ(b.board.put(alice, {{wire::StateTopic::pose, std::uint32_t(alice)}, Bytes(5)},
+                          everything, b.now),
               Answer::ignored);
     EXPECT_EQ(b.put(alice, 1, -2s), Answer::ignored);
     EXPECT_FALSE(b.board.due());
@@ -142,7 +152,7 @@ TEST(PoseBoard, SendsExpressionsBesidePosesAndTakesThemBackAtTheEnd) {
     const auto put = [&](ParticipantId sender, ParticipantId owner) {
         const Bytes body = wire::encode_face_expression(happy_at(b.now));
         return b.board.put(sender, {{wire::StateTopic::expression, std::uint32_t(owner)}, body},
-                           b.now);
+                           everything, b.now);
     };
     EXPECT_EQ(put(bob, alice), Answer::ignored);
     EXPECT_EQ(put(alice, alice), Answer::kept);
@@ -167,12 +177,68 @@ TEST(PoseBoard, FarTooManyExpressionsAreAFlood) {
     for (Answer answer{}; kept < 10'000 && answer != Answer::flood; ++kept) {
         b.now += 100us;
         const Bytes body = wire::encode_face_expression(happy_at(b.now));
-        answer =
-            b.board.put(alice, {{wire::StateTopic::expression, std::uint32_t(alice)}, body}, b.now);
+        answer = b.board.put(alice, {{wire::StateTopic::expression, std::uint32_t(alice)}, body},
+                             everything, b.now);
     }
     EXPECT_GE(kept, int(PoseBoard::expression_limit.at_once));
     EXPECT_LT(kept, 150);
     EXPECT_EQ(b.put(alice, 1), Answer::kept) << "poses have a limit of their own";
+}
+
+// For each topic of the board.
+TEST(PoseBoard, WhatARoleMayNoLongerSendIsTakenBack) {
+    Board b;
+    wire::PersonPose pose;
+    pose.time = b.now;
+    pose.head = pose.left_hand = pose.right_hand = wire::PartPose{{1, 1.7F, 0}, {1, 0, 0, 0}};
+    pose.calls = true;
+    const auto key = [](wire::StateTopic topic) {
+        return wire::StateKey{topic, std::uint32_t(alice)};
+    };
+    const Bytes body = wire::encode_person_pose(pose);
+    const Bytes face = wire::encode_face_expression(happy_at(b.now));
+    (void)b.board.put(alice, {key(wire::StateTopic::pose), body}, everything, b.now);
+    (void)b.board.put(alice, {key(wire::StateTopic::expression), face}, everything, b.now);
+    b.put(bob, 2);
+    (void)b.board.gather(b.now);
+
+    b.now += 1s;
+    b.board.follow_rights(alice, everything, b.now);
+    EXPECT_FALSE(b.board.due());
+    b.board.follow_rights(alice, seeing, b.now);
+    for (const auto& entries : {b.board.all(), b.board.gather(b.now), b.board.all()}) {
+        int of_alice = 0;
+        for (const auto& entry : entries) {
+            if (entry.participant != alice)
+                continue;
+            ++of_alice;
+            if (entry.state.key.topic == wire::StateTopic::expression) {
+                const auto left = wire::decode_face_expression(entry.state.body);
+                EXPECT_EQ(left->state, wire::FaceExpression::State::none);
+                EXPECT_GT(left->time, happy_at(b.now - 1s).time);
+            } else {
+                const auto left = wire::decode_person_pose(entry.state.body);
+                EXPECT_TRUE(left->head && !left->left_hand && !left->right_hand && !left->calls);
+                EXPECT_GT(left->time, pose.time);
+            }
+        }
+        EXPECT_EQ(of_alice, 2);
+    }
+    // The same holds for what comes from now on; the end of a face is never refused.
+    b.now += 1s;
+    pose.time = b.now;
+    const Bytes later = wire::encode_person_pose(pose);
+    EXPECT_EQ(b.board.put(alice, {key(wire::StateTopic::pose), later}, seeing, b.now),
+              Answer::kept);
+    EXPECT_FALSE(wire::decode_person_pose(b.board.gather(b.now).at(0).state.body)->left_hand);
+    const Bytes again = wire::encode_face_expression(happy_at(b.now));
+    EXPECT_EQ(b.board.put(alice, {key(wire::StateTopic::expression), again}, seeing, b.now),
+              Answer::ignored);
+    wire::FaceExpression none;
+    none.time = b.now;
+    const Bytes off = wire::encode_face_expression(none);
+    EXPECT_EQ(b.board.put(alice, {key(wire::StateTopic::expression), off}, seeing, b.now),
+              Answer::kept);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ void MovingMesh::append(const Mesh& part, const std::vector<Influence>& bones) {
     influences.insert(influences.end(), bones.begin(), bones.end());
 }
 
-void bake_openness(Mesh& mesh, int directions) {
+void bake_openness(Mesh& mesh, int directions, const Pulse& pulse) {
     // Each direction is a distant camera with a narrow field: nearly parallel rays.
     constexpr int side = 420;
     constexpr double far_away = 60;
@@ -39,7 +39,7 @@ void bake_openness(Mesh& mesh, int directions) {
                                   std::abs(y) > 0.99f ? Vec3{1, 0, 0} : Vec3{0, 1, 0});
         transform(mesh.positions, to_affine(inverse(pose)), local);
         seen.clear({side, side});
-        rasterise(grid, local, hiding, 0, seen);
+        rasterise(grid, local, hiding, 0, seen, pulse);
         for (std::size_t v = 0; v < local.size(); ++v) {
             const float facing = dot(mesh.normals[v], direction);
             if (facing <= 0.02f)

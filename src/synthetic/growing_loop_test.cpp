@@ -84,6 +84,29 @@ TEST_F(Growing, TellsItsProgressAndStopsWithIt) {
     EXPECT_EQ(files(), 0u);
 }
 
+// Each row of a picture asks whether to go on.
+TEST(RoomPulse, EndsAPictureInItsMiddle) {
+    const OperatingRoom room({.seed = 5, .loop = 4s, .detail = 0.05});
+    LoopOptions options;
+    options.color = {64, 36};
+    const auto view = room.look_from(loop_calibration(options));
+    const auto moment = room.at(1s);
+    int rows = 0;
+    const GroundTruth whole = view->render(*moment, [&] { ++rows; });
+    EXPECT_GE(rows, 36);
+    int left = rows / 2;
+    EXPECT_THROW((void)view->render(*moment,
+                                    [&] {
+                                        if (--left == 0)
+                                            throw Error("stopped");
+                                    }),
+                 Error);
+    EXPECT_EQ(view->render(*moment).depth_m, whole.depth_m) << "it can be used on";
+    EXPECT_THROW(OperatingRoom({.detail = 0.05}, [] { throw Error("stopped"); }), Error);
+    EXPECT_THROW(
+        (void)room.look_from(loop_calibration(options), {}, [] { throw Error("stopped"); }), Error);
+}
+
 TEST_F(Growing, AFolderThatCannotBeMadeIsNamed) {
     files::write_file(options_.folder, as_bytes(std::string_view("no folder")));
     EXPECT_THROW(GrowingLoop(options_, 1), Error);

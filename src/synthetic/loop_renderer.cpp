@@ -7,23 +7,26 @@
 #include <thread>
 #include <utility>
 
+#include "base/error.h"
+#include "base/steady_clock.h"
 #include "base/thread_name.h"
 
 namespace theatron::synthetic {
 namespace {
 
 constexpr int niceness_when_not_urgent = 15;
+constexpr Duration pulse_interval = std::chrono::milliseconds(20);
 
 }  // namespace
 
 void LoopRenderer::render() {
     tell("building the synthetic operating room", 0);
-    const OperatingRoom room(options_.scene);
+    const OperatingRoom room(options_.scene, [this] { pulse(true); });
     tell("drawing what does not move", 0.02);
     RenderOptions wanted;
     wanted.surface = options_.noise;
     wanted.color = options_.color.area() > 0;
-    const auto view = room.look_from(loop_calibration(options_), wanted);
+    const auto view = room.look_from(loop_calibration(options_), wanted, [this] { pulse(true); });
     const auto twin = view->share();
     std::thread second([&] {
         name_this_thread("room renderer");
@@ -39,9 +42,19 @@ void LoopRenderer::render() {
     tell("rendering the synthetic operating room", 1);
 }
 
-void LoopRenderer::tell(std::string_view what, double done) const {
+void LoopRenderer::tell(std::string_view what, double done) {
+    told_ = what;
+    told_done_ = done;
+    next_pulse_ = steady_now() + pulse_interval;
     if (progress_)
         progress_(what, done);
+}
+
+void LoopRenderer::pulse(bool is_callers) {
+    if (failed_)
+        throw Error("The other thread has failed.");
+    if (is_callers && steady_now() >= next_pulse_)
+        tell(told_, told_done_);
 }
 
 void LoopRenderer::work(const OperatingRoom& room, RoomView& view, bool takes) {
@@ -55,7 +68,8 @@ void LoopRenderer::work(const OperatingRoom& room, RoomView& view, bool takes) {
                 setpriority(PRIO_PROCESS, id_t(gettid()), niceness_when_not_urgent);
             const auto time =
                 Duration(options_.scene.loop.count() * std::int64_t(i) / std::int64_t(frames_));
-            EncodedFrame frame = maker.encode(view.render(*room.at(time)), std::uint32_t(i));
+            EncodedFrame frame = maker.encode(
+                view.render(*room.at(time), [this, takes] { pulse(takes); }), std::uint32_t(i));
             {
                 const std::lock_guard lock(mutex_);
                 ready_.emplace(i, std::move(frame));
@@ -68,7 +82,8 @@ void LoopRenderer::work(const OperatingRoom& room, RoomView& view, bool takes) {
         }
     } catch (...) {
         const std::lock_guard lock(mutex_);
-        failure_ = std::current_exception();
+        if (!failure_)
+            failure_ = std::current_exception();
         failed_ = true;
     }
 }

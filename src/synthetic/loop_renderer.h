@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <mutex>
+#include <string_view>
 
 #include "synthetic/frame_maker.h"
 #include "synthetic/loop_options.h"
@@ -31,11 +32,15 @@ public:
           take_(std::move(take)),
           progress_(std::move(progress)) {}
 
-    // Throws what `take` or `progress` threw.
+    // Throws what `take` or `progress` threw. `progress` is called some fifty times a second, also
+    // while one frame is rendered.
     void render();
 
 private:
-    void tell(std::string_view what, double done) const;
+    void tell(std::string_view what, double done);
+    // Tells again what was told last, now and then; on the caller's thread. The other thread ends
+    // with the first one.
+    void pulse(bool is_callers);
     void work(const OperatingRoom& room, RoomView& view, bool takes);
     void take_ready();
 
@@ -48,7 +53,11 @@ private:
     std::mutex mutex_;  // guards the members below
     std::map<std::size_t, EncodedFrame> ready_;
     std::exception_ptr failure_;
-    std::size_t taken_ = 0;  // used by the caller's thread only
+    // Used by the caller's thread only.
+    std::size_t taken_ = 0;
+    std::string_view told_;
+    double told_done_ = 0;
+    TimePoint next_pulse_;
 };
 
 }  // namespace theatron::synthetic

@@ -40,32 +40,42 @@ PosedMoment::PosedMoment(const SceneData& scene, Duration time) : time_(time) {
 
 struct OperatingRoom::Scene : SceneData {};
 
-OperatingRoom::OperatingRoom(const SceneOptions& options) {
+OperatingRoom::OperatingRoom(const SceneOptions& options, const Pulse& pulse) {
     if (options.loop < 2s || options.loop > 120s)
         throw Error("The synthetic room's loop must last between 2 and 120 seconds.");
+    const auto go_on = [&] {
+        if (pulse)
+            pulse();
+    };
     auto scene = std::make_unique<Scene>();
     scene->options = options;
     scene->pictures = make_pictures();
     Mesh& still = scene->still;
+    go_on();
     add_room_shell(still);
     add_room_furniture(still);
     add_lamps(still);
     add_table(still);
+    go_on();
     add_tray(still, options.seed);
     add_bricks(still, options.seed);
     add_monitor(still);
     Mesh cover;  // moves slightly, and is built among the static parts
     if (options.people) {
+        go_on();
         add_patient(still, scene->moving, options.detail);
         cover = scene->moving.mesh;
+        go_on();
         add_situs(still, scene->moving, options.detail);
-        add_people(scene->moving, options.detail, options.seed);
+        go_on();
+        add_people(scene->moving, options.detail, options.seed, pulse);
         add_tools(scene->moving);
     }
+    go_on();
     split_long_edges(still, 0.16f);
     Mesh together = still;
     together.append(cover);
-    bake_openness(together, options.detail >= 1 ? 64 : options.detail > 0.1 ? 12 : 3);
+    bake_openness(together, options.detail >= 1 ? 64 : options.detail > 0.1 ? 12 : 3, pulse);
     const auto first = together.openness.begin();
     const auto seam = first + std::ptrdiff_t(still.openness.size());
     std::copy(first, seam, still.openness.begin());
@@ -86,8 +96,9 @@ std::shared_ptr<const RoomMoment> OperatingRoom::at(Duration time) const {
 }
 
 std::unique_ptr<RoomView> OperatingRoom::look_from(const Calibration& camera,
-                                                   const RenderOptions& options) const {
-    return make_view(*scene_, camera, options);
+                                                   const RenderOptions& options,
+                                                   const Pulse& pulse) const {
+    return make_view(*scene_, camera, options, pulse);
 }
 
 GroundTruth OperatingRoom::render(const Calibration& camera, Duration time,

@@ -22,6 +22,7 @@
 #include "base/time.h"
 #include "geometry/calibration.h"
 #include "image/image.h"
+#include "synthetic/pulse.h"
 
 namespace theatron::synthetic {
 
@@ -112,7 +113,7 @@ class RoomView {
 public:
     virtual ~RoomView() = default;
     virtual const Calibration& calibration() const = 0;
-    virtual GroundTruth render(const RoomMoment& moment) = 0;
+    virtual GroundTruth render(const RoomMoment& moment, const Pulse& pulse = {}) = 0;
     // The same view for another thread; both share the static parts.
     virtual std::unique_ptr<RoomView> share() const = 0;
 };
@@ -121,7 +122,7 @@ public:
 // outlive its views and moments.
 class OperatingRoom {
 public:
-    explicit OperatingRoom(const SceneOptions& options = {});
+    explicit OperatingRoom(const SceneOptions& options = {}, const Pulse& pulse = {});
     ~OperatingRoom();
 
     const SceneOptions& options() const;
@@ -133,7 +134,8 @@ public:
     // `camera.room_from_camera` is the pose of the depth camera. Any camera model is allowed.
     // Colour is rendered only if `camera.color` has a size.
     std::unique_ptr<RoomView> look_from(const Calibration& camera,
-                                        const RenderOptions& options = {}) const;
+                                        const RenderOptions& options = {},
+                                        const Pulse& pulse = {}) const;
 
     // A view and a moment for a single picture.
     GroundTruth render(const Calibration& camera, Duration time,

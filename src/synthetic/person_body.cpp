@@ -140,7 +140,11 @@ void add_body(MovingMesh& out, std::uint16_t first, const PersonLooks& looks, do
     out.append(legs, std::uint16_t(first + lower));
 }
 
-void add_people(MovingMesh& moving, double detail, std::uint32_t seed) {
+void add_people(MovingMesh& moving, double detail, std::uint32_t seed, const Pulse& pulse) {
+    const auto go_on = [&] {
+        if (pulse)
+            pulse();
+    };
     const PersonLooks people[2] = {
         {Look::gown, Look::cap, Look::face, Look::glove, true, seed * 7 + 1},
         {Look::gown_assistant, Look::cap_assistant, Look::face_assistant, Look::glove_assistant,
@@ -148,8 +152,11 @@ void add_people(MovingMesh& moving, double detail, std::uint32_t seed) {
     for (int i = 0; i < 2; ++i) {
         const auto first = std::uint16_t(first_person + i * person_bone_count);
         add_body(moving, first, people[i], detail);
+        go_on();
         add_head(moving, first, people[i], detail);
+        go_on();
         add_hands(moving, first, people[i], detail);
+        go_on();
     }
 }
 

@@ -163,7 +163,9 @@ void transform(std::span<const F3> room, const Affine& camera_from_room, std::ve
 }
 
 void rasterise(const SampleGrid& grid, std::span<const F3> points,
-               std::span<const Triangle> triangles, std::uint32_t first, Visibility& seen) {
+               std::span<const Triangle> triangles, std::uint32_t first, Visibility& seen,
+               const Pulse& pulse) {
+    constexpr std::size_t triangles_of_a_pulse = 1024;
     struct Bound {
         P2 at;
         float margin;  // negative: behind the near plane
@@ -187,6 +189,8 @@ void rasterise(const SampleGrid& grid, std::span<const F3> points,
                (below(a) && below(b) && below(c)) || (above(a) && above(b) && above(c));
     };
     for (std::size_t i = 0; i < triangles.size(); ++i) {
+        if (pulse && i % triangles_of_a_pulse == 0)
+            pulse();
         const Triangle& t = triangles[i];
         const F3 a = points[t.a], b = points[t.b], c = points[t.c];
         if (dot(cross(b - a, c - a), a) >= 0)

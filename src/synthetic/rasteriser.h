@@ -13,6 +13,7 @@
 
 #include "geometry/ray_table.h"
 #include "synthetic/mesh.h"
+#include "synthetic/pulse.h"
 
 namespace theatron::synthetic {
 
@@ -49,7 +50,8 @@ void transform(std::span<const F3> room, const Affine& camera_from_room, std::ve
 // Draws triangles that face the camera into `seen`, numbered from `first`.
 // `points` are in the camera's frame.
 void rasterise(const SampleGrid& grid, std::span<const F3> points,
-               std::span<const Triangle> triangles, std::uint32_t first, Visibility& seen);
+               std::span<const Triangle> triangles, std::uint32_t first, Visibility& seen,
+               const Pulse& pulse = {});
 
 // Barycentric weights of the corners at the intersection of the ray with triangle (a, b, c).
 inline F3 corner_weights(F3 a, F3 b, F3 c, Ray ray) {

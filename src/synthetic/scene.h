@@ -49,7 +49,7 @@ void add_bricks(Mesh& still, std::uint32_t seed);
 void add_monitor(Mesh& still);
 void add_patient(Mesh& still, MovingMesh& moving, double detail);
 void add_situs(Mesh& still, MovingMesh& moving, double detail);
-void add_people(MovingMesh& moving, double detail, std::uint32_t seed);
+void add_people(MovingMesh& moving, double detail, std::uint32_t seed, const Pulse& pulse);
 void add_tools(MovingMesh& moving);
 
 // Transforms of the bones at `phase` (0 to 1 through the loop), from the rest pose to the room.
@@ -57,6 +57,6 @@ std::vector<Affine> pose_bones(double phase, double loop_seconds, std::uint32_t 
 
 // Computes ambient occlusion: renders the mesh from many directions and counts how often each
 // vertex is visible.
-void bake_openness(Mesh& mesh, int directions);
+void bake_openness(Mesh& mesh, int directions, const Pulse& pulse);
 
 }  // namespace theatron::synthetic

@@ -29,6 +29,6 @@ private:
 };
 
 std::unique_ptr<RoomView> make_view(const SceneData& scene, const Calibration& camera,
-                                    const RenderOptions& options);
+                                    const RenderOptions& options, const Pulse& pulse);
 
 }  // namespace theatron::synthetic

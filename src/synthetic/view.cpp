@@ -52,10 +52,11 @@ Hit hit_of(const Drawn& d, std::uint32_t triangle, Ray ray, float z, float pixel
 
 class View final : public RoomView {
 public:
-    View(const SceneData& scene, const Calibration& camera, const RenderOptions& options);
+    View(const SceneData& scene, const Calibration& camera, const RenderOptions& options,
+         const Pulse& pulse);
 
     const Calibration& calibration() const override { return calibration_; }
-    GroundTruth render(const RoomMoment& moment) override;
+    GroundTruth render(const RoomMoment& moment, const Pulse& pulse) override;
     std::unique_ptr<RoomView> share() const override { return std::make_unique<View>(*this); }
 
 private:
@@ -75,13 +76,13 @@ private:
     };
     static Eye make_eye(const Pose& room_from_eye, const CameraModel& model, int per_side);
     LitPoint shade(const Hit& hit, const Eye& eye) const;
-    void draw_still_depth(Still& still) const;
-    void draw_still_color(Still& still) const;
-    void render_color(const PosedMoment& moment, ColorImage& out);
-    void render_depth(const PosedMoment& moment, GroundTruth& out);
+    void draw_still_depth(Still& still, const Pulse& pulse) const;
+    void draw_still_color(Still& still, const Pulse& pulse) const;
+    void render_color(const PosedMoment& moment, ColorImage& out, const Pulse& pulse);
+    void render_depth(const PosedMoment& moment, GroundTruth& out, const Pulse& pulse);
     SurfaceSample surface_of(const Drawn& drawn, const Eye& eye, std::uint32_t triangle, Ray ray,
                              float z) const;
-    Drawn draw_moving(const PosedMoment& moment, const Eye& eye);
+    Drawn draw_moving(const PosedMoment& moment, const Eye& eye, const Pulse& pulse);
 
     const SceneData& scene_;
     Calibration calibration_;
@@ -101,24 +102,25 @@ View::Eye View::make_eye(const Pose& room_from_eye, const CameraModel& model, in
     return eye;
 }
 
-View::View(const SceneData& scene, const Calibration& camera, const RenderOptions& options)
+View::View(const SceneData& scene, const Calibration& camera, const RenderOptions& options,
+           const Pulse& pulse)
     : scene_(scene), calibration_(camera), options_(options) {
     auto still = std::make_shared<Still>();
     if (options.depth)
-        draw_still_depth(*still);
+        draw_still_depth(*still, pulse);
     if (options.color && camera.color.size.area() > 0)
-        draw_still_color(*still);
+        draw_still_color(*still, pulse);
     still_ = std::move(still);
 }
 
-void View::draw_still_depth(Still& still) const {
+void View::draw_still_depth(Still& still, const Pulse& pulse) const {
     const Mesh& mesh = scene_.still;
     still.depth_eye = make_eye(calibration_.room_from_camera, calibration_.depth, 1);
     Eye& eye = still.depth_eye;
     Drawn drawn{mesh, mesh.positions, mesh.normals, {}};
     transform(mesh.positions, eye.camera_from_room, drawn.camera);
     eye.still.clear(calibration_.depth.size);
-    rasterise(eye.grid, drawn.camera, mesh.triangles, 0, eye.still);
+    rasterise(eye.grid, drawn.camera, mesh.triangles, 0, eye.still, pulse);
     if (options_.surface) {
         still.surface.resize(calibration_.depth.size);
         for (std::size_t i = 0; i < still.surface.pixels.size(); ++i)
@@ -143,7 +145,7 @@ LitPoint View::shade(const Hit& hit, const Eye& eye) const {
     return lit;
 }
 
-void View::draw_still_color(Still& still) const {
+void View::draw_still_color(Still& still, const Pulse& pulse) const {
     const Size size = calibration_.color.size;
     const Pose room_from_color =
         calibration_.room_from_camera * inverse(calibration_.color_from_depth);
@@ -162,8 +164,10 @@ void View::draw_still_color(Still& still) const {
     for (int pass = 0; pass < still_passes; ++pass) {
         eye.grid = make_fine_grid(calibration_.color, centres, n, shifts[pass]);
         eye.still.clear(eye.grid.rays.size);
-        rasterise(eye.grid, drawn.camera, mesh.triangles, 0, eye.still);
-        for (int y = 0; y < size.height; ++y)
+        rasterise(eye.grid, drawn.camera, mesh.triangles, 0, eye.still, pulse);
+        for (int y = 0; y < size.height; ++y) {
+            if (pulse)
+                pulse();
             for (int x = 0; x < size.width; ++x) {
                 // Samples with equal look and direction are lit together.
                 std::array<Hit, n * n> hits;
@@ -200,26 +204,29 @@ void View::draw_still_color(Still& still) const {
                         sum.lamp[l] += tame(lit.lamp[l]);
                 }
             }
+        }
     }
     std::fill(eye.still.triangles.pixels.begin(), eye.still.triangles.pixels.end(), no_triangle);
 }
 
-Drawn View::draw_moving(const PosedMoment& moment, const Eye& eye) {
+Drawn View::draw_moving(const PosedMoment& moment, const Eye& eye, const Pulse& pulse) {
     Drawn drawn{scene_.moving.mesh, moment.positions, moment.normals, {}};
     transform(moment.positions, eye.camera_from_room, drawn.camera);
     seen_ = eye.still;
-    rasterise(eye.grid, drawn.camera, drawn.mesh.triangles, 0, seen_);
+    rasterise(eye.grid, drawn.camera, drawn.mesh.triangles, 0, seen_, pulse);
     return drawn;
 }
 
-void View::render_color(const PosedMoment& moment, ColorImage& out) {
+void View::render_color(const PosedMoment& moment, ColorImage& out, const Pulse& pulse) {
     const Eye& eye = still_->color_eye;
-    const Drawn drawn = draw_moving(moment, eye);
+    const Drawn drawn = draw_moving(moment, eye, pulse);
     const Size size = calibration_.color.size;
     out.resize(size);
     constexpr int n = samples_per_side;
     constexpr float share = 1.0f / (n * n);
     for (int y = 0; y < size.height; ++y) {
+        if (pulse)
+            pulse();
         const LitPoint* still = still_->light.view().row(y);
         const F3* points = still_->points.view().row(y);
         Rgb* row = out.view().row(y);
@@ -296,9 +303,9 @@ SurfaceSample View::surface_of(const Drawn& drawn, const Eye& eye, std::uint32_t
     return s;
 }
 
-void View::render_depth(const PosedMoment& moment, GroundTruth& out) {
+void View::render_depth(const PosedMoment& moment, GroundTruth& out, const Pulse& pulse) {
     const Eye& eye = still_->depth_eye;
-    const Drawn drawn = draw_moving(moment, eye);
+    const Drawn drawn = draw_moving(moment, eye, pulse);
     out.depth_m = seen_.depth;
     for (float& d : out.depth_m.pixels)
         if (d == nothing_seen)
@@ -312,21 +319,21 @@ void View::render_depth(const PosedMoment& moment, GroundTruth& out) {
                                                eye.grid.rays.pixels[i], seen_.depth.pixels[i]);
 }
 
-GroundTruth View::render(const RoomMoment& moment) {
+GroundTruth View::render(const RoomMoment& moment, const Pulse& pulse) {
     const auto& posed = static_cast<const PosedMoment&>(moment);
     GroundTruth truth;
     if (options_.depth)
-        render_depth(posed, truth);
+        render_depth(posed, truth, pulse);
     if (!still_->light.empty())
-        render_color(posed, truth.color);
+        render_color(posed, truth.color, pulse);
     return truth;
 }
 
 }  // namespace
 
 std::unique_ptr<RoomView> make_view(const SceneData& scene, const Calibration& camera,
-                                    const RenderOptions& options) {
-    return std::make_unique<View>(scene, camera, options);
+                                    const RenderOptions& options, const Pulse& pulse) {
+    return std::make_unique<View>(scene, camera, options, pulse);
 }
 
 }  // namespace theatron::synthetic

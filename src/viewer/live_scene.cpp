@@ -403,8 +403,8 @@ const render::SceneFrame* LiveScene::scene_for(const render::CameraView& view) {
             frame_.labels.clear();
         }
         add_headset_text(view);
-        add_cover(view);
     }
+    add_cover(view);
     if (frame_.empty())
         return nullptr;
     if (!passes_)
@@ -526,9 +526,8 @@ bool LiveScene::fade(const client::Participant& participant, TimePoint now) {
             live_[one.camera.description.id] =
                 one.camera.state.condition == wire::CameraCondition::live &&
                 !stands_still(shown_camera(one, now), now);
-        const auto still =
-            past_moment() ? std::nullopt : all_still(shown_cameras(figures.cameras, now), now);
-        changed = std::exchange(cover_, still_text(still)) != cover_ || changed;
+        still_ = past_moment() ? std::nullopt : all_still(shown_cameras(figures.cameras, now), now);
+        changed = std::exchange(cover_, still_text(still_)) != cover_ || changed;
         changed = note_ages(participant) || changed;
     }
     for (const auto& [id, live] : live_) {

@@ -99,8 +99,10 @@ public:
     // A line below the middle of the view, for a person with a headset; may be empty.
     void set_headset_text(std::string text) { headset_text_ = std::move(text); }
     // A plate before the eyes says so while all cameras stand still (still_cover.h), or not: with a
-    // headset, where no overlay is.
+    // headset and in pictures of a file, where no overlay is.
     void set_cover_shown(bool shown) { shows_cover_ = shown; }
+    // As all_still() of still_cover.h, judged last by fade().
+    std::optional<Duration> still() const { return still_; }
     // The place of the operating table, while a person shows where the real one is.
     void set_table_outline(bool shown) { shows_table_ = shown; }
     // The rays of all people who point, with the surfaces that they meet in the newest pictures.
@@ -179,7 +181,8 @@ private:
     std::vector<const Plate*> plates_;
     std::string headset_text_;
     bool shows_cover_ = false;
-    std::string cover_;                         // as judged last; empty: none
+    std::optional<Duration> still_;             // as judged last
+    std::string cover_;                         // of still_; empty: none
     std::unique_ptr<render::SceneMesh> plate_;  // made for the first cover
     bool shows_table_ = false;
     std::unique_ptr<render::SceneMesh> table_;        // made for the first outline

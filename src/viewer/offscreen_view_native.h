@@ -15,7 +15,9 @@ namespace theatron::viewer {
 class OffscreenView {
 public:
     explicit OffscreenView(RoomChoice room = {}, std::vector<SeenPerson> people = {})
-        : scene_(room, std::move(people)) {}
+        : scene_(room, std::move(people)) {
+        scene_.set_cover_shown(true);
+    }
 
     // Takes over new cameras and frames; true if they change the picture. Throws as LiveScene does.
     bool take(client::Participant& participant) {
@@ -42,6 +44,10 @@ public:
     }
     // See LiveScene.
     std::vector<std::string> unseen_people() const { return scene_.unseen_people(); }
+    bool fade(const client::Participant& participant, TimePoint now) {
+        return scene_.fade(participant, now);
+    }
+    std::optional<Duration> still() const { return scene_.still(); }
     std::size_t cameras() const { return scene_.calibrations().size(); }
 
     struct Wish {

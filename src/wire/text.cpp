@@ -92,6 +92,9 @@ constexpr Row rows[] = {
       "ends.",
       "Sie sind noch einmal in diese Sitzung gekommen; eine Person kann {0}-mal da sein, darum "
       "endet die älteste Ansicht."}},
+    {TextCode::host_may_return,
+     {"The host's program was stopped, perhaps to be started again.",
+      "Das Programm des Gastgebers wurde angehalten, vielleicht um neu zu starten."}},
 
     {TextCode::camera_silent, {"It sends no pictures.", "Sie sendet keine Bilder."}},
     {TextCode::camera_repeating,
@@ -342,7 +345,7 @@ constexpr TextCode for_now[] = {
     TextCode::not_joined,       TextCode::joined_too_late,     TextCode::too_many_requests,
     TextCode::damaged_picture,  TextCode::foreign_picture,     TextCode::no_reason,
     TextCode::observer_records, TextCode::too_many_visitors,   TextCode::all_places_taken,
-    TextCode::link_full,        TextCode::person_is_in_often,
+    TextCode::link_full,        TextCode::person_is_in_often,  TextCode::host_may_return,
 };
 
 constexpr bool is_each_end_in_one_class() {

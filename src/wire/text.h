@@ -39,6 +39,7 @@ enum class TextCode : std::uint16_t {
     link_full = 121,           // {0}: how many can be in by one link
     person_is_in_often = 122,  // {0}: how often a person can be in
     came_in_again = 123,       // {0}: how often a person can be in
+    host_may_return = 124,
 
     // Cameras. With a name in {0}: the camera cannot be shown, and an offer of it is refused whole.
     camera_silent = 200,

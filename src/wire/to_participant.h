@@ -306,7 +306,8 @@ struct Managed {
     }
 };
 
-// The session is over. The host closes the connection, and coming back is of no use.
+// The session is over. The host closes the connection, and coming back is of no use, except where
+// the reason is TextCode::host_may_return.
 struct Goodbye {
     Text reason;
 

@@ -53,7 +53,7 @@ class Session(PythonCase):
                 patience.wait_until(lambda: not joined.cameras, "the camera is gone", of=session)
                 with self.assertRaisesRegex(theatron.Error, "closed"):
                     camera.send(scene.depth())
-                session.send(signal.SIGTERM)
+                session.send(signal.SIGINT)
                 self.assertEqual(list(frames), [])  # the session ends, and so does the loop
 
     def test_closing_a_session_ends_its_loops(self):

@@ -6,6 +6,7 @@ import os
 import pathlib
 import shutil
 import signal
+import socket
 import struct
 import subprocess
 import tempfile
@@ -336,6 +337,33 @@ class RecordFaults(unittest.TestCase):
             figures = self.ends(recorder, INCOMPLETE)
         self.assertGreaterEqual(figures["cut_bytes"], 20_000)
         self.assertEqual(run("inspect", self.file, "--verify")[0], INCOMPLETE)
+
+    def test_a_host_that_is_started_again_is_waited_for_and_the_gap_is_told(self):
+        with socket.socket() as probe:
+            probe.bind(("127.0.0.1", 0))
+            listen = f"127.0.0.1:{probe.getsockname()[1]}"
+        with host(self.state, self.camera, listen=listen) as h:
+            recorder = self.recorder(h.greeting["link"], self.file)
+            self.addCleanup(recorder.__exit__)
+            self.begun(recorder)
+            h.send(signal.SIGTERM)  # as a service manager ends it
+            self.assertEqual(h.end(), 0, h.errors)
+            recorder.wait_for_error("Waiting for the host, until it is back")
+        with host(self.state, self.camera, listen=listen):
+            self.begun(recorder, self.folder / "a.002.mkv")
+            figures = self.ends(recorder, INCOMPLETE)
+        self.assertGreater(figures["cameras"][0]["depth"]["interruptions"], 0)
+        self.assertEqual(run("inspect", self.file, "--verify")[0], INCOMPLETE)
+
+    def test_a_recorder_whose_host_hangs_ends_when_it_is_told_to(self):
+        with host(self.state, self.camera) as h, self.recorder(h.greeting["link"], self.file) as recorder:
+            self.begun(recorder)
+            h.send(signal.SIGSTOP)
+            recorder.wait_for_error("No picture of")
+            figures = self.ends(recorder, INCOMPLETE, signal.SIGTERM)
+            h.send(signal.SIGCONT)
+        self.assertGreater(figures["missing_end_seconds"], 0)
+        self.assertNotIn("Something did not end in time", "".join(recorder.errors))
 
     def test_other_participants_never_end_or_change_a_recording(self):
         with host(self.state, self.camera) as h:

@@ -7,7 +7,7 @@ import tempfile
 import unittest
 
 from leaving_test import preloaded
-from theatron_process import Process, host, make_recording, wait_until
+from theatron_process import Process, host, make_recording, read_png, wait_until
 from virtual_screen import VirtualScreen, brightness
 
 WIDTH, HEIGHT = 480, 360
@@ -52,6 +52,24 @@ class Still(unittest.TestCase):
                 h.send(signal.SIGCONT)
             wait_until(lambda: self.picture() > 0.9 * bright)
 
+    def test_a_picture_in_a_file_whose_host_hangs_says_its_age(self):
+        file = self.folder / "still.png"
+        with host(self.folder / "state", self.camera) as h, \
+                Process("join", h.greeting["link"], "--offscreen", file, "--size", f"{WIDTH}x{HEIGHT}", "--quality", "low",
+                        "--seconds", "600", "--every", "0.2") as join:
+            self.assertIsNone(join.wait_for(lambda f: f["cameras"] and f["cameras"][0]["frames"] > 5)["still_seconds"])
+            h.send(signal.SIGSTOP)
+            self.assertGreaterEqual(join.wait_for(lambda f: f["still_seconds"])["still_seconds"], 2)
+            join.send(signal.SIGTERM)
+            self.assertEqual(join.end(), 0, join.errors)
+            h.send(signal.SIGCONT)
+        self.assertIn("it stands on the picture that is written", "".join(join.errors))
+        # Amber letters on the plate in the middle.
+        _, height, channels, rows = read_png(file)
+        middle = rows[2 * height // 5:3 * height // 5]
+        self.assertTrue(any(row[i] > 200 and 130 < row[i + 1] < 220 and row[i + 2] < 130
+                            for row in middle for i in range(0, len(row), channels)))
+
     def covers_while_drawing_hangs(self, *options):
         hangs = self.folder / "hangs"
         environment = {**preloaded("swap", self.screen.environment), "HANG_STANDIN_FILE": str(hangs)}
@@ -79,7 +97,7 @@ class Still(unittest.TestCase):
     def test_after_the_end_of_a_session_the_window_shows_its_form(self):
         with host(self.folder / "state", self.camera) as h, self.window(h.greeting["link"], "--name", "Wim") as window:
             wait_until(lambda: self.picture() > 70, of=window)
-            h.send(signal.SIGTERM)
+            h.send(signal.SIGINT)
             wait_until(lambda: self.screen.title().startswith("Enter a session"), of=window)
             self.assertIsNone(window.process.poll())
             window.send(signal.SIGTERM)

@@ -105,7 +105,7 @@ class WebStill(unittest.TestCase):
         pages = {"room": self.page, "flat": self.page.browser.open(self.host.greeting["link"])}
         for way, page in pages.items():
             self.enter(way, page)
-        self.host.send(signal.SIGTERM)
+        self.host.send(signal.SIGINT)
         for way, page in pages.items():
             with self.subTest(way):
                 page.wait_for("document.getElementById('problem').textContent.includes('Nothing of it is shown any more')")

@@ -57,6 +57,24 @@ TEST(WorldPeople, WhoMustAskWaitsUntilAnOperatorDecides) {
     EXPECT_TRUE(world.until([&] { return anna.is_in() && anna->status().joins == 2; }));
 }
 
+TEST(WorldPeople, TheFaceOfAPersonWhoBecomesAnObserverIsSeenNoMore) {
+    World world;
+    Person& chief = world.joined("Chief", Role::operator_);
+    Person& anna = world.joined("Anna");
+    wire::FaceExpression smile;
+    smile.time = anna->now();
+    smile.state = wire::FaceExpression::State::tracked;
+    smile.emotions[2] = 1;
+    anna->send_expression(smile);
+    EXPECT_TRUE(world.until([&] { return chief->expressions().contains(anna.number()); }));
+    EXPECT_EQ(decide(world, chief, ManageAction::set_role, anna.number(), Role::observer),
+              ManageRefusal::none);
+    EXPECT_TRUE(world.until([&] { return chief->expressions().empty(); }, 1s));
+    Person& ben = world.joined("Ben");
+    world.advance(2s);
+    EXPECT_TRUE(ben->expressions().empty());
+}
+
 TEST(WorldPeople, TheMutedAreNotHeard) {
     World world;
     Person& chief = world.joined("Chief", Role::operator_);

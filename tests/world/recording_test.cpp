@@ -102,6 +102,39 @@ TEST(WorldRecording, ALinkThatBreaksCostsTheBreakAlone) {
     EXPECT_FALSE(recorder.is_complete());
 }
 
+TEST(WorldRecording, AHostThatIsStartedAgainCostsTheTimeBetweenAlone) {
+    Stage stage;
+    stage.begin();
+    (void)stage.world.joined("Anna");
+    SessionRecorder recorder(stage.world, "Recorder");
+    stage.world.advance(10s);
+    for (int i = 0; i < 2; ++i) {
+        const auto before = recorder.recorded();
+        stage.world.host().end_for_now();
+        stage.world.end_host();
+        stage.world.advance(3min);
+        EXPECT_EQ(recorder.source().ended(), std::nullopt);
+        (void)stage.world.host();
+        stage.world.advance(20s);
+        EXPECT_GE(recorder.recorded() - before, 95u);
+    }
+    EXPECT_TRUE(stage.carl.is_in());
+    EXPECT_TRUE(stage.world.person("Anna").is_in());
+    recorder.finish();
+    EXPECT_FALSE(recorder.is_complete());
+}
+
+TEST(WorldRecording, ASessionThatIsOverEndsTheRecording) {
+    Stage stage;
+    stage.begin();
+    SessionRecorder recorder(stage.world, "Recorder");
+    stage.world.advance(10s);
+    stage.world.end_host();
+    EXPECT_TRUE(stage.world.until([&] { return recorder.source().ended().has_value(); }));
+    EXPECT_EQ(recorder.source().ended()->lack, std::nullopt);
+    EXPECT_TRUE(recorder.is_complete());
+}
+
 TEST(WorldRecording, APublisherThatBreaksAndComesBackIsRecordedOn) {
     Stage stage;
     stage.begin();
