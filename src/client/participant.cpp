@@ -181,6 +181,12 @@ std::optional<Duration> Participant::end_connection(const net::Client::End& end)
     shared_->status.phase = again ? Phase::lost : ended ? Phase::ended : Phase::refused;
     shared_->status.problem = judged.why;
     shared_->status.is_outdated = judged.is_outdated;
+    // Nothing of an operation stays on a screen until a host is back that may never come.
+    if (session_.goodbye().code == wire::TextCode::host_may_return && !options_.media) {
+        shared_->cameras.clear();
+        shared_->newest.clear();
+        ++shared_->generation;
+    }
     lock.unlock();
     end_direct();
     for (const Offer offer : all_offers)

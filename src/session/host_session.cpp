@@ -232,6 +232,11 @@ void HostSession::resynchronise(ParticipantId id) {
 
 void HostSession::end(wire::TextCode reason) {
     look_back_.clear();
+    // Nobody is told that cameras of others leave: the session ends, and a recorder notes the gap if
+    // it goes on later.
+    for (const auto& [id, participant] : admission_.participants())
+        if (participant.takes_part())
+            streams_.leave(id);
     for (auto& [id, participant] : admission_.participants()) {
         if (!participant.takes_part() && !participant.waits())
             continue;

@@ -143,5 +143,19 @@ TEST(WorldCameras, ExpertsMayNotPublish) {
     EXPECT_TRUE(world.host().figures().published.empty());
 }
 
+TEST(WorldCameras, AHostThatIsStoppedLeavesNoPictureWithItsPeople) {
+    Stage stage;
+    stage.begin();
+    stage.world.advance(5s);
+    ASSERT_EQ(cameras(stage.anna).size(), 1u);
+    stage.world.host().end_for_now();
+    stage.world.end_host();
+    EXPECT_TRUE(stage.world.until([&] { return stage.anna->status().phase == Phase::lost; }));
+    EXPECT_TRUE(cameras(stage.anna).empty());
+    EXPECT_TRUE(stage.anna->take_frames().empty());
+    (void)stage.world.host();
+    EXPECT_TRUE(stage.world.until([&] { return cameras(stage.anna).size() == 1; }));
+}
+
 }  // namespace
 }  // namespace theatron::world
