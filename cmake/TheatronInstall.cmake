@@ -8,6 +8,7 @@
 #            where the unit has its program
 #   doc      docs/
 #   python   the package for Python, where it was made (apps/python/CMakeLists.txt); only with --component python
+#   development  libraries and headers for other programs (cmake/TheatronDevelopment.cmake); only with --component development
 include(GNUInstallDirs)
 set(THEATRON_PAGE ${CMAKE_SOURCE_DIR}/build/web/apps/web/page CACHE PATH "The browser client that is installed: packed by the web preset")
 

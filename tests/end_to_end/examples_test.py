@@ -15,26 +15,31 @@ SOURCES = pathlib.Path(__file__).resolve().parent.parent.parent / "examples"
 EXAMPLES = pathlib.Path(PROGRAM).parent.parent.parent / "examples"
 
 
+def save_a_picture(test, programs):
+    """publish_camera and save_picture of the folder `programs` meet."""
+    with tempfile.TemporaryDirectory() as folder:
+        camera = pathlib.Path(folder) / "camera"
+        make_recording(camera, frames=5)
+        picture = pathlib.Path(folder) / "picture.png"
+        publisher = subprocess.Popen([programs / "publish_camera", f"folder:{camera},loop=1"],
+                                     stdout=subprocess.PIPE, text=True, env={**os.environ, "XDG_STATE_HOME": folder})
+        try:
+            link = publisher.stdout.readline().strip()
+            test.assertRegex(link, r"^https://")
+            saved = patience.run([programs / "save_picture", link, picture])
+            test.assertEqual(saved.returncode, 0, saved.stderr)
+            width, height, channels, rows = read_png(picture)
+            test.assertEqual((width, height, channels), (1280, 720, 3))
+            test.assertGreater(len({bytes(row) for row in rows}), 50, "the picture shows nothing")
+        finally:
+            publisher.send_signal(signal.SIGTERM)
+            test.assertEqual(patience.end_of(publisher), 0)
+            publisher.stdout.close()
+
+
 class Examples(unittest.TestCase):
     def test_a_picture_of_a_published_camera_is_saved(self):
-        with tempfile.TemporaryDirectory() as folder:
-            camera = pathlib.Path(folder) / "camera"
-            make_recording(camera, frames=5)
-            picture = pathlib.Path(folder) / "picture.png"
-            publisher = subprocess.Popen([EXAMPLES / "publish_camera", f"folder:{camera},loop=1"],
-                                         stdout=subprocess.PIPE, text=True, env={**os.environ, "XDG_STATE_HOME": folder})
-            try:
-                link = publisher.stdout.readline().strip()
-                self.assertRegex(link, r"^https://")
-                saved = patience.run([EXAMPLES / "save_picture", link, picture])
-                self.assertEqual(saved.returncode, 0, saved.stderr)
-                width, height, channels, rows = read_png(picture)
-                self.assertEqual((width, height, channels), (1280, 720, 3))
-                self.assertGreater(len({bytes(row) for row in rows}), 50, "the picture shows nothing")
-            finally:
-                publisher.send_signal(signal.SIGTERM)
-                self.assertEqual(patience.end_of(publisher), 0)
-                publisher.stdout.close()
+        save_a_picture(self, EXAMPLES)
 
     def test_a_camera_is_sent_into_a_session(self):
         with tempfile.TemporaryDirectory() as folder:
