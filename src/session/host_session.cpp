@@ -232,8 +232,8 @@ void HostSession::resynchronise(ParticipantId id) {
 
 void HostSession::end(wire::TextCode reason) {
     look_back_.clear();
-    // Nobody is told that cameras of others leave: the session ends, and a recorder notes the gap if
-    // it goes on later.
+    // Nobody is told that cameras of others leave: the session ends, and a recorder notes the gap
+    // if it goes on later.
     for (const auto& [id, participant] : admission_.participants())
         if (participant.takes_part())
             streams_.leave(id);
