@@ -242,7 +242,7 @@ Duration behind(record::RecordSource& source) {
 // some did not come.
 template <class Say>
 bool fetch_rest(record::RecordSource& source, const Say& say) {
-    constexpr Duration usual_delay = 1s, patience = 20s, no_progress = 3s;
+    constexpr Duration usual_delay = 1s, patience = 20s, no_progress = 3s, least_patience = 1500ms;
     if (!source.is_connected())
         return false;
     if (behind(source) <= usual_delay)
@@ -251,7 +251,10 @@ bool fetch_rest(record::RecordSource& source, const Say& say) {
     const TimePoint begin = steady_now(), end_of_recording = source.now().clock.session;
     TimePoint progressed = begin;
     std::optional<TimePoint> newest;
-    while (source.is_connected() && !source.is_silent() && steady_now() - begin < patience &&
+    const auto is_silent = [&] {
+        return source.is_silent() && steady_now() - begin >= least_patience;
+    };
+    while (source.is_connected() && !is_silent() && steady_now() - begin < patience &&
            steady_now() - progressed < no_progress) {
         std::this_thread::sleep_for(20ms);
         source.tick();

@@ -14,7 +14,7 @@ namespace {
 // Where a surface is lost, in the order of the steps; the last one of all cameras counts.
 enum Step : std::uint8_t { camera, sensor, filters, drawing, step_count };
 
-// True if one of the four pixels around the point's place has it, or something before it.
+// True if one of the four pixels around the point's place measures something within jump_mm of it.
 bool has_point(DepthView depth, double unit_mm, Vec2 place, double z_mm, int jump_mm) {
     const int x0 = int(std::floor(place.x)), y0 = int(std::floor(place.y));
     for (int y = std::max(y0, 0); y <= std::min(y0 + 1, depth.size.height - 1); ++y)

@@ -26,7 +26,7 @@ struct CauseInput {
     View<const std::uint8_t> seen;   // pixels whose surface a camera sees
     View<const std::uint8_t> where;  // pixels that are judged
     // A surface is missing if nothing or something at least so far behind it is drawn, and a
-    // camera has it if it measures something at least so near.
+    // camera has it if it measures something within this distance of it, before or behind.
     int jump_mm = 150;
 };
 

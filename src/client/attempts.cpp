@@ -38,8 +38,12 @@ Attempts::Judged Attempts::after(const End& end) {
     const bool may_return = end.goodbye.code == wire::TextCode::host_may_return;
     if (!end.goodbye.empty() && !may_return)
         return {Next::ended, wire::sentence(end.goodbye), {}};
-    return {Next::again, may_return ? wire::sentence(end.goodbye) : end.why,
-            std::exchange(wait_, std::min(2 * wait_, longest_wait))};
+    const bool is_farewell = may_return && waited_for_return_ == Duration{};
+    if (may_return && return_patience_ && waited_for_return_ >= *return_patience_)
+        return {Next::ended, wire::sentence(end.goodbye), {}};
+    const Duration wait = std::exchange(wait_, std::min(2 * wait_, longest_wait));
+    waited_for_return_ += wait;
+    return {Next::again, is_farewell ? wire::sentence(end.goodbye) : end.why, wait};
 }
 
 }  // namespace theatron::client

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 #include <string>
 
 #include "base/time.h"
@@ -13,8 +14,10 @@ namespace theatron::client {
 class Attempts {
 public:
     // `is_page`: the program came from the host with its page, and is made new by loading that
-    // again, not by an update.
-    explicit Attempts(bool is_page = false) : is_page_(is_page) {}
+    // again, not by an update. `return_patience`: how long a host is waited for that said that it
+    // may return; nullopt: for ever.
+    explicit Attempts(bool is_page = false, std::optional<Duration> return_patience = std::nullopt)
+        : is_page_(is_page), return_patience_(return_patience) {}
 
     // Waiting before another attempt: soon at first, then patiently. After a refusal, patiently.
     static constexpr Duration first_wait = std::chrono::milliseconds(200);
@@ -24,6 +27,7 @@ public:
     void came_in() {
         was_in_ = true;
         wait_ = first_wait;
+        waited_for_return_ = {};
     }
     bool was_in() const { return was_in_; }
 
@@ -41,13 +45,16 @@ public:
         bool is_outdated = false;
     };
     // A refusal that is not for good (wire::is_for_good()) is final only for somebody who was never
-    // in. A goodbye is final, but that of a host that may return.
+    // in. A goodbye is final, but that of a host that may return: its sentence is the first reason,
+    // then that of each attempt that failed.
     Judged after(const End& end);
 
 private:
     const bool is_page_;
     bool was_in_ = false;
     Duration wait_ = first_wait;
+    const std::optional<Duration> return_patience_;
+    Duration waited_for_return_{};
 };
 
 }  // namespace theatron::client

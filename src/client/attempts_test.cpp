@@ -5,6 +5,8 @@
 
 #include <set>
 
+#include "wire/sentence.h"
+
 namespace theatron::client {
 namespace {
 
@@ -70,12 +72,27 @@ TEST(Attempts, AHostThatMayReturnIsWaitedFor) {
     Attempts attempts;
     attempts.came_in();
     for (int i = 0; i < 10; ++i) {
-        const auto judged = attempts.after({{}, {TextCode::host_may_return}, "", false});
+        const auto judged = attempts.after({{}, {TextCode::host_may_return}, "No network.", false});
         EXPECT_EQ(judged.next, Next::again);
-        EXPECT_FALSE(judged.why.empty());
+        EXPECT_EQ(judged.why, i == 0 ? wire::sentence({TextCode::host_may_return}) : "No network.");
     }
     EXPECT_EQ(attempts.after({{}, {TextCode::ended_by_operator}, "", false}).next, Next::ended);
     EXPECT_EQ(attempts.after({{}, {TextCode{199}}, "", false}).next, Next::ended);
+}
+
+TEST(Attempts, AVisitEndsWhereTheHostDoesNotReturnForLong) {
+    Attempts attempts(false, 20s);
+    const Attempts::End gone{{}, {TextCode::host_may_return}, "No network.", false};
+    for (int round = 0; round < 2; ++round) {
+        attempts.came_in();
+        Duration waited{};
+        Attempts::Judged judged = attempts.after(gone);
+        for (; judged.next == Next::again; judged = attempts.after(gone))
+            waited += judged.wait;
+        EXPECT_EQ(judged.next, Next::ended);
+        EXPECT_GE(waited, 20s);
+        EXPECT_LE(waited, 20s + Attempts::longest_wait);
+    }
 }
 
 // The host's protocol is newer and then older; the numbers of the refusal change their places.

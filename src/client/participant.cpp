@@ -58,7 +58,9 @@ Participant::Participant(Options options)
       direct_reception_(options_.direct ? std::make_unique<DirectReception>(direct_events())
                                         : nullptr),
       decoders_(std::make_unique<Decoders>(decoded_events())),
-      attempts_(options_.is_page) {
+      attempts_(options_.is_page, options_.records || options_.sends_only
+                                      ? std::nullopt
+                                      : std::optional(return_patience)) {
     shared_->status.goal = options_.delivery;
     shared_->voice_may_record = options_.voice_may_record;
     if (options_.keeps_cases)
@@ -181,8 +183,9 @@ std::optional<Duration> Participant::end_connection(const net::Client::End& end)
     shared_->status.phase = again ? Phase::lost : ended ? Phase::ended : Phase::refused;
     shared_->status.problem = judged.why;
     shared_->status.is_outdated = judged.is_outdated;
-    // Nothing of an operation stays on a screen until a host is back that may never come.
+    // No camera's picture stays on a screen until a host is back that may never come.
     if (session_.goodbye().code == wire::TextCode::host_may_return && !options_.media) {
+        shared_->decoder_generation = no_generation;  // what is being decoded comes too late
         shared_->cameras.clear();
         shared_->newest.clear();
         ++shared_->generation;

@@ -101,6 +101,10 @@ public:
         std::function<void()> room_changed;
     };
 
+    // How long a person waits for a host that was stopped and may return; then the visit ends.
+    // Recorders and publishers wait for ever.
+    static constexpr Duration return_patience = std::chrono::minutes(2);
+
     // Begins to connect at once, on a thread of its own. Throws Error if name, token and
     // codecs do not fit into the first message.
     explicit Participant(Options options);

@@ -31,6 +31,9 @@ struct Participant::Loop {
 };
 
 // State shared with other threads, under `mutex`.
+// A value that Decoders::set_cameras() never returns.
+inline constexpr std::uint64_t no_generation = ~std::uint64_t(0);
+
 struct Participant::Shared {
     mutable std::mutex mutex;
     std::condition_variable changed;

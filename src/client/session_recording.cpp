@@ -30,7 +30,7 @@ constexpr Duration room_interval = std::chrono::milliseconds(10),
                    room_part = std::chrono::milliseconds(100);
 // The room is known at once after the first pictures.
 constexpr Duration room_patience = std::chrono::seconds(1);
-// The host answers once a second.
+// The host answers once a second. A recorder that is told to end must do so in 2 s.
 constexpr Duration silent_after = std::chrono::milliseconds(1500);
 // Pictures may come before the session's clock is known, on a connection of long delay.
 constexpr std::size_t max_early_bytes = std::size_t(64) << 20;

@@ -110,7 +110,7 @@ std::optional<std::string> read_text(const fs::path& path, bool is_named, Privac
     if (!file.is_open() || fstat(file.get(), &info) != 0)
         refuse("read", path);
     if (!is_named && !S_ISREG(info.st_mode))
-        throw Error(quoted(path) + " is no file; delete it, or name another folder with --state.");
+        throw Error(quoted(path) + " is no file; remove it, or put a file in its place.");
     if (S_ISREG(info.st_mode)) {
         require_own(info, path, owner);
         if (info.st_mode & (S_IWGRP | S_IWOTH))

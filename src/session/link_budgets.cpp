@@ -39,6 +39,8 @@ void LinkBudgets::note_flood(const std::string& name, const Bytes& person, TimeP
 
 void LinkBudgets::note_here(const std::string& link, const Bytes& person, TimePoint now) {
     Person& own = links_[link].people.note(person, now);
+    if (own.came == TimePoint{})
+        own.came = now;
     own.has_settled = own.has_settled || (!person.empty() && now - own.came >= settles_after);
 }
 

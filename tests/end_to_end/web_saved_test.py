@@ -2,6 +2,7 @@
 """The page saves the picture that is seen, and the file says from when it is and whether it is live."""
 import contextlib
 import pathlib
+import signal
 import tempfile
 import unittest
 
@@ -30,7 +31,7 @@ class WebSaved(unittest.TestCase):
             served = stack.enter_context(host(self.folder / "host", "synthetic:seconds=2,fps=10,quality=quick,loop=1"))
             browser = stack.enter_context(Browser())
             browser.call("Browser.setDownloadBehavior", behavior="allow", downloadPath=str(self.folder))
-            known = []
+            known, pages = [], {}
             for way in ("flat", "room"):
                 with self.subTest(way):
                     page = browser.open(served.greeting["link"], SIZE)
@@ -44,11 +45,20 @@ class WebSaved(unittest.TestCase):
                     picture, line = (b"".join(bytes(row) for row in part) for part in (rows[:-LINE_PX], rows[-LINE_PX:]))
                     self.assertGreater(len(set(picture)), 50, "the picture is there")
                     self.assertGreater(line.count(255), 100, "so is the line")
-                    if way == "flat":
-                        page.close()
-            served.process.kill()
-            page.wait_for("theatron.state.phase !== 'joined'")
-            self.assertIn("not-live", self.saved(browser, page, known).name)
+                    pages[way] = page
+            with self.subTest("a picture that stands still is not called live"):
+                served.send(signal.SIGSTOP)
+                try:
+                    page.wait_for("theatron.state.overlay.cover !== ''")
+                    known.append(self.saved(browser, page, known))
+                finally:
+                    served.send(signal.SIGCONT)
+                self.assertIn("not-live", known[-1].name)
+            with self.subTest("of a host that was stopped no picture stays, and none is saved"):
+                served.send(signal.SIGTERM)
+                for page in pages.values():
+                    page.wait_for("theatron.state.phase === 'lost' && !theatron.state.has_picture && document.getElementById('save_picture').disabled")
+                pages["flat"].wait_for("document.getElementById('flat').width === 1")
 
 
 if __name__ == "__main__":

@@ -112,7 +112,7 @@ TEST(WorldRecording, AHostThatIsStartedAgainCostsTheTimeBetweenAlone) {
         const auto before = recorder.recorded();
         stage.world.host().end_for_now();
         stage.world.end_host();
-        stage.world.advance(3min);
+        stage.world.advance(90s);
         EXPECT_EQ(recorder.source().ended(), std::nullopt);
         (void)stage.world.host();
         stage.world.advance(20s);

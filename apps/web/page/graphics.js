@@ -20,6 +20,11 @@ export class FlatView {
         Object.assign(this, { canvas, module, client, next_ms: 0 });
     }
 
+    clear() {
+        if (this.canvas.width > 1)
+            this.canvas.width = this.canvas.height = 1;
+    }
+
     // True if the picture is a new one.
     draw(now_ms) {
         if (now_ms < this.next_ms)

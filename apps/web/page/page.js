@@ -32,6 +32,7 @@ const still = new StillCover($("panels"));
 const texts_every_ms = 250;
 const poll_every_ms = 1;
 const longest_wait_ms = 500;
+const longest_save_ms = 2000;
 
 // The link's part behind '#', which no request contains.
 const link = new URLSearchParams(location.hash.slice(1));
@@ -156,11 +157,12 @@ function run({ client, voice, face, screen, module, flat }) {
     for (const id of ["door", "call"])
         $(id).addEventListener("click", event => sheet.open("people", event.detail === 0 ? $(id) : null));
     $("webcam").addEventListener("click", () => ["asking", "on"].includes(face.state) ? face.hide() : face.show());
-    let is_to_save = false;
+    // When the person asked for the picture that is drawn next; 0: not.
+    let asked_to_save_ms = 0;
     $("save_picture").addEventListener("click", () => {
         if (page.way === "flat")
-            return save_picture($("flat"), page.state);
-        is_to_save = true;
+            return save($("flat"));
+        asked_to_save_ms = performance.now();
         client.redraw();
     });
     for (const id of ["share_screen", "end_own_screen"])
@@ -230,10 +232,15 @@ function run({ client, voice, face, screen, module, flat }) {
         show_face(face, page.way);
     };
     // A refusal, and who has ended it for all, are remarks, which are shown.
-    const follow_screen = ({ may_show_screen, screen: told }) => {
-        if (told.has_ended || (screen.state === "on" && (told.problem || !may_show_screen)))
+    const follow_screen = ({ phase, may_show_screen, screen: told }) => {
+        const is_refused = phase === "joined" && screen.state === "on" && (told.problem || !may_show_screen);
+        if (told.has_ended || is_refused)
             screen.hide();
         show_own_screen(screen, page.state);
+    };
+    const save = async picture => {
+        const problem = await save_picture(picture, page.state).then(() => "", ({ message }) => text("not_saved", { why: message }));
+        $("save_hint").textContent = problem;
     };
     const show_state = () => {
         page.state = JSON.parse(client.state());
@@ -250,8 +257,10 @@ function run({ client, voice, face, screen, module, flat }) {
             return leave({ voice, face, screen }, page.state.problem);
         }
         follow_face();
-        if (page.state.phase === "joined")
-            follow_screen(page.state);
+        follow_screen(page.state);
+        // The last picture of a camera that has left does not stay.
+        if (page.way === "flat" && !page.state.has_picture)
+            flat.clear();
         page.state.face_problem ||= face_problem(face, page.way);
         const way_sentence = show_way(page.state);
         show(page.state, { sheet, notices, way: page.way, way_sentence, now_ms: performance.now() });
@@ -285,6 +294,7 @@ function run({ client, voice, face, screen, module, flat }) {
     const forget_picture = () => {
         ++page.visit;
         is_drawing = false;
+        asked_to_save_ms = 0;
         notices = new Notices();
     };
     // The same person enters again, in the other way of seeing.
@@ -379,9 +389,10 @@ function run({ client, voice, face, screen, module, flat }) {
         }
         prepare_room(now);
         const drawn = is_drawing ? 0 : client.draw(width, height);
-        if (drawn & 2 && is_to_save) {
-            is_to_save = false;
-            save_picture(canvas, page.state);
+        if (drawn & 2 && asked_to_save_ms) {
+            if (performance.now() < asked_to_save_ms + longest_save_ms)
+                save(canvas);
+            asked_to_save_ms = 0;
         }
         if (drawn & 1)
             wait_for_picture();

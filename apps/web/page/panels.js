@@ -196,8 +196,9 @@ export function show_face(face, way) {
 }
 
 // The button, the panel that says so while a screen is shown, and why none is.
-export function show_own_screen(screen, { may_show_screen }) {
+export function show_own_screen(screen, { phase, may_show_screen, screen: told }) {
     const is_on = screen.state === "on";
+    set_text($("own_screen_text"), text(phase === "joined" && told?.is_taken ? "screen_on" : "screen_waits"));
     $("own_screen").hidden = !is_on;
     $("share_screen").hidden = !screen.constructor.is_supported() || (!may_show_screen && !is_on);
     set_text($("share_screen"), text(is_on ? "end_own_screen" : "share_screen"));
@@ -218,6 +219,7 @@ function show_buttons(state, way) {
     $("draw").hidden = is_flat || !state.may_handle;
     $("show_case").hidden = is_flat;
     $("next_camera").hidden = !is_flat;
+    $("save_picture").disabled = !state.has_picture;
     $("draw").setAttribute("aria-pressed", String(is_drawing(state.overlay)));
     for (const key of ["r", "n"])
         document.querySelector(`#more [data-key="${key}"]`).hidden = is_flat || (key === "n" && !state.may_handle);

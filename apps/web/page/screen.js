@@ -3,8 +3,9 @@
 // one, and twice a second the same one, so that nobody takes the screen for frozen.
 import { put_bytes } from "./program.js";
 
-// session/screen_limits.h has the host's limits.
-const most_pixels = 1920 * 1200, pictures_per_s = 8, quality = 0.85, again_every_ms = 500, refusal_ms = 10_000;
+// session/screen_limits.h has the host's limits. Below them: a megabyte a picture, and three million bytes a second.
+const most_pixels = 1920 * 1200, most_bytes = 1_000_000, bytes_per_ms = 2500;
+const pictures_per_s = 8, best_quality = 0.85, least_quality = 0.4, again_every_ms = 500, refusal_ms = 10_000;
 
 // The size in which a picture of this size is sent: as it is, or smaller in its shape.
 export function sent_size(width, height) {
@@ -52,22 +53,26 @@ export class Screen {
         if (this.state === "asking" || this.state === "on")
             return;
         this.be("asking");
+        const own = this.asked = {};  // a later question has another one
         let stream = null;
         try {
             stream = await navigator.mediaDevices.getDisplayMedia({ video: { frameRate: { max: 15 } }, audio: false });
-            this.video.srcObject = stream;
+            if (this.asked !== own)  // given up while the browser asked
+                return stop(stream);
+            this.stream = this.video.srcObject = stream;
+            // The browser's own button ends it, too.
+            stream.getVideoTracks()[0].addEventListener("ended", () => this.stream === stream && this.hide());
             await this.video.play();
-        } catch (error) {
+        } catch {
             stop(stream);
-            if (this.state === "asking")
+            if (this.asked === own)
                 this.refuse();
             return;
         }
-        if (this.state !== "asking")  // given up while the browser asked
-            return stop(stream);
-        this.stream = stream;
-        // The browser's own button ends it, too.
-        stream.getVideoTracks()[0].addEventListener("ended", () => this.stream === stream && this.hide());
+        if (this.asked !== own)
+            return;
+        this.quality = best_quality;
+        this.rests_until_ms = 0;
         this.canvas = new OffscreenCanvas(...sent_size(this.video.videoWidth, this.video.videoHeight));
         this.be("on");
         this.offer();
@@ -86,7 +91,7 @@ export class Screen {
     hide(why = "off") {
         this.clock?.terminate();
         stop(this.stream);
-        this.clock = this.stream = this.video.srcObject = this.sent = null;
+        this.clock = this.stream = this.video.srcObject = this.sent = this.asked = null;
         if (this.state === "on")
             this.client.show_screen("", 0, 0, 0);
         this.be(why);
@@ -104,23 +109,32 @@ export class Screen {
     }
 
     async take() {
-        const { videoWidth, videoHeight } = this.video;
-        if (this.is_taking || !videoWidth || !videoHeight)
+        const { videoWidth, videoHeight } = this.video, { canvas } = this, begin = performance.now();
+        if (this.is_taking || !videoWidth || !videoHeight || begin < this.rests_until_ms)
             return;
         this.is_taking = true;
-        const begin = performance.now();
-        const { canvas } = this;
-        const to = canvas.getContext("2d");
-        to.fillRect(0, 0, canvas.width, canvas.height);
-        to.drawImage(this.video, ...place_within([videoWidth, videoHeight], [canvas.width, canvas.height]));
-        // A picture that cannot be encoded is left out; the next one comes soon.
-        const jpeg = await canvas.convertToBlob({ type: "image/jpeg", quality }).then(blob => blob.arrayBuffer(), () => null);
-        this.is_taking = false;
+        let jpeg = null;
+        try {
+            const to = canvas.getContext("2d");
+            to.fillRect(0, 0, canvas.width, canvas.height);
+            to.drawImage(this.video, ...place_within([videoWidth, videoHeight], [canvas.width, canvas.height]));
+            jpeg = await (await canvas.convertToBlob({ type: "image/jpeg", quality: this.quality })).arrayBuffer();
+        } catch (error) {
+            console.log(`a picture of the screen is left out: ${error.message}`);  // the next one comes soon
+        } finally {
+            this.is_taking = false;
+        }
         if (!jpeg || this.state !== "on" || canvas !== this.canvas ||
             (begin < this.sent_at_ms + again_every_ms && are_equal(this.sent, jpeg)))
             return;
+        // The host would leave it out: the next one is coarser.
+        if (jpeg.byteLength > most_bytes) {
+            this.quality = Math.max(least_quality, this.quality - 0.15);
+            return;
+        }
         this.sent = jpeg;
         this.sent_at_ms = begin;
+        this.rests_until_ms = begin + jpeg.byteLength / bytes_per_ms;
         put_bytes(this.module, jpeg);
         this.client.send_screen(1000 * (performance.now() - begin));
     }
