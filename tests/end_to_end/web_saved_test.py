@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The page saves the picture that is seen, and the file says from when it is and whether it is live."""
 import contextlib
+import os
 import pathlib
 import signal
 import tempfile
@@ -57,8 +58,11 @@ class WebSaved(unittest.TestCase):
             with self.subTest("of a host that was stopped no picture stays, and none is saved"):
                 served.send(signal.SIGTERM)
                 for page in pages.values():
-                    page.wait_for("theatron.state.phase === 'lost' && !theatron.state.has_picture && document.getElementById('save_picture').disabled")
-                pages["flat"].wait_for("document.getElementById('flat').width === 1")
+                    page.wait_for("theatron.state.phase === 'lost' && theatron.state.cameras.length === 0")
+                pages["flat"].wait_for("document.getElementById('flat').width === 1 && document.getElementById('save_picture').disabled")
+                if folder := os.environ.get("THEATRON_PICTURES"):
+                    for way, page in pages.items():
+                        page.screenshot(pathlib.Path(folder) / f"web_saved_{way}.png")
 
 
 if __name__ == "__main__":
