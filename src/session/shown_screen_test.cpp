@@ -3,7 +3,7 @@
 // and their limits.
 #include <gtest/gtest.h>
 
-#include "session/host_session_testing.h"
+#include "session/offering_testing.h"
 #include "session/screen_limits.h"
 
 namespace theatron::session {
@@ -13,36 +13,10 @@ using wire::CameraKind;
 using wire::Feature;
 using wire::TextCode;
 
-class ShownScreens : public Host {
+class ShownScreens : public Offering {
 protected:
-    ShownScreens() {
-        HostSession::Config c = config();
-        c.admission.tokens = {{"or", Role::operator_, {}, "operator"},
-                              {"see", Role::observer, {}, "observer"},
-                              {"secret", Role::expert, {}, "expert"}};
-        session_.emplace(std::move(c));
-    }
-    void come(ParticipantId id, const char* token = "secret",
-              std::vector<Feature> features = {Feature::shows_screen, Feature::screens,
-                                               Feature::room},
-              bool records = false) {
-        session_->on_connected(id, now);
-        wire::Join hello;
-        hello.token = token;
-        hello.depth_codec = "trvl";
-        hello.color_codec = "h264";
-        hello.features = std::move(features);
-        hello.records = records;
-        tell(id, hello);
-    }
-    void tell(ParticipantId id, const wire::ToHost& message) {
-        now += 1s;
-        session_->on_control(id, wire::encode(message), now);
-        taken = session_->take_actions();
-    }
-    template <class T>
-    std::vector<T> to(ParticipantId id) const {
-        return messages_to<T>(id, taken);
+    ShownScreens() : Offering({Feature::shows_screen, Feature::screens, Feature::room}) {
+        between = 1s;
     }
     static wire::OfferedCamera screen(Size size = {1280, 720}, double fps = 8) {
         return {"Screen of Ada",
@@ -52,41 +26,12 @@ protected:
                 false,
                 CameraKind::screen};
     }
-    wire::Published offer(ParticipantId id, std::vector<wire::OfferedCamera> cameras) {
-        tell(id, wire::Publish{std::move(cameras)});
-        const auto answers = to<wire::Published>(id);
-        EXPECT_EQ(answers.size(), 1u);
-        return answers.empty() ? wire::Published{} : answers.front();
-    }
-    TextCode problem_with(ParticipantId id, std::vector<wire::OfferedCamera> cameras) {
-        return offer(id, std::move(cameras)).problem.code;
-    }
-    std::vector<wire::StreamSetting> settings(ParticipantId id) const {
-        const auto told = to<wire::Encode>(id);
-        return told.empty() ? std::vector<wire::StreamSetting>() : told.back().settings;
-    }
-    // The receivers of a picture of this many bytes, behind its plane.
+    // The number of receivers of a picture of this many bytes, behind its plane.
     std::size_t receivers_of(ParticipantId id, const std::vector<wire::StreamSetting>& both,
                              std::size_t bytes) {
-        ++frame_;
-        send(id, both[0], 600);
-        return send(id, both[1], bytes);
+        (void)send(id, both[0], 600);
+        return send(id, both[1], bytes).size();
     }
-    std::size_t send(ParticipantId id, const wire::StreamSetting& setting, std::size_t bytes) {
-        wire::MediaHeader header;
-        header.stream = setting.stream;
-        header.setting = setting.setting;
-        header.frame = header.reference = frame_;
-        header.key = true;
-        header.payload_size = std::uint32_t(bytes - wire::media_header_size);
-        Bytes message(bytes);
-        wire::write_media_header(header, message.data());
-        return session_->on_media_from(id, message, now).size();
-    }
-
-    std::optional<HostSession> session_;
-    std::vector<Action> taken;
-    FrameNumber frame_ = 0;
 };
 
 TEST_F(ShownScreens, AnExpertShowsOneAndItIsAScreenOfTheRoomForEverybody) {
