@@ -124,7 +124,7 @@ std::optional<PatientTexts> read_patient_texts(const std::filesystem::path& fold
     if (!std::filesystem::is_regular_file(status))
         throw Error("'" + clean_text(file.string(), 300) +
                     "' is not a regular file; replace it with one, or remove it.");
-    const auto text = files::read_named_file(file, files::Privacy::secret, max_identifiers_bytes);
+    const auto text = files::read_private_file(file, files::Privacy::secret, max_identifiers_bytes);
     if (!text)
         return std::nullopt;
     const json all = json::parse(*text, nullptr, false);
