@@ -2,6 +2,7 @@
 // The check of devices in the join form: which ones to use, and whether they work. Nothing is opened before the person asks.
 import { can_choose_loudspeaker, choose_device, device_choice, use_loudspeaker, wanted_device } from "./device_choice.js";
 import { text } from "./texts.js";
+import { stop_tracks } from "./tracks.js";
 
 const $ = id => document.getElementById(id);
 const kinds = { microphone: "audioinput", loudspeaker: "audiooutput", webcam: "videoinput" };
@@ -59,7 +60,7 @@ export class DeviceCheck {
             const stream = await navigator.mediaDevices.getUserMedia(kind === "microphone"
                 ? { audio: { channelCount: 1, echoCancellation: true, ...device } } : { video: { width: { ideal: 640 }, ...device } });
             if (this.stream[kind] !== asked)  // given up meanwhile
-                return stop(stream);
+                return stop_tracks(stream);
             this.stream[kind] = stream;
             this.tell("");
             if (kind === "microphone")
@@ -77,7 +78,7 @@ export class DeviceCheck {
     }
 
     end(kind) {
-        stop(this.stream[kind]);
+        stop_tracks(this.stream[kind]);
         delete this.stream[kind];
         if (kind === "microphone") {
             clearInterval(this.timer);
@@ -149,9 +150,4 @@ export class DeviceCheck {
             $(button).setAttribute("aria-pressed", String(is_open));
         $("preview").hidden = !$("preview").srcObject;
     }
-}
-
-function stop(stream) {
-    for (const track of stream?.getTracks?.() ?? [])
-        track.stop();
 }

@@ -2,6 +2,7 @@
 // The person's own webcam as a small picture on the head of the avatar: off until the person wants it.
 import { wanted_device } from "./device_choice.js";
 import { put_bytes } from "./program.js";
+import { stop_tracks } from "./tracks.js";
 
 const width = 320, height = 240, pictures_per_s = 10, quality = 0.75;
 
@@ -33,13 +34,13 @@ export class Face {
             this.video.srcObject = stream;
             await this.video.play();
         } catch (error) {
-            stop(stream);
+            stop_tracks(stream);
             if (this.state === "asking")
                 this.hide(error.name === "NotAllowedError" ? "denied" : "missing");
             return;
         }
         if (this.state !== "asking")  // given up while the browser asked
-            return stop(stream);
+            return stop_tracks(stream);
         this.stream = stream;
         stream.getVideoTracks()[0].addEventListener("ended", () => this.stream === stream && this.hide("missing"));
         this.state = "on";
@@ -55,7 +56,7 @@ export class Face {
 
     hide(why = "off") {
         clearInterval(this.timer);
-        stop(this.stream);
+        stop_tracks(this.stream);
         this.stream = this.video.srcObject = null;
         if (this.state === "on")
             this.client.show_face(0, 0, 0);
@@ -80,9 +81,4 @@ export class Face {
         put_bytes(this.module, jpeg);
         this.client.send_face(1000 * (performance.now() - begin));
     }
-}
-
-function stop(stream) {
-    for (const track of stream?.getTracks() ?? [])
-        track.stop();
 }

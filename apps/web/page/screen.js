@@ -2,6 +2,7 @@
 // A screen, window or tab of this computer that the person shows to all. It comes as JPEG pictures: each that is another
 // one, and twice a second the same one, so that nobody takes the screen for frozen.
 import { put_bytes } from "./program.js";
+import { stop_tracks } from "./tracks.js";
 
 // session/screen_limits.h has the host's limits. Below them: a megabyte a picture, and three million bytes a second.
 const most_pixels = 1920 * 1200, most_bytes = 1_000_000, bytes_per_ms = 2500;
@@ -58,13 +59,13 @@ export class Screen {
         try {
             stream = await navigator.mediaDevices.getDisplayMedia({ video: { frameRate: { max: 15 } }, audio: false });
             if (this.asked !== own)  // given up while the browser asked
-                return stop(stream);
+                return stop_tracks(stream);
             this.stream = this.video.srcObject = stream;
             // The browser's own button ends it, too.
             stream.getVideoTracks()[0].addEventListener("ended", () => this.stream === stream && this.hide());
             await this.video.play();
         } catch {
-            stop(stream);
+            stop_tracks(stream);
             if (this.asked === own)
                 this.refuse();
             return;
@@ -90,7 +91,7 @@ export class Screen {
 
     hide(why = "off") {
         this.clock?.terminate();
-        stop(this.stream);
+        stop_tracks(this.stream);
         this.clock = this.stream = this.video.srcObject = this.sent = this.asked = null;
         if (this.state === "on")
             this.client.show_screen("", 0, 0, 0);
@@ -138,9 +139,4 @@ export class Screen {
         put_bytes(this.module, jpeg);
         this.client.send_screen(1000 * (performance.now() - begin));
     }
-}
-
-function stop(stream) {
-    for (const track of stream?.getTracks() ?? [])
-        track.stop();
 }

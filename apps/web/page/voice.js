@@ -3,6 +3,7 @@
 import { use_loudspeaker, wanted_device } from "./device_choice.js";
 import { find_decoders, find_encoders, has_opus, sample_rate } from "./opus.js";
 import { with_patience } from "./program.js";
+import { stop_tracks } from "./tracks.js";
 
 const header_size = 16, version = 1, most_opus_bytes = 1275;
 const frame_us = 20_000;            // of the microphone
@@ -286,7 +287,7 @@ export class Voice {
     }
 
     stop_stream() {
-        this.stream?.getTracks().forEach(track => track.stop());
+        stop_tracks(this.stream);
         this.stream = null;
     }
 
