@@ -1,28 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "base/machine_load.h"
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <fstream>
 #include <string>
+
+#include "base/machine_load.h"
 
 namespace theatron {
 
 double MachineLoad::since_last() {
     std::ifstream file("/proc/stat");
-    std::string name;
-    // user, nice, system, idle, waiting for input or output, interrupts (2), stolen
-    double ticks[8] = {};
-    file >> name;
-    for (double& t : ticks)
-        file >> t;
-    if (!file)
-        return 0;
-    double all = 0;
-    for (const double t : ticks)
-        all += t;
-    const double busy = all - ticks[3] - ticks[4];
-    const double share = all_ > 0 && all > all_ ? (busy - busy_) / (all - all_) : 0;
-    busy_ = busy;
-    all_ = all;
+    std::string line;
+    std::getline(file, line);
+    std::optional<MachineTimes> now = parse_machine_times(line);
+    if (now && getpriority(PRIO_PROCESS, id_t(getpid())) > 0)
+        now->busy += now->yielding;
+    const double share = last_ && now ? busy_share(*last_, *now) : 0;
+    last_ = now;
     return share;
 }
 
