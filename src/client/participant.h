@@ -69,6 +69,9 @@ public:
         // Called when cameras() or settings() are new, or when the clock becomes known on this
         // connection. From the participant's thread, before the media to which this applies.
         std::function<void()> described;
+        // These cameras have left, since their publisher's connection broke. From the
+        // participant's thread, before `described` without them.
+        std::function<void(const std::vector<CameraId>&)> interrupted;
         // Another participant's pose has arrived; a pose without head and hands means that the
         // participant has left. Called from the participant's thread.
         std::function<void(ParticipantId, const wire::PersonPose&)> pose;
@@ -329,6 +332,8 @@ private:
     std::vector<CameraId>& numbers(Offer offer) { return numbers_[std::size_t(offer)]; }
     void offer_cameras(Offer offer);
     void offer_all();
+    // On the participant's thread, before it leaves: its cameras end, and none has broken off.
+    void withdraw();
     void end_offered(Offer offer, const wire::ShareEnded& message);
     void forget_numbers(Offer offer);
     void on_published();

@@ -105,10 +105,15 @@ void Participant::on_cameras() {
                                     say(is_screen(camera.calibration) ? Phrase::screen_joined
                                                                       : Phrase::camera_joined,
                                         camera.description.name));
+        const std::vector<CameraId>& interrupted = session_.interrupted();
         for (const Camera& camera : shared_->cameras)
-            if (without(cameras, camera.description.id) && !is_face(camera))
+            if (without(cameras, camera.description.id) && !is_face(camera)) {
+                const bool broke = std::find(interrupted.begin(), interrupted.end(),
+                                             camera.description.id) != interrupted.end();
                 shared_->add_remark(news, publisher_of(camera),
-                                    say(Phrase::camera_left, camera.description.name));
+                                    say(broke ? Phrase::camera_interrupted : Phrase::camera_left,
+                                        camera.description.name));
+            }
         shared_->cameras = std::move(cameras);
         shared_->settings = session_.settings();
         ++shared_->generation;
@@ -118,6 +123,8 @@ void Participant::on_cameras() {
     for (const std::string& text : news)
         remark(text);
     announce();
+    if (options_.interrupted && !session_.interrupted().empty())
+        options_.interrupted(session_.interrupted());
     if (options_.described)
         options_.described();
 }

@@ -42,8 +42,10 @@ Participant::~Participant() {
     {
         const std::lock_guard lock(shared_->mutex);
         shared_->stopping = true;
-        if (shared_->client)
-            shared_->client->stop();
+        if (shared_->client) {
+            shared_->client->post([this] { withdraw(); });
+            shared_->client->leave();
+        }
     }
     shared_->changed.notify_all();
     loop_.reset();

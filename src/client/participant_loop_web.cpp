@@ -49,6 +49,8 @@ void Participant::start() {
 }
 
 Participant::~Participant() {
+    if (shared_->client)
+        withdraw();
     shared_->stopping = true;
     loop_.reset();
 }

@@ -83,6 +83,13 @@ void Participant::offer_all() {
         offer_cameras(offer);
 }
 
+void Participant::withdraw() {
+    for (const Offer offer : all_offers)
+        if (!numbers(offer).empty())
+            shared_->client->send_control(
+                wire::encode(wire::Unpublish{std::exchange(numbers(offer), {})}));
+}
+
 void Participant::forget_numbers(Offer offer) {
     numbers(offer).clear();
     if (events(offer).published)

@@ -71,6 +71,9 @@ public:
             on_media(header, std::make_shared<Bytes>(message.begin(), message.end()));
         };
         options.described = [this] { on_described(); };
+        options.interrupted = [this](const std::vector<CameraId>& cameras) {
+            on_interrupted(cameras);
+        };
         options.keeps_room = true;
         options.room_changed = [this] { on_room(false); };
         options.voice = [this](ParticipantId speaker, ByteView packet) {
@@ -295,6 +298,14 @@ private:
         for (Early& early : std::exchange(early_, {}))
             record(early.stream, early.header, std::move(early.message));
         early_bytes_ = 0;
+    }
+
+    // The pictures of these cameras are missing until they are back.
+    void on_interrupted(const std::vector<CameraId>& cameras) {
+        const std::lock_guard lock(mutex_);
+        for (const CameraId camera : cameras)
+            if (const auto found = described_.find(camera); found != described_.end())
+                intake_.on_interruption(found->second.camera.id);
     }
 
     void note_left() {

@@ -27,7 +27,7 @@ struct Client::Impl {
     asio::ssl::context tls{asio::ssl::context::tls_client};
     asio::steady_timer timer{io};
     std::unique_ptr<WebSocket> socket;
-    bool directly = false;
+    bool directly = false, is_leaving = false;
     std::optional<OutgoingProxy> proxy;
     std::unique_ptr<WayToHost> way;
     std::shared_ptr<Connection> connection;
@@ -92,6 +92,8 @@ struct Client::Impl {
             events.state = handler.state;
             events.voice = handler.voice;
             events.closed = [this](const std::string& why) {
+                if (is_leaving)
+                    return io.stop();
                 finish(say(Phrase::connection_ended, why));
             };
             events.now = handler.now;
@@ -102,7 +104,18 @@ struct Client::Impl {
         });
     }
 
+    void leave() {
+        if (!connection)
+            return io.stop();
+        is_leaving = true;
+        connection->close("left");
+        timer.expires_after(Connection::max_farewell);
+        timer.async_wait([this](beast::error_code) { io.stop(); });
+    }
+
     void tick() {
+        if (is_leaving)
+            return;
         timer.expires_after(std::chrono::milliseconds(100));
         timer.async_wait([this](beast::error_code error) {
             if (error)
@@ -148,6 +161,10 @@ void Client::set_patience(Duration patience) {
 
 void Client::stop() {
     impl_->io.stop();
+}
+
+void Client::leave() {
+    post([impl = impl_.get()] { impl->leave(); });
 }
 
 void Client::post(std::function<void()> work) {

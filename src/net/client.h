@@ -35,12 +35,13 @@ public:
 
     // The reason for the end of run().
     struct End {
-        std::string why;  // one sentence, empty after stop()
+        std::string why;  // one sentence, empty after stop() and leave()
         bool final =
             false;  // another attempt is useless: another certificate, a proxy without a password
     };
 
-    // Connects and serves until the connection ends or stop() is called. Not in a browser.
+    // Connects and serves until the connection ends, or stop() or leave() is called. Not in a
+    // browser.
     End run();
 
     // In a browser only, which owns the thread: returns at once. `ended` is called once, from one
@@ -55,8 +56,10 @@ public:
     // Before run(): the longest time for connecting and the TLS handshake. Not in a browser.
     void set_patience(Duration patience);
 
-    // From any thread. Not in a browser.
+    // From any thread. Not in a browser. leave() sends the control messages that are queued first,
+    // and waits for the host's end of the connection, both at most for Connection::max_farewell.
     void stop();
+    void leave();
     void post(std::function<void()> work);  // runs `work` on the client's thread
 
     // On the client's thread only.

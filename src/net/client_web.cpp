@@ -62,7 +62,12 @@ struct Client::Impl {
     TimePoint began, next_tick;
     std::deque<std::function<void()>> posted;
 
-    ~Impl() { close(); }
+    // The last messages leave, too.
+    ~Impl() {
+        if (!is_finished)
+            (void)contain("net", [this] { write(); });
+        close();
+    }
 
     std::string where() const { return host_and_port(link); }
 

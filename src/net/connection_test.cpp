@@ -160,6 +160,39 @@ TEST(Connection, BothSidesLearnOfTheEnd) {
     EXPECT_EQ(closed.get_future().get(), "refused");
 }
 
+TEST(Connection, WhoLeavesIsHeardToTheEnd) {
+    constexpr std::size_t messages = 40, size = 20'000;
+    std::vector<Bytes> heard;
+    std::promise<void> closed;
+    Server::Handler handler;
+    handler.control = [&](PeerId, ByteView bytes) {
+        heard.emplace_back(bytes.begin(), bytes.end());
+    };
+    handler.closed = [&](PeerId, const std::string&) { closed.set_value(); };
+    TestServer server(handler);
+
+    Client* self = nullptr;
+    Client::Handler h = client_handler();
+    h.connected = [&] {
+        for (std::size_t n = 0; n < messages; ++n)
+            self->send_control(Bytes(size, std::byte(n)));
+        self->leave();
+    };
+    Client client(server.link(), h);
+    self = &client;
+    EXPECT_EQ(client.run().why, "");
+    closed.get_future().get();
+    ASSERT_EQ(heard.size(), messages);
+    EXPECT_EQ(heard.back(), Bytes(size, std::byte(messages - 1)));
+}
+
+TEST(Connection, WhoLeavesBeforeItIsConnectedEndsAtOnce) {
+    Link link{"192.0.2.1", 1, "t", std::string(64, '0')};
+    Client client(link, client_handler());
+    client.leave();
+    EXPECT_EQ(client.run().why, "");
+}
+
 // Answers each message with itself; a message that begins with 66 meets a fault of the host.
 Server::Handler echo_that_can_throw(std::unique_ptr<TestServer>& host) {
     Server::Handler handler;

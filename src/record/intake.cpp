@@ -361,6 +361,17 @@ void Intake::on_end(CameraId camera) {
             found->second.ended = true;
 }
 
+void Intake::on_interruption(CameraId camera) {
+    const std::lock_guard lock(mutex_);
+    for (const StreamId id : {depth_stream(camera), color_stream(camera)}) {
+        const auto found = entries_.find(id);
+        if (found == entries_.end() || std::exchange(found->second.ended, true))
+            continue;
+        if (found->second.gate.figures().recorded > 0)
+            ++found->second.stream.interruptions;
+    }
+}
+
 std::vector<std::string> Intake::news(TimePoint now) {
     const std::lock_guard lock(mutex_);
     // Also while no connection gives the session's time.

@@ -121,6 +121,9 @@ public:
 
     // This camera has ended: it sends no more pictures, and none are missing from now on.
     void on_end(CameraId camera);
+    // The way of this camera's pictures broke before the host: as on_end(), but what it would have
+    // sent until it is described again is missing.
+    void on_interruption(CameraId camera);
 
     // Sentences for the user on losses since the last call.
     // Call it some times a second.

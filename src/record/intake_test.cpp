@@ -237,6 +237,24 @@ TEST_F(IntakeTest, LatePicturesAndACameraThatHasEndedAreNotMissing) {
     EXPECT_TRUE(intake->streams(local).at(0).complete());
 }
 
+TEST_F(IntakeTest, WhatACameraWouldHaveSentWhoseWayBrokeIsMissing) {
+    send();
+    intake->on_interruption(CameraId{0});
+    intake->on_end(CameraId{0});
+    intake->on_interruption(CameraId{0});
+    EXPECT_TRUE(news().empty());
+    EXPECT_EQ(intake->streams(local).at(0).interruptions, 1u);
+    local += 60s;
+    EXPECT_EQ(intake->streams(local).at(0).interruptions, 1u) << "once";
+    EXPECT_FALSE(intake->streams(local).at(0).complete());
+}
+
+TEST_F(IntakeTest, NothingIsMissingOfACameraWhoseWayBrokeBeforeItsFirstPicture) {
+    describe(first_setting, true);
+    intake->on_interruption(CameraId{0});
+    EXPECT_EQ(intake->streams(local).at(0).interruptions, 0u);
+}
+
 TEST_F(IntakeTest, WhatCannotBeCreatedIsAProblemAndNoException) {
     intake = std::make_unique<Intake>(folder.path() / "none" / "a.mkv", Recorder::Options{});
     describe(first_setting, true);

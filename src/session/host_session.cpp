@@ -177,7 +177,8 @@ void HostSession::on_closed(ParticipantId id) {
             audit(AuditEvent::What::left, id);
         if (!participant->refused_for_good && !has_ended_)
             admission_.remember(*participant);
-        leave_everything(id);
+        // A publisher that ends takes its cameras back first.
+        leave_everything(id, Removal::interrupted);
         admission_.remove(id);
         if (has_waited)
             tell_operators();
@@ -186,9 +187,9 @@ void HostSession::on_closed(ParticipantId id) {
 
 // The participant has no part in the session any more: its connection has ended or is about to.
 // Every way of leaving comes by here.
-void HostSession::leave_everything(ParticipantId id) {
+void HostSession::leave_everything(ParticipantId id, Removal cameras) {
     admission_.find(id)->closing = true;
-    shared_.remove_all(id);
+    shared_.remove_all(id, cameras);
     renderers_.forget(id);
     look_back_.leave(id);
     direct_.leave(id);
@@ -242,7 +243,7 @@ void HostSession::end(wire::TextCode reason) {
             continue;
         if (participant.waits())
             audit(AuditEvent::What::left, id);
-        leave_everything(id);
+        leave_everything(id, Removal::decided);
         actions_.push_back(action::End{id, {{reason}}});
     }
     has_ended_ = true;
@@ -268,7 +269,7 @@ void HostSession::refuse(ParticipantId id, wire::Text reason) {
     wire::Refused refusal = wire::refused(std::move(reason));
     std::string why = refusal.in_english;
     send(id, std::move(refusal));
-    leave_everything(id);
+    leave_everything(id, Removal::decided);
     actions_.push_back(action::Close{id, std::move(why)});
     if (has_waited)
         tell_operators();

@@ -232,7 +232,7 @@ private:
     void audit(AuditEvent::What what, ParticipantId id, std::string by = "",
                std::string detail = "");
     void describe_session(ParticipantId id);
-    void leave_everything(ParticipantId id);
+    void leave_everything(ParticipantId id, Removal cameras);
     void refuse(ParticipantId id, wire::Text reason);
     void make_way(const Admission::Replaced& replaced);
     void send(ParticipantId id, wire::ToParticipant message);

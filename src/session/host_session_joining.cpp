@@ -65,7 +65,7 @@ void HostSession::make_way(const Admission::Replaced& replaced) {
     if (!replaced.told.empty())
         return refuse(replaced.id, replaced.told);
     const bool has_waited = admission_.find(replaced.id)->waits();
-    leave_everything(replaced.id);
+    leave_everything(replaced.id, Removal::interrupted);
     actions_.push_back(action::Drop{replaced.id, "its program has come back"});
     if (has_waited)
         tell_operators();

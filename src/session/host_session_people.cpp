@@ -219,7 +219,7 @@ void HostSession::set_role(ParticipantId id, Role role) {
         std::erase_if(forbidden, [&](CameraId camera) {
             return person.may(needed_right(streams_.cameras().find(camera)->offered_as()));
         });
-        shared_.remove(id, forbidden);
+        shared_.remove(id, forbidden, Removal::decided);
     } else if (person.asks_to_publish && !could_publish) {
         person.features.push_back(wire::Feature::publish);
     }

@@ -114,6 +114,25 @@ TEST_P(Leaving, ItsCamerasLeave) {
     EXPECT_TRUE(session_->streams().cameras().of(bob).empty());
 }
 
+TEST_P(Leaving, ItsCamerasAreInterruptedOnlyWhereNobodyDecidedIt) {
+    leave();
+    const auto told = messages_to<wire::CamerasRemoved>(carol, left_);
+    ASSERT_EQ(told.size(), GetParam() == Way::ended ? 0u : 1u);
+    if (told.empty())
+        return;  // the session has ended for all
+    EXPECT_EQ(told[0].cameras, std::vector{of_bob});
+    EXPECT_EQ(told[0].interrupted, GetParam() == Way::closed);
+}
+
+TEST_P(Leaving, CamerasThatItTookBackBeforeAreNotInterrupted) {
+    tell(bob, wire::Unpublish{{of_bob}});
+    const auto told = messages_to<wire::CamerasRemoved>(carol, session_->take_actions());
+    ASSERT_EQ(told.size(), 1u);
+    EXPECT_FALSE(told[0].interrupted);
+    leave();
+    EXPECT_TRUE(messages_to<wire::CamerasRemoved>(carol, left_).empty());
+}
+
 TEST_P(Leaving, ItIsNotInTheRoom) {
     ASSERT_TRUE(is_in_room());
     leave();

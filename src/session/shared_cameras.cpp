@@ -107,7 +107,7 @@ void SharedCameras::end_share(CameraId camera, ParticipantId by) {
     const std::string& name = admission_.find(by)->name;
     audit(AuditEvent::What::unshared, publisher, camera, name);
     look_back_.forget(camera, {});
-    streams_.remove({camera});
+    streams_.remove({camera}, Removal::decided);
     if (admission_.find(publisher)->has(wire::Feature::screens))
         send(publisher, wire::ShareEnded{{camera}, name});
     set_budgets();
@@ -118,17 +118,17 @@ void SharedCameras::unpublish(ParticipantId id, const wire::Unpublish& left) {
     std::erase_if(own, [&](CameraId camera) {
         return std::find(left.cameras.begin(), left.cameras.end(), camera) == left.cameras.end();
     });
-    remove(id, own);
+    remove(id, own, Removal::decided);
 }
 
-void SharedCameras::remove(ParticipantId id, const std::vector<CameraId>& cameras) {
+void SharedCameras::remove(ParticipantId id, const std::vector<CameraId>& cameras, Removal why) {
     for (const CameraId camera : cameras)
         audit(AuditEvent::What::unshared, id, camera);
     for (const CameraId camera : cameras) {
         room_.remove_screen(camera);
         look_back_.forget(camera, {});
     }
-    streams_.remove(cameras);
+    streams_.remove(cameras, why);
     face_paces_.clear();
     screen_paces_.clear();
     set_budgets();

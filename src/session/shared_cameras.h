@@ -46,8 +46,8 @@ public:
     void publish(ParticipantId id, const wire::Publish& offer);
     // Removes cameras of this participant.
     void unpublish(ParticipantId id, const wire::Unpublish& left);
-    void remove(ParticipantId id, const std::vector<CameraId>& cameras);
-    void remove_all(ParticipantId id) { remove(id, streams_.cameras().of(id)); }
+    void remove(ParticipantId id, const std::vector<CameraId>& cameras, Removal why);
+    void remove_all(ParticipantId id, Removal why) { remove(id, streams_.cameras().of(id), why); }
     // Ends the share of a publisher's camera, of which its publisher is told.
     void end_share(CameraId camera, ParticipantId by);
     // The condition of a camera, if it is the participant's.

@@ -41,7 +41,7 @@ const std::vector<ActiveSetting>& Streams::settings(CameraId id, bool depth) con
     return camera ? camera->table(depth).active() : none;
 }
 
-void Streams::remove(const std::vector<CameraId>& cameras) {
+void Streams::remove(const std::vector<CameraId>& cameras, Removal why) {
     ++changes_;
     std::map<ParticipantId, wire::CamerasRemoved> removals;
     for (const CameraId id : cameras) {
@@ -60,8 +60,10 @@ void Streams::remove(const std::vector<CameraId>& cameras) {
         }
         cameras_.remove(id);
     }
-    for (auto& [id, message] : removals)
+    for (auto& [id, message] : removals) {
+        message.interrupted = why == Removal::interrupted;
         send(id, std::move(message));
+    }
 }
 
 void Streams::on_state(const wire::CameraState& state) {

@@ -35,6 +35,10 @@ struct StreamUse {
     bool is_kept = false;  // for looking back
 };
 
+// Why cameras leave: it was decided, by their publisher or by somebody else, or their publisher's
+// connection broke.
+enum class Removal { decided, interrupted };
+
 class Streams {
 public:
     // Changes of encodings in a session. Those beyond this limit wait for a tick, and what has
@@ -56,7 +60,7 @@ public:
     // As in SessionCameras.
     void keep_numbers(int below) { cameras_.keep_numbers(below); }
     // Unknown cameras are skipped.
-    void remove(const std::vector<CameraId>& cameras);
+    void remove(const std::vector<CameraId>& cameras, Removal why);
     const SessionCameras& cameras() const { return cameras_; }
     // The settings in which a camera is to be encoded; empty if there is no such camera.
     const std::vector<ActiveSetting>& settings(CameraId camera, bool depth) const;

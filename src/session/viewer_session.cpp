@@ -108,7 +108,7 @@ ViewerSession::Change ViewerSession::on_control(ByteView bytes) {
     if (const auto* removed = std::get_if<wire::CamerasRemoved>(&*message)) {
         if (!joined_)
             return Change::nothing;
-        remove_cameras(removed->cameras);
+        remove_cameras(*removed);
         return Change::cameras;
     }
     if (auto* changed = std::get_if<wire::CameraChanged>(&*message))
@@ -250,6 +250,7 @@ void ViewerSession::add_cameras(std::vector<wire::Camera> cameras) {
     AnnouncedCameras judged = judge_cameras(std::move(all));
     welcome_.cameras = std::move(judged.accepted);
     left_out_ = std::move(judged.left_out);
+    interrupted_.clear();
 }
 
 // Only what does not concern its streams may change. False, and nothing changes, if there is no
@@ -266,16 +267,19 @@ bool ViewerSession::change_camera(wire::Camera camera) {
         known.calibration = std::move(camera.calibration);
         known.adjustment = std::move(camera.adjustment);
         left_out_.clear();
+        interrupted_.clear();
         return true;
     }
     return false;
 }
 
-void ViewerSession::remove_cameras(const std::vector<CameraId>& cameras) {
+void ViewerSession::remove_cameras(const wire::CamerasRemoved& removed) {
     const auto is_gone = [&](CameraId camera) {
-        return std::find(cameras.begin(), cameras.end(), camera) != cameras.end();
+        return std::find(removed.cameras.begin(), removed.cameras.end(), camera) !=
+               removed.cameras.end();
     };
     left_out_.clear();
+    interrupted_ = removed.interrupted ? removed.cameras : std::vector<CameraId>{};
     std::erase_if(welcome_.cameras, [&](const wire::Camera& c) { return is_gone(c.id); });
     std::erase_if(camera_states_, [&](const auto& entry) { return is_gone(entry.first); });
     std::erase_if(settings_,

@@ -81,6 +81,8 @@ public:
     const std::vector<wire::Camera>& cameras() const { return welcome_.cameras; }
     // About each camera that was not accepted, of the last message that named cameras.
     const std::vector<wire::Text>& left_out() const { return left_out_; }
+    // The cameras that have left with the newest change, if their publisher's connection broke.
+    const std::vector<CameraId>& interrupted() const { return interrupted_; }
     // The settings of accepted cameras only.
     const std::vector<wire::StreamSetting>& settings() const { return settings_; }
     // The host has this part of the protocol for this participant.
@@ -123,7 +125,7 @@ private:
     void take_settings(std::vector<wire::StreamSetting> settings);
     void add_cameras(std::vector<wire::Camera> cameras);
     bool change_camera(wire::Camera camera);
-    void remove_cameras(const std::vector<CameraId>& cameras);
+    void remove_cameras(const wire::CamerasRemoved& removed);
 
     Change on_people(wire::ToParticipant message);
 
@@ -131,6 +133,7 @@ private:
     bool joined_ = false;
     wire::Welcome welcome_;
     std::vector<wire::Text> left_out_;
+    std::vector<CameraId> interrupted_;
     std::vector<wire::StreamSetting> settings_;
     wire::Text note_;
     std::map<CameraId, wire::CameraState> camera_states_;

@@ -73,11 +73,16 @@ struct CamerasAdded {
     static void fields(auto& m, auto&& field) { field(m.cameras, max_cameras); }
 };
 
-// Cameras have left the session. Their numbers never come again.
+// Cameras have left the session. `interrupted`: nobody has decided it; their publisher's connection
+// broke, and pictures are missing until they come back under other numbers, if they do.
 struct CamerasRemoved {
     std::vector<CameraId> cameras;
+    bool interrupted = false;
 
-    static void fields(auto& m, auto&& field) { field(m.cameras, max_cameras); }
+    static void fields(auto& m, auto&& field) {
+        field(m.cameras, max_cameras);
+        field(m.interrupted);
+    }
 };
 
 // The host's answer to Publish: the numbers of the cameras, in their order. Where `problem` is not

@@ -310,6 +310,8 @@ TEST(Control, EveryMessageRoundTrips) {
     EXPECT_EQ(offer.cameras[0].calibration, numbered(5));
     EXPECT_EQ(round_trip(Unpublish{cameras}).cameras, cameras);
     EXPECT_EQ(round_trip(CamerasRemoved{cameras}).cameras, cameras);
+    EXPECT_FALSE(round_trip(CamerasRemoved{cameras}).interrupted);
+    EXPECT_TRUE(round_trip(CamerasRemoved{cameras, true}).interrupted);
     EXPECT_EQ(round_trip(Published{cameras, {}}).cameras, cameras);
     EXPECT_EQ(round_trip(Published{cameras, as_written("no")}).problem, as_written("no"));
     const CamerasAdded added = round_trip(CamerasAdded{{{CameraId{9},

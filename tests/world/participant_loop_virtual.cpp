@@ -43,6 +43,8 @@ void Participant::start() {
 }
 
 Participant::~Participant() {
+    if (shared_->client)
+        withdraw();
     {
         const std::lock_guard lock(shared_->mutex);
         shared_->stopping = true;

@@ -150,6 +150,31 @@ TEST(WorldRecording, APublisherThatBreaksAndComesBackIsRecordedOn) {
     EXPECT_GT(stage.camera.sent(), before + 190);
     recorder.finish();
     EXPECT_EQ(recorded(recorder).size(), recorder.recorded());
+    EXPECT_FALSE(recorder.is_complete()) << "what the camera would have sent meanwhile";
+}
+
+TEST(WorldRecording, NothingIsMissingOfAPublisherThatLeaves) {
+    Stage stage;
+    stage.begin();
+    SessionRecorder recorder(stage.world, "Recorder");
+    stage.world.advance(10s);
+    stage.carl.leave();
+    stage.world.advance(20s);
+    recorder.finish();
+    EXPECT_GT(recorder.recorded(), 80u);
+    EXPECT_TRUE(recorder.is_complete());
+}
+
+TEST(WorldRecording, APublisherWhoseLinkIsCutAndWhoNeverComesBackIsMissing) {
+    Stage stage;
+    stage.begin();
+    SessionRecorder recorder(stage.world, "Recorder");
+    stage.world.advance(10s);
+    stage.carl.path().cut();
+    stage.world.advance(60s);
+    recorder.finish();
+    EXPECT_GT(recorder.recorded(), 80u);
+    EXPECT_FALSE(recorder.is_complete());
 }
 
 TEST(WorldRecording, NothingIsMissingOfACameraThatHasEnded) {

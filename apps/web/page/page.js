@@ -214,6 +214,8 @@ function run({ client, voice, face, screen, module, flat }) {
     }
     $("show_help").addEventListener("click", help);
     $("leave").addEventListener("click", () => client.leave());
+    // A page that is closed leaves, too: to a recorder its cameras have ended and not broken off.
+    addEventListener("pagehide", () => page.state.phase !== "left" && client.leave());
     canvas.addEventListener("webglcontextlost", () => {
         if (page.state.phase !== "left")
             note_lost_graphics(voice.microphone === "open");
