@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "geometry/screen.h"
-#include "session/face_limits.h"
+#include "session/own_pictures.h"
 #include "testing/temporary_folder.h"
 
 namespace theatron::capture {
@@ -65,7 +65,8 @@ TEST(FitMiddle, AcceptsAnySize) {
 
 TEST(FaceCamera, TheGeneratedOneIsWithinTheHostsLimits) {
     const auto camera = open_camera("face:test");
-    EXPECT_TRUE(session::is_face(camera->info().calibration, camera->info().frames_per_second));
+    EXPECT_TRUE(session::is_within(session::face_limits, camera->info().calibration,
+                                   camera->info().frames_per_second));
     const Capture first = camera->next(1s);
     ASSERT_EQ(first.kind, Capture::Kind::frame);
     EXPECT_EQ(first.frame->depth.size, screen_grid);
@@ -88,7 +89,8 @@ TEST(FaceCamera, AVideoIsMadeSmallAndSlow) {
              << std::string(64 * 36, char(60 + 5 * n)) << std::string(2 * 64 * 36, char(128));
     file.close();
     const auto camera = open_camera("face:" + path.string());
-    EXPECT_TRUE(session::is_face(camera->info().calibration, camera->info().frames_per_second));
+    EXPECT_TRUE(session::is_within(session::face_limits, camera->info().calibration,
+                                   camera->info().frames_per_second));
     std::optional<TimePoint> last;
     for (int n = 0; n < 4; ++n) {
         const Capture capture = camera->next(2s);

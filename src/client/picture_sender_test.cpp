@@ -5,8 +5,7 @@
 
 #include "codec/depth_stream.h"
 #include "geometry/screen.h"
-#include "session/face_limits.h"
-#include "session/screen_limits.h"
+#include "session/own_pictures.h"
 #include "video/color_codec.h"
 
 namespace theatron::client {
@@ -30,7 +29,7 @@ TEST_F(PictureSenderTest, OffersWhatTheHostTakes) {
     EXPECT_FALSE(offer.may_record);
     const auto calibration = decode_calibration(offer.calibration);
     ASSERT_TRUE(calibration);
-    EXPECT_TRUE(session::is_face(*calibration, offer.frames_per_second));
+    EXPECT_TRUE(session::is_within(session::face_limits, *calibration, offer.frames_per_second));
 }
 
 TEST_F(PictureSenderTest, SendsNothingUntilTheHostWantsIt) {
@@ -47,8 +46,8 @@ TEST_F(PictureSenderTest, SendsNothingUntilTheHostWantsIt) {
 
 TEST_F(PictureSenderTest, APictureIsThePlaneOfAScreenAndTheJpeg) {
     events.published({own});
-    events.encode({{depth_stream(own), SettingId{2}, std::string(session::face_depth_codec)},
-                   {color_stream(own), SettingId{3}, std::string(session::face_color_codec)},
+    events.encode({{depth_stream(own), SettingId{2}, std::string(session::face_limits.depth_codec)},
+                   {color_stream(own), SettingId{3}, std::string(session::face_limits.color_codec)},
                    {color_stream(other), SettingId{4}, "jpeg"}});
     const auto sent = messages();
     ASSERT_EQ(sent.size(), 2u);
@@ -88,10 +87,11 @@ TEST_F(PictureSenderTest, AScreenIsOfferedWithinTheHostsLimits) {
     EXPECT_FALSE(offer.may_record);
     const auto calibration = decode_calibration(offer.calibration);
     ASSERT_TRUE(calibration);
-    EXPECT_TRUE(session::is_shown_screen(*calibration, offer.frames_per_second));
+    EXPECT_TRUE(session::is_within(session::screen_limits, *calibration, offer.frames_per_second));
     events.published({own});
-    events.encode({{depth_stream(own), SettingId{2}, std::string(session::screen_depth_codec)},
-                   {color_stream(own), SettingId{3}, std::string(session::screen_color_codec)}});
+    events.encode(
+        {{depth_stream(own), SettingId{2}, std::string(session::screen_limits.depth_codec)},
+         {color_stream(own), SettingId{3}, std::string(session::screen_limits.color_codec)}});
     EXPECT_EQ(messages().size(), 2u);
 }
 

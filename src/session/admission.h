@@ -97,7 +97,7 @@ public:
         std::optional<wire::Join> asked;     // while it waits for admission
         bool asks_to_publish = false;        // as in wire::Join
         std::uint64_t denied = 0;            // messages that its role does not allow
-        std::uint64_t refused_pictures = 0;  // beyond face_limits.h or screen_limits.h
+        std::uint64_t refused_pictures = 0;  // beyond own_pictures.h
         bool records = false;                // as in wire::Join
         bool sends_only = false;             // as wire::Feature::sends_only
         bool refused_for_good = false;       // see wire::is_for_good()

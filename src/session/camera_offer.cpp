@@ -5,8 +5,7 @@
 #include <utility>
 
 #include "session/announced_cameras.h"
-#include "session/face_limits.h"
-#include "session/screen_limits.h"
+#include "session/own_pictures.h"
 
 namespace theatron::session {
 namespace {
@@ -26,44 +25,30 @@ bool has_one(ParticipantId id, const SessionCameras& present, wire::CameraKind k
                        [&](CameraId camera) { return present.find(camera)->offered_as() == kind; });
 }
 
-// As problem_of_offer(), for the faces among them, `new_faces` of them.
-wire::Text problem_of_faces(ParticipantId id, const Admission::Participant& publisher,
-                            const SessionCameras& present, const std::vector<wire::Camera>& cameras,
-                            std::size_t new_faces) {
-    if (!publisher.has(wire::Feature::webcam))
-        return {TextCode::face_forbidden};
+// As problem_of_offer(), for the faces or shown screens among them, which are of this kind.
+wire::Text problem_of_own_pictures(ParticipantId id, const Admission::Participant& publisher,
+                                   const SessionCameras& present,
+                                   const std::vector<wire::Camera>& cameras,
+                                   wire::CameraKind kind) {
+    const std::size_t count = count_of(cameras, kind);
+    if (count == 0)
+        return {};
+    const OwnPictureLimits& limits = *own_picture_limits(kind);
+    if (!publisher.has(limits.feature))
+        return {limits.forbidden};
     for (const wire::Camera& camera : cameras) {
-        if (camera.kind != wire::CameraKind::face)
-            continue;
-        const auto calibration = decode_calibration(camera.calibration);
-        if (!camera.has_color || !calibration || !is_face(*calibration, camera.frames_per_second))
-            return {TextCode::face_beyond_limits,
-                    {std::to_string(max_face_pixels), std::to_string(int(max_face_fps))}};
-    }
-    if (new_faces > 1 || has_one(id, present, wire::CameraKind::face))
-        return {TextCode::one_face};
-    if (present.faces() >= max_faces)
-        return {TextCode::too_many_faces, {std::to_string(max_faces)}};
-    return {};
-}
-
-// The same for the screens among them that a browser shows, `new_screens` of them.
-wire::Text problem_of_screens(ParticipantId id, const Admission::Participant& publisher,
-                              const SessionCameras& present,
-                              const std::vector<wire::Camera>& cameras, std::size_t new_screens) {
-    if (!publisher.has(wire::Feature::shows_screen))
-        return {TextCode::screen_forbidden};
-    for (const wire::Camera& camera : cameras) {
-        if (camera.kind != wire::CameraKind::screen)
+        if (camera.kind != kind)
             continue;
         const auto calibration = decode_calibration(camera.calibration);
         if (!camera.has_color || !calibration ||
-            !is_shown_screen(*calibration, camera.frames_per_second))
-            return {TextCode::screen_beyond_limits,
-                    {std::to_string(max_screen_pixels), std::to_string(int(max_screen_fps))}};
+            !is_within(limits, *calibration, camera.frames_per_second))
+            return {limits.beyond_limits,
+                    {std::to_string(limits.max_pixels), std::to_string(int(limits.max_fps))}};
     }
-    if (new_screens > 1 || has_one(id, present, wire::CameraKind::screen))
-        return {TextCode::one_screen};
+    if (count > 1 || has_one(id, present, kind))
+        return {limits.one_each};
+    if (kind == wire::CameraKind::face && present.faces() >= max_faces)
+        return {TextCode::too_many_faces, {std::to_string(max_faces)}};
     return {};
 }
 
@@ -90,16 +75,13 @@ wire::Text problem_of_offer(ParticipantId id, const Admission::Participant& publ
                             const std::vector<wire::Camera>& cameras) {
     if (cameras.empty())
         return {TextCode::no_camera_offered};
-    const std::size_t new_faces = count_of(cameras, wire::CameraKind::face);
-    const std::size_t new_screens = count_of(cameras, wire::CameraKind::screen);
-    if (new_faces + new_screens < cameras.size() && !publisher.has(wire::Feature::publish))
+    const bool is_own = std::ranges::all_of(cameras, [](const wire::Camera& camera) {
+        return own_picture_limits(camera.kind) != nullptr;
+    });
+    if (!is_own && !publisher.has(wire::Feature::publish))
         return {TextCode::link_without_cameras};
-    if (new_screens > 0)
-        if (wire::Text problem = problem_of_screens(id, publisher, present, cameras, new_screens);
-            !problem.empty())
-            return problem;
-    if (new_faces > 0)
-        if (wire::Text problem = problem_of_faces(id, publisher, present, cameras, new_faces);
+    for (const wire::CameraKind kind : {wire::CameraKind::screen, wire::CameraKind::face})
+        if (wire::Text problem = problem_of_own_pictures(id, publisher, present, cameras, kind);
             !problem.empty())
             return problem;
     if (present.of(id).size() + cameras.size() > max_published)

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "session/face_limits.h"
 #include "session/offering_testing.h"
+#include "session/own_pictures.h"
 
 namespace theatron::session {
 namespace {
@@ -52,8 +52,8 @@ TEST_F(Faces, AreSentAsJpegWhateverTheirReceiversWish) {
     come(bob);
     offer(alice, {face()});
     ASSERT_EQ(settings(alice).size(), 2u);
-    EXPECT_EQ(settings(alice)[0].codec, face_depth_codec);
-    EXPECT_EQ(settings(alice)[1].codec, face_color_codec);
+    EXPECT_EQ(settings(alice)[0].codec, face_limits.depth_codec);
+    EXPECT_EQ(settings(alice)[1].codec, face_limits.color_codec);
     const auto told = to<wire::Settings>(bob);
     ASSERT_EQ(told.size(), 1u);
     EXPECT_TRUE(told[0].note.empty()) << wire::english(told[0].note);

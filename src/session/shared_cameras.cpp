@@ -129,8 +129,7 @@ void SharedCameras::remove(ParticipantId id, const std::vector<CameraId>& camera
         look_back_.forget(camera, {});
     }
     streams_.remove(cameras, why);
-    face_paces_.clear();
-    screen_paces_.clear();
+    paces_.clear();
     set_budgets();
 }
 
@@ -171,8 +170,7 @@ SharedCameras::Received SharedCameras::on_media(ParticipantId id, ByteView messa
     if (!camera || camera->publisher() != id ||
         (!is_depth(header->stream) && !camera->description().has_color))
         return {{}, {TextCode::foreign_picture}};
-    if (camera->has_one_encoding() &&
-        !lets_through(*participant, *camera, *header, message.size(), now))
+    if (!lets_through(*participant, *camera, *header, message.size(), now))
         return {};
     look_back_.keep(*header, message, now);
     std::vector<ParticipantId> receivers = streams_.on_media(*header, message.size(), now);
@@ -184,10 +182,10 @@ SharedCameras::Received SharedCameras::on_media(ParticipantId id, ByteView messa
 // Pictures of settings that are gone are ignored later, as those of all cameras.
 bool SharedCameras::lets_through(Admission::Participant& publisher, const CameraStreams& camera,
                                  const wire::MediaHeader& header, std::size_t size, TimePoint now) {
-    if (!camera.table(is_depth(header.stream)).find(header.setting))
+    const OwnPictureLimits* limits = own_picture_limits(camera.offered_as());
+    if (!limits || !camera.table(is_depth(header.stream)).find(header.setting))
         return true;
-    if (camera.is_face() ? size <= max_face_message && face_paces_[header.setting].take(now)
-                         : screen_paces_[header.setting].take(now, size))
+    if (paces_.try_emplace(header.setting, *limits).first->second.take(now, size))
         return true;
     ++publisher.refused_pictures;
     return false;

@@ -14,11 +14,10 @@
 #include "base/time.h"
 #include "session/admission.h"
 #include "session/direct_paths.h"
-#include "session/face_limits.h"
 #include "session/host_actions.h"
 #include "session/host_room.h"
 #include "session/look_backs.h"
-#include "session/screen_limits.h"
+#include "session/own_pictures.h"
 #include "session/streams.h"
 #include "wire/control.h"
 #include "wire/media_header.h"
@@ -94,8 +93,7 @@ private:
     LookBacks& look_back_;
     DirectPaths& direct_;
     std::vector<Action>& actions_;
-    std::map<SettingId, FacePace> face_paces_;      // of active settings
-    std::map<SettingId, ScreenPace> screen_paces_;  // of active settings
+    std::map<SettingId, OwnPicturePace> paces_;  // of active settings of faces and shown screens
 };
 
 }  // namespace theatron::session

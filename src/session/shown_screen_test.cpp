@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "session/offering_testing.h"
-#include "session/screen_limits.h"
+#include "session/own_pictures.h"
 
 namespace theatron::session {
 namespace {
@@ -58,8 +58,8 @@ TEST_F(ShownScreens, ComeAsJpegWhateverTheirReceiversWish) {
     come(bob);
     offer(alice, {screen()});
     ASSERT_EQ(settings(alice).size(), 2u);
-    EXPECT_EQ(settings(alice)[0].codec, screen_depth_codec);
-    EXPECT_EQ(settings(alice)[1].codec, screen_color_codec);
+    EXPECT_EQ(settings(alice)[0].codec, screen_limits.depth_codec);
+    EXPECT_EQ(settings(alice)[1].codec, screen_limits.color_codec);
     const auto told = to<wire::Settings>(bob);
     ASSERT_EQ(told.size(), 1u);
     EXPECT_TRUE(told[0].note.empty()) << wire::english(told[0].note);

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session/stream_receiver.h"
 
-#include "session/face_limits.h"
-#include "session/screen_limits.h"
+#include "session/own_pictures.h"
 
 namespace theatron::session {
 
@@ -36,10 +35,8 @@ void StreamReceiver::choose(const CodecWish& chosen, const std::vector<CameraId>
 void StreamReceiver::request(CameraStreams& camera, ParticipantId id, bool depth) const {
     camera.receivers.try_emplace(id);
     SettingTable& table = camera.table(depth);
-    if (camera.is_face())
-        table.wish(id, std::string(depth ? face_depth_codec : face_color_codec));
-    else if (camera.is_shown_screen())
-        table.wish(id, std::string(depth ? screen_depth_codec : screen_color_codec));
+    if (const OwnPictureLimits* own = own_picture_limits(camera.offered_as()))
+        table.wish(id, std::string(depth ? own->depth_codec : own->color_codec));
     else
         table.wish(id, wished(camera.description().id, depth));
     if (records)

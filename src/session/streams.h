@@ -78,7 +78,7 @@ public:
     void on_encoding(CameraId camera, SettingId setting, bool keeps_up, double ms_per_picture);
 
     // Receivers. One that records gets everything, and others do not change its encodings. Faces go
-    // to receivers that take them, in codecs of their own (face_limits.h).
+    // to receivers that take them, in codecs of their own (own_pictures.h).
     void join(ParticipantId receiver, const CodecWish& wish, bool records,
               bool takes_faces = false);
     void leave(ParticipantId receiver);

@@ -79,7 +79,7 @@ enum class CameraKind : std::uint8_t {
     // is no frame. For those who have Feature::webcam; others cannot read it.
     face = 2,
     // A screen of the room whose pictures come as JPEG alone, as a browser makes them
-    // (session/screen_limits.h). In offers alone, to a host with Feature::shows_screen; the host
+    // (session/own_pictures.h). In offers alone, to a host with Feature::shows_screen; the host
     // announces it as a screen like any other, of kind `room`.
     screen = 3,
 };

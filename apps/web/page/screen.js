@@ -4,7 +4,7 @@
 import { put_bytes } from "./program.js";
 import { stop_tracks } from "./tracks.js";
 
-// session/screen_limits.h has the host's limits. Below them: a megabyte a picture, and three million bytes a second.
+// session/own_pictures.h has the host's limits. Below them: a megabyte a picture, and three million bytes a second.
 const most_pixels = 1920 * 1200, most_bytes = 1_000_000, bytes_per_ms = 2500;
 const pictures_per_s = 8, best_quality = 0.85, least_quality = 0.4, again_every_ms = 500, refusal_ms = 10_000;
 
