@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -25,11 +26,13 @@
 #include "files/json_text.h"
 #include "host/host.h"
 #include "host/host_identity.h"
+#include "host/kept_certificate.h"
 #include "host/page.h"
 #include "host_config.h"
 #include "host_flags.h"
 #include "host_sessions.h"
 #include "input_lines.h"
+#include "net/http.h"
 #include "people_lines.h"
 #include "playback_lines.h"
 #include "region_text.h"
@@ -223,6 +226,26 @@ std::string service_status(HostSessions& sessions, std::size_t open) {
            std::to_string(sessions.first().port());
 }
 
+// Warnings that a host with these options would give at once, a line each.
+std::string certificate_remarks(const host::HostOptions& options) {
+    std::string name;
+    if (!options.public_name.empty())
+        name = net::parse_public_name(options.public_name, 0).name;
+    std::string remarks;
+    const auto add = [&](const std::filesystem::path& certificate, const std::filesystem::path& key,
+                         const std::string& expected) {
+        if (certificate.empty())
+            return;
+        const host::KeptCertificate kept{net::CertificateFiles(certificate, key)};
+        if (const std::string problem = kept.problem(files::utc_now(), expected); !problem.empty())
+            remarks += problem + "\n";
+    };
+    const bool is_behind_proxy = !options.proxy_certificate.empty();
+    add(options.certificate, options.key, is_behind_proxy ? "" : name);
+    add(options.proxy_certificate, "", name);
+    return remarks;
+}
+
 void run(HostFlags& flags) {
     if (flags.only_checks && flags.config.empty())
         throw Error("--check-config needs --config FILE, which it reads.");
@@ -231,7 +254,8 @@ void run(HostFlags& flags) {
     for (const auto& words : flags.further)
         further.push_back(parse_session(words));
     if (flags.only_checks)
-        return output::print("The configuration '" + flags.config + "' can be used.\n");
+        return output::print("The configuration '" + flags.config + "' can be used.\n" +
+                             certificate_remarks(options));
     if (!flags.summary.empty()) {
         files::require_writable(flags.summary);
         files::require_own_kind(flags.summary, "{", "a summary");
