@@ -13,6 +13,7 @@
 #include "base/camera_names.h"
 #include "base/error.h"
 #include "base/log.h"
+#include "base/log_format.h"
 #include "base/log_scope.h"
 #include "base/output.h"
 #include "base/steady_clock.h"
@@ -260,6 +261,7 @@ void run(HostFlags& flags) {
         files::require_writable(flags.summary);
         files::require_own_kind(flags.summary, "{", "a summary");
     }
+    log::set_json_lines(flags.logs_json);
     cli::ServiceNotice notice = cli::ServiceNotice::of_environment();
     cli::catch_stop_signals();
     // Elsewhere SIGHUP says that the terminal is gone.
@@ -274,6 +276,9 @@ void run(HostFlags& flags) {
     const bool has_page = host::has_page(options.page);
     if (flags.json) {
         output::result(files::json_text(greeting(sessions)) + "\n");
+    } else if (flags.logs_json && !flags.prints_links) {
+        const std::string link = sessions.first().link();
+        log::info("host", "listening", {{"address", link.substr(0, link.find('#'))}});
     } else {
         const bool shows_links = flags.prints_links || isatty(STDOUT_FILENO);
         output::print((shows_links
@@ -291,7 +296,7 @@ void run(HostFlags& flags) {
     std::size_t open = sessions.open().size();
     notice.ready(service_status(sessions, open));
     InputLines input;
-    const bool live_line = !flags.json && isatty(STDOUT_FILENO);
+    const bool live_line = !flags.json && !flags.logs_json && isatty(STDOUT_FILENO);
     const TimePoint begin = steady_now();
     TimePoint next_line = begin;
     while (!cli::stop_requested() &&
