@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Installs the packages of `make package` into a Debian 12 that has nothing else, hosts a session there without any
-# network but loopback, fetches its page, joins, and purges them again. The root is made in FOLDER, in namespaces of its own,
-# and removed afterwards.
+# network but loopback, fetches its page, joins, kills a host that systemd runs, and purges them again. The root is made in
+# FOLDER, in namespaces of its own, and removed afterwards.
 # Usage, as root: packages_root.sh [FOLDER=/var/tmp/theatron_packages]     Exit code 77: no root can be made here
 set -euo pipefail
 
@@ -15,7 +15,7 @@ if [ "${1:-}" != --inside ]; then
     folder=${1:-/var/tmp/theatron_packages}
     [ ! -e "$folder" ] || { echo "packages_root: $folder is there already; remove it" >&2; exit 1; }
     code=0
-    unshare --mount --propagation private --pid --fork --kill-child "$0" --inside "$folder" "$PWD" || code=$?
+    unshare --mount --propagation private --pid --fork --kill-child --mount-proc "$0" --inside "$folder" "$PWD" || code=$?
     rm -rf --one-file-system "$folder"
     exit "$code"
 fi
@@ -54,10 +54,34 @@ inside "apt-get update -q && apt-get install -y -q --no-install-recommends /pack
 inside "id theatron" > /dev/null || fail "the package made no user"
 [ "$(inside 'stat -c %a:%U:%G /etc/theatron')" = 750:root:theatron ] || fail "/etc/theatron has other rights"
 
+health() { [ "$("$@" curl -sk -o /dev/null -w '%{http_code}' https://127.0.0.1:4400/health)" = 200 ]; }
+
+# start_host STATE: in the background, as the host's user; `pid` is the process itself, which a signal reaches.
+start_host() {
+    rm -f "$folder/greeting"
+    chroot "$folder" /usr/bin/env -i "${environment[@]}" HOME=/var/lib/theatron/or \
+        setpriv --reuid theatron --regid theatron --init-groups \
+        theatron host --state "$1" --config /etc/theatron/or.conf > "$folder/greeting" &
+    pid=$!
+    while [ ! -s "$folder/greeting" ] && kill -0 "$pid" 2> /dev/null; do
+        sleep 0.1
+    done
+    grep -q '"link"' "$folder/greeting" || fail "the host did not start with $1"
+    health || fail "/health is not 200 with $1"
+}
+
+end_host() {
+    local code=0
+    kill "$pid"
+    wait "$pid" || code=$?
+    [ "$code" -eq 0 ] || fail "the host did not end well ($code)"
+}
+
 # In the order of docs/service.md: the example is checked as the host's user and with a mistake, a host runs with it as
-# that user, the page comes, somebody joins without FFmpeg, and another user is kept out.
+# that user, the page comes, somebody joins without FFmpeg, another user is kept out, and a full /var keeps no host from
+# starting again.
 host() {
-    local pid page code=0
+    local pid page
     ip link set lo up
     inside "set -e
         install -m 0640 -g theatron /usr/share/doc/theatron-server/examples/operating-room.conf /etc/theatron/or.conf
@@ -68,16 +92,7 @@ host() {
     inside "sed 's/^session = .*/sesion = OR 3/' /etc/theatron/or.conf > /tmp/wrong.conf
         theatron host --config /tmp/wrong.conf --check-config 2> /tmp/mistakes" && fail "a mistake is not told"
     grep -q ': sesion: there is no such option' "$folder/tmp/mistakes" || fail "a mistake is told otherwise"
-    # The process itself, which a signal reaches.
-    chroot "$folder" /usr/bin/env -i "${environment[@]}" HOME=/var/lib/theatron/or \
-        setpriv --reuid theatron --regid theatron --init-groups \
-        theatron host --state /var/lib/theatron/or --config /etc/theatron/or.conf > "$folder/greeting" &
-    pid=$!
-    while [ ! -s "$folder/greeting" ] && kill -0 "$pid" 2> /dev/null; do
-        sleep 0.1
-    done
-    grep -q '"link"' "$folder/greeting" || fail "the host did not start"
-    [ "$(curl -sk -o /dev/null -w '%{http_code}' https://127.0.0.1:4400/health)" = 200 ] || fail "/health is not 200"
+    start_host /var/lib/theatron/or
     page=$folder/tmp/page.html
     curl -sk -o "$page" https://127.0.0.1:4400/ || fail "the page is not served"
     grep -qi '<!doctype html' "$page" || fail "the page is no page"
@@ -88,17 +103,79 @@ host() {
     grep -qE '"frames": ?[1-9]' "$folder/joined" || fail "a participant got no picture"
     inside "setpriv --reuid nobody --regid nogroup --clear-groups ls /var/lib/theatron" > /dev/null 2>&1 &&
         fail "another user can read the state"
-    kill "$pid"
-    wait "$pid" || code=$?
-    [ "$code" -eq 0 ] || fail "the host did not end well ($code)"
+    end_host
+
+    mount -t tmpfs -o size=4m tmpfs "$folder/mnt"
+    inside "install -d -o theatron -g theatron -m 0700 /mnt/or"
+    cp -a "$folder"/var/lib/theatron/or/* "$folder/mnt/or"
+    dd if=/dev/zero of="$folder/mnt/full" 2> /dev/null && fail "the disk is not full"
+    start_host /mnt/or
+    end_host
+    umount "$folder/mnt"
 }
 say "a host with its page, with loopback only"
-unshare --net bash -c "set -euo pipefail; $(declare -f inside host fail); $(declare -p environment folder); host"
+unshare --net bash -c "set -euo pipefail; $(declare -f inside host start_host end_host health fail); $(declare -p environment folder); host"
 
 say "debian/tests/session, with loopback only: a session, its recording, Python"
 cp "$source/debian/tests/session" "$folder/tmp/session"
 unshare --net bash -c "set -euo pipefail; $(declare -f inside); $(declare -p environment folder); ip link set lo up; inside /tmp/session" ||
     fail "debian/tests/session fails"
+
+# boot ROOT: systemd as the first process of namespaces of its own, with ROOT as its root, since no process below a chroot
+# may make the user namespace that the unit asks for.
+boot() {
+    mount --bind "$1" "$1"
+    mount -t proc proc "$1/proc"
+    mount -t sysfs sysfs "$1/sys"
+    mount -t cgroup2 cgroup2 "$1/sys/fs/cgroup"
+    mount -t tmpfs tmpfs "$1/run"
+    ip link set lo up
+    mkdir "$1/old"
+    cd "$1"
+    pivot_root . old
+    exec env -i container=theatron PATH=/usr/sbin:/usr/bin:/sbin:/bin \
+        sh -c 'umount -l /old && rmdir /old && exec /lib/systemd/systemd --unit=basic.target --log-target=journal'
+}
+
+# The unit as systemd runs it: killed, the host is back with its session in 3 s.
+unit() {
+    local outer init='' before killed ms
+    unshare --mount --pid --fork --kill-child --net --uts --ipc --cgroup \
+        bash -c "set -e; $(declare -f boot); boot '$folder'" > "$source/build/packages_unit.log" 2>&1 &
+    outer=$!
+    until init=$(pgrep -P "$outer" -x systemd); do
+        kill -0 "$outer" 2> /dev/null || fail "systemd did not start: $(cat "$source/build/packages_unit.log")"
+        sleep 0.1
+    done
+    there() { nsenter --target "$init" --all --root --wd /usr/bin/env -i "${environment[@]}" bash -c "$1"; }
+    main_pid() { there 'systemctl show --property MainPID --value theatron-host@or'; }
+    until there '[ -S /run/systemd/private ]' 2> /dev/null; do
+        sleep 0.1
+    done
+    there 'systemctl is-system-running --wait' > /dev/null || true
+    there 'systemctl start theatron-host@or' || fail "the unit does not start: $(there 'journalctl -u theatron-host@or')"
+    before=$(main_pid)
+    killed=$(date +%s%N)
+    there 'systemctl kill --signal=KILL theatron-host@or'
+    until [ "$(main_pid)" != "$before" ] && health nsenter --target "$init" --net; do
+        [ $(($(date +%s%N) - killed)) -lt 60000000000 ] || fail "a killed host does not come back"
+        sleep 0.02
+    done
+    ms=$((($(date +%s%N) - killed) / 1000000))
+    echo "packages_root: a killed host is back after $ms ms"
+    [ "$ms" -le 3000 ] || fail "a killed host is back after $ms ms, which is more than 3 s"
+    there 'runuser -u theatron -- theatron session list --state /var/lib/theatron/or' | grep -q ': open' ||
+        fail "the session is not open again"
+    there 'systemctl stop theatron-host@or' || fail "the unit does not stop"
+    kill -KILL "$outer"
+    wait "$outer" 2> /dev/null || true
+}
+say "the unit under systemd"
+if unshare --mount --pid --fork --kill-child --net --uts --ipc --cgroup sh -c 'mount -t cgroup2 cgroup2 /sys/fs/cgroup' 2> /dev/null; then
+    unit
+else
+    echo "packages_root: left out, no cgroups can be mounted here"
+fi
 
 # The same program under another number. Neither another version nor removal changes what hosts and the administrator wrote.
 say "an older version, this one again, remove"

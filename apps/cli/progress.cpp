@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/log.h"
 #include "base/output.h"
 #include "base/steady_clock.h"
 #include "cli/stop_signal.h"
@@ -35,7 +36,7 @@ capture::Progress show_progress() {
         state->shown = percent;
         const std::string line = state->what + " " + std::to_string(percent) + " %";
         if (!terminal)
-            return output::print(line + "\n", output::Stream::error);
+            return log::say(line);
         output::status_line(line, output::Stream::error);
         if (percent >= 100)
             output::end_status_line();

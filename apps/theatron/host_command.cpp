@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -12,6 +13,7 @@
 #include "base/camera_names.h"
 #include "base/error.h"
 #include "base/log.h"
+#include "base/log_format.h"
 #include "base/log_scope.h"
 #include "base/output.h"
 #include "base/steady_clock.h"
@@ -25,11 +27,13 @@
 #include "files/json_text.h"
 #include "host/host.h"
 #include "host/host_identity.h"
+#include "host/kept_certificate.h"
 #include "host/page.h"
 #include "host_config.h"
 #include "host_flags.h"
 #include "host_sessions.h"
 #include "input_lines.h"
+#include "net/http.h"
 #include "people_lines.h"
 #include "playback_lines.h"
 #include "region_text.h"
@@ -223,6 +227,26 @@ std::string service_status(HostSessions& sessions, std::size_t open) {
            std::to_string(sessions.first().port());
 }
 
+// Warnings that a host with these options would give at once, a line each.
+std::string certificate_remarks(const host::HostOptions& options) {
+    std::string name;
+    if (!options.public_name.empty())
+        name = net::parse_public_name(options.public_name, 0).name;
+    std::string remarks;
+    const auto add = [&](const std::filesystem::path& certificate, const std::filesystem::path& key,
+                         const std::string& expected) {
+        if (certificate.empty())
+            return;
+        const host::KeptCertificate kept{net::CertificateFiles(certificate, key)};
+        if (const std::string problem = kept.problem(files::utc_now(), expected); !problem.empty())
+            remarks += problem + "\n";
+    };
+    const bool is_behind_proxy = !options.proxy_certificate.empty();
+    add(options.certificate, options.key, is_behind_proxy ? "" : name);
+    add(options.proxy_certificate, "", name);
+    return remarks;
+}
+
 void run(HostFlags& flags) {
     if (flags.only_checks && flags.config.empty())
         throw Error("--check-config needs --config FILE, which it reads.");
@@ -231,11 +255,13 @@ void run(HostFlags& flags) {
     for (const auto& words : flags.further)
         further.push_back(parse_session(words));
     if (flags.only_checks)
-        return output::print("The configuration '" + flags.config + "' can be used.\n");
+        return output::print("The configuration '" + flags.config + "' can be used.\n" +
+                             certificate_remarks(options));
     if (!flags.summary.empty()) {
         files::require_writable(flags.summary);
         files::require_own_kind(flags.summary, "{", "a summary");
     }
+    log::set_json_lines(flags.logs_json);
     cli::ServiceNotice notice = cli::ServiceNotice::of_environment();
     cli::catch_stop_signals();
     // Elsewhere SIGHUP says that the terminal is gone.
@@ -250,6 +276,9 @@ void run(HostFlags& flags) {
     const bool has_page = host::has_page(options.page);
     if (flags.json) {
         output::result(files::json_text(greeting(sessions)) + "\n");
+    } else if (flags.logs_json && !flags.prints_links) {
+        const std::string link = sessions.first().link();
+        log::info("host", "listening", {{"address", link.substr(0, link.find('#'))}});
     } else {
         const bool shows_links = flags.prints_links || isatty(STDOUT_FILENO);
         output::print((shows_links
@@ -267,7 +296,7 @@ void run(HostFlags& flags) {
     std::size_t open = sessions.open().size();
     notice.ready(service_status(sessions, open));
     InputLines input;
-    const bool live_line = !flags.json && isatty(STDOUT_FILENO);
+    const bool live_line = !flags.json && !flags.logs_json && isatty(STDOUT_FILENO);
     const TimePoint begin = steady_now();
     TimePoint next_line = begin;
     while (!cli::stop_requested() &&

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -15,6 +16,7 @@
 #include "base/outside_text.h"
 #include "capture/camera_kind.h"
 #include "capture/camera_places.h"
+#include "files/private_file.h"
 #include "host/filter_choice.h"
 #include "host/host_identity.h"
 #include "host/session_folder.h"
@@ -91,8 +93,11 @@ void check_values(const ConfigLine& line, const HostFlags& flags) {
         host::check_token(flags.first.options.token);
     // A pipe can be read only once.
     std::error_code error;
-    if (line.key == "token-file" && std::filesystem::is_regular_file(line.value, error))
+    const bool is_file = std::filesystem::is_regular_file(line.value, error);
+    if (line.key == "token-file" && is_file)
         (void)host::read_token(flags.token_file);
+    if (line.key == "key" && is_file)
+        (void)files::read_named_file(line.value, files::Privacy::secret);
     if (line.key == "camera")
         capture::check_camera_kind(line.value);
     if (line.key == "places")
@@ -301,8 +306,10 @@ struct ConfigFile {
 ConfigFile read_config(const std::string& file, const std::string& shown) {
     // A pipe is not waited for.
     const int in = open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+    if (in < 0)
+        throw Error("Cannot open the configuration '" + shown + "': " + std::strerror(errno) + ".");
     struct stat facts {};
-    const bool is_file = in >= 0 && fstat(in, &facts) == 0 && S_ISREG(facts.st_mode);
+    const bool is_file = fstat(in, &facts) == 0 && S_ISREG(facts.st_mode);
     ConfigFile config{std::string(max_config_bytes + 1, '\0'), (facts.st_mode & S_IROTH) != 0};
     std::size_t size = 0;
     bool is_read = is_file;
@@ -315,8 +322,7 @@ ConfigFile read_config(const std::string& file, const std::string& shown) {
         else if (errno != EINTR)
             is_read = false;
     }
-    if (in >= 0)
-        close(in);
+    close(in);
     if (!is_read)
         throw Error("The configuration '" + shown + "' is no file that can be read.");
     if (facts.st_uid != geteuid() && facts.st_uid != 0)

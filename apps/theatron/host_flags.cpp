@@ -68,6 +68,9 @@ void add_host_options(CLI::App& command, HostFlags& flags) {
                      "Print the links also where the output is no terminal, but a file or the "
                      "journal of a service, where others may read them");
     command.add_flag("--json", flags.json, "Print one JSON line with the link instead of text");
+    command.add_flag("--json-log", flags.logs_json,
+                     "Write the log as JSON, an object each line, and nothing else unless --json "
+                     "or --print-links asks for it");
     command
         .add_option("--config", flags.config,
                     "A file with these options, a line each: KEY = VALUE (docs/service.md). "

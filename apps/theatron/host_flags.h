@@ -24,6 +24,7 @@ struct HostFlags {
     std::vector<std::string> given;  // the command line, without the words of that file
     double seconds = 0;
     bool json = false;
+    bool logs_json = false;
     bool prints_links = false;
     bool only_checks = false;  // the configuration
     // The words of each further session.

@@ -5,6 +5,7 @@
 
 #include "base/outside_text.h"
 #include "base/trimmed.h"
+#include "base/utf8.h"
 
 namespace theatron {
 namespace {
@@ -24,6 +25,34 @@ bool has_control_characters(std::string_view text) {
     return false;
 }
 
+bool is_utf8(std::string_view text) {
+    while (!text.empty()) {
+        const Utf8Character next = first_character(text);
+        if (!next.valid)
+            return false;
+        text.remove_prefix(next.bytes);
+    }
+    return true;
+}
+
+// The mistake in a word that stands where a key should. `follows`: the text behind the word.
+std::string mistake_of_word(std::string_view word, std::string_view follows) {
+    const std::string shown = clean_text(word, shown_characters);
+    if (shown.starts_with("--") && is_key(shown.substr(2)))
+        return "write '" + shown.substr(2) + "' without the hyphens before it";
+    if (shown.starts_with("["))
+        return "there are no sections in brackets; lines are KEY = VALUE";
+    if (is_key(shown) && follows.starts_with(':'))
+        return "'" + shown + "' is followed by ':'; lines are KEY = VALUE";
+    std::string small = shown;
+    for (char& c : small)
+        if (c >= 'A' && c <= 'Z')
+            c = char(c - 'A' + 'a');
+    if (small != shown && is_key(small) && trimmed(follows).empty())
+        return "'" + shown + "' is no key; keys have small letters alone";
+    return "'" + shown + "' is no key; lines are KEY = VALUE";
+}
+
 void parse_line(std::string_view text, int number, ConfigText& config) {
     const auto refuse = [&](std::string_view key, const std::string& why) {
         config.mistakes.push_back({number, std::string(key), why});
@@ -32,13 +61,8 @@ void parse_line(std::string_view text, int number, ConfigText& config) {
     const std::string_view key = trimmed(text.substr(0, equals));
     if (!is_key(key)) {
         // Behind the first word may stand a token.
-        const std::string shown =
-            clean_text(key.substr(0, key.find_first_of(" \t:")), shown_characters);
-        if (shown.starts_with("--") && is_key(shown.substr(2)))
-            return refuse("", "write '" + shown.substr(2) + "' without the hyphens before it");
-        if (key.starts_with("["))
-            return refuse("", "there are no sections in brackets; lines are KEY = VALUE");
-        return refuse("", "'" + shown + "' is no key; lines are KEY = VALUE");
+        const std::size_t end = std::min(key.find_first_of(" \t:"), key.size());
+        return refuse("", mistake_of_word(key.substr(0, end), key.substr(end)));
     }
     if (equals == text.npos)
         return refuse(key, "there is no '='; lines are KEY = VALUE");
@@ -53,6 +77,8 @@ void parse_line(std::string_view text, int number, ConfigText& config) {
         return refuse(key, "there is no value; leave the line out for the usual one");
     if (has_control_characters(value))
         return refuse(key, "the value has control characters");
+    if (!is_utf8(value))
+        return refuse(key, "the value is not UTF-8; save the file in that encoding");
     config.lines.push_back({number, std::string(key), std::string(value)});
 }
 

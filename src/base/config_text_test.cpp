@@ -40,8 +40,13 @@ TEST(ConfigText, EachMistakeIsToldWithLineAndKey) {
         "session = OR 3\"\n"
         "listen = 0.0.0.0:\x01"
         "1\n"
-        "admit = ask\n");
-    EXPECT_THAT(config.lines, ElementsAre(ConfigLine{9, "admit", "ask"}));
+        "admit = ask\n"
+        "listen: 4400\n"
+        "Session = OR 3\n"
+        "session = Universit\xe4t\n"
+        "session = Universit\xc3\xa4t\n");
+    EXPECT_THAT(config.lines, ElementsAre(ConfigLine{9, "admit", "ask"},
+                                          ConfigLine{13, "session", "Universit\xc3\xa4t"}));
     EXPECT_EQ(mistakes_text("or.conf", config.mistakes),
               "or.conf:1: session: there is no '='; lines are KEY = VALUE.\n"
               "or.conf:2: camera: there is no value; leave the line out for the usual one.\n"
@@ -50,7 +55,10 @@ TEST(ConfigText, EachMistakeIsToldWithLineAndKey) {
               "or.conf:5: 'What' is no key; lines are KEY = VALUE.\n"
               "or.conf:6: session: the value begins with \" and does not end with it.\n"
               "or.conf:7: session: the value ends with \" and does not begin with it.\n"
-              "or.conf:8: listen: the value has control characters.");
+              "or.conf:8: listen: the value has control characters.\n"
+              "or.conf:10: 'listen' is followed by ':'; lines are KEY = VALUE.\n"
+              "or.conf:11: 'Session' is no key; keys have small letters alone.\n"
+              "or.conf:12: session: the value is not UTF-8; save the file in that encoding.");
 }
 
 // A host's log is read by others.

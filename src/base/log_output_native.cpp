@@ -12,6 +12,7 @@
 
 #include "base/line_writer.h"
 #include "base/log.h"
+#include "base/log_format.h"
 #include "base/log_output.h"
 #include "base/output.h"
 
@@ -51,8 +52,13 @@ bool is_same_file(int a, int b) {
 // blocked by a pipe without a reader.
 LineWriter& error_writer() {
     static LineWriter* const only = [] {
-        auto* made =
-            new LineWriter([](std::string_view line) { return write_all(STDERR_FILENO, line); });
+        auto* made = new LineWriter(
+            [](std::string_view line) { return write_all(STDERR_FILENO, line); },
+            [](std::uint64_t left_out) {
+                return write_all(STDERR_FILENO,
+                                 log::sentence_line("... " + std::to_string(left_out) +
+                                                    " lines were left out."));
+            });
         std::atexit([] { log::flush(exit_patience); });
         return made;
     }();
@@ -64,12 +70,13 @@ LineWriter& writer_of_output() {
     static LineWriter* const only = [] {
         if (is_same_file(STDOUT_FILENO, STDERR_FILENO))
             return &error_writer();
-        return new LineWriter([](std::string_view line) { return write_all(STDOUT_FILENO, line); },
-                              [](std::uint64_t left_out) {
-                                  error_writer().put("... " + std::to_string(left_out) +
-                                                     " lines of standard output were left out.\n");
-                                  return true;
-                              });
+        return new LineWriter(
+            [](std::string_view line) { return write_all(STDOUT_FILENO, line); },
+            [](std::uint64_t left_out) {
+                error_writer().put(log::sentence_line("... " + std::to_string(left_out) +
+                                                      " lines of standard output were left out."));
+                return true;
+            });
     }();
     return *only;
 }

@@ -5,11 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <future>
+#include <regex>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "base/line_limit.h"
 #include "base/line_writer.h"
+#include "base/log_format.h"
 #include "base/log_scope.h"
 
 namespace theatron {
@@ -117,6 +120,34 @@ TEST(SessionScope, LinesAndSentencesNameTheirSession) {
     for (const std::string expected : {"info host: one id=7 session=\"OR 4\"\n", "info host: two\n",
                                        "OR 4: Three.\n", "info host: four\n"})
         EXPECT_NE(lines.find(expected), std::string::npos) << expected << lines;
+}
+
+TEST(LogFormat, JsonHasQuotesAndTheSession) {
+    testing::internal::CaptureStderr();
+    log::set_json_lines(true);
+    {
+        const log::SessionScope scope("OR \"4\"");
+        log::warning("host", "one", {{"id", 7}, {"path", "a\\b\n\xff"}});
+    }
+    log::say("Two.");
+    log::flush(std::chrono::minutes(1));
+    log::set_json_lines(false);
+    log::say("Three.");
+    log::flush(std::chrono::minutes(1));
+    std::istringstream written(testing::internal::GetCapturedStderr());
+    std::string first, second, third;
+    std::getline(written, first);
+    std::getline(written, second);
+    std::getline(written, third);
+    const std::string time = R"(^\{"time":"[-0-9T:.]{23}Z",)";
+    EXPECT_TRUE(std::regex_match(
+        first, std::regex(time + R"("level":"warning","area":"host","event":"one",)"
+                                 R"("fields":\{"id":"7","path":"a\\\\b [^"]+"\},)"
+                                 R"("session":"OR \\"4\\""\}$)")))
+        << first;
+    EXPECT_TRUE(std::regex_match(second, std::regex(time + R"("level":"info","event":"Two\."\}$)")))
+        << second;
+    EXPECT_EQ(third, "Three.");
 }
 
 TEST(LineLimit, WritesOneLinePerSourceAndInterval) {

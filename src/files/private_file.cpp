@@ -2,6 +2,7 @@
 #include "files/private_file.h"
 
 #include <fcntl.h>
+#include <pwd.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -39,20 +40,39 @@ std::string quoted(const fs::path& path) {
 }
 
 [[noreturn]] void refuse(const char* what, const fs::path& path) {
-    const char* const advice = errno == ENOSPC || errno == EDQUOT
+    const int reason = errno;
+    const char* const advice = reason == ENOSPC || reason == EDQUOT
                                    ? "; delete files there or name another folder with --state."
                                    : "; make its folder writable or name another with --state.";
-    throw Error(std::string("Cannot ") + what + " " + quoted(path) + ": " + std::strerror(errno) +
+    throw Error(std::string("Cannot ") + what + " " + quoted(path) + ": " + std::strerror(reason) +
                 advice);
+}
+
+// "theatron (number 997)", or the number alone where the user has no name.
+std::string user_text(uid_t user) {
+    const std::string number = "number " + std::to_string(user);
+    passwd entry{};
+    passwd* known = nullptr;
+    char texts[4096];
+    (void)getpwuid_r(user, &entry, texts, sizeof(texts), &known);
+    return known ? std::string(known->pw_name) + " (" + number + ")" : number;
+}
+
+[[noreturn]] void refuse_reading(const fs::path& path) {
+    const int reason = errno;
+    throw Error("Cannot read " + quoted(path) + ": " + std::strerror(reason) +
+                (reason == EACCES
+                     ? "; this program runs as the user " + user_text(geteuid()) +
+                           ": run it as the file's owner, or give that user the file with chown."
+                     : std::string(".")));
 }
 
 void require_own(const struct stat& info, const fs::path& path,
                  std::optional<Owner> owner = std::nullopt) {
     if (info.st_uid != geteuid() && info.st_uid != 0 && !(owner && info.st_uid == owner->user))
-        throw Error(quoted(path) + " belongs to another user (number " +
-                    std::to_string(info.st_uid) +
-                    "), who could change it; name another folder with --state, or make this one "
-                    "your own with chown.");
+        throw Error(quoted(path) + " belongs to another user, " + user_text(info.st_uid) +
+                    ", who could change it; run this as that user (root does so with runuser -u "
+                    "USER -- COMMAND), or name another folder with --state.");
 }
 
 bool write_all(int file, std::string_view text) {
@@ -108,7 +128,7 @@ std::optional<std::string> read_text(const fs::path& path, bool is_named, Privac
         return std::nullopt;
     struct stat info {};
     if (!file.is_open() || fstat(file.get(), &info) != 0)
-        refuse("read", path);
+        refuse_reading(path);
     if (!is_named && !S_ISREG(info.st_mode))
         throw Error(quoted(path) + " is no file; remove it, or put a file in its place.");
     if (S_ISREG(info.st_mode)) {
@@ -128,7 +148,7 @@ std::optional<std::string> read_text(const fs::path& path, bool is_named, Privac
         if (count < 0 && errno == EINTR)
             continue;
         if (count < 0)
-            refuse("read", path);
+            refuse_reading(path);
         if (count == 0)
             break;
         size += std::size_t(count);

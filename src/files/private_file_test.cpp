@@ -107,10 +107,9 @@ TEST(PrivateFile, WhatBelongsToAnotherUserIsRefused) {
     const fs::path key = folder.path() / "key";
     write_private_file(key, "secret");
     ASSERT_EQ(chown(key.c_str(), 4242, 4242), 0);
-    EXPECT_THAT(problem_with_reading(key, Privacy::secret),
-                HasSubstr("another user (number 4242)"));
+    EXPECT_THAT(problem_with_reading(key, Privacy::secret), HasSubstr("another user, number 4242"));
     ASSERT_EQ(chown(folder.path().c_str(), 4242, 4242), 0);
-    EXPECT_THAT(problem_with_folder(folder.path()), HasSubstr("another user (number 4242)"));
+    EXPECT_THAT(problem_with_folder(folder.path()), HasSubstr("another user, number 4242"));
 }
 
 TEST(PrivateFile, SaysWhatIsInTheWay) {

@@ -107,10 +107,11 @@ void HostPort::note_certificates() {
 }
 
 void HostPort::follow_certificates() {
+    const files::UtcSeconds now = files::utc_now();
     const bool is_other = certificate_->follow(
-        [&](const net::Certificate& fresh) { server_->set_certificate(fresh); });
+        [&](const net::Certificate& fresh) { server_->set_certificate(fresh); }, now);
     const bool is_proxys_other =
-        proxy_certificate_ && proxy_certificate_->follow([](const net::Certificate&) {});
+        proxy_certificate_ && proxy_certificate_->follow([](const net::Certificate&) {}, now);
     if (is_other)
         log::info("host", "certificate replaced",
                   {{"expires", files::utc_text(certificate_->validity().ends)}});

@@ -2,6 +2,7 @@
 #include "host/kept_certificate.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/error.h"
 
@@ -26,32 +27,53 @@ KeptCertificate::KeptCertificate(net::CertificateFiles files)
       what_("The certificate '" + files_->certificate().string() + "'"),
       advice_("put a new one into its place.") {}
 
-bool KeptCertificate::follow(const std::function<void(const net::Certificate&)>& use) {
+bool KeptCertificate::follow(const std::function<void(const net::Certificate&)>& use,
+                             files::UtcSeconds now) {
     if (!files_)
         return false;
     try {
-        auto fresh = files_->changed();
-        if (!fresh)
+        if (auto fresh = files_->changed())
+            waiting_ = std::move(fresh);
+        if (!waiting_)
             return false;
-        const net::Validity validity = net::validity_of(*fresh);
-        use(*fresh);
+        const net::Validity validity = net::validity_of(*waiting_);
+        if (now < validity.begins) {
+            refuse(not_yet_text(validity));
+            return false;
+        }
+        // A certificate that cannot be used is tried once.
+        net::Certificate fresh = *std::exchange(waiting_, std::nullopt);
+        if (now > validity.ends)
+            throw Error(what_ + " has expired; renew it.");
+        use(fresh);
         unused_.clear();
-        const bool is_other = fresh->fingerprint != current_.fingerprint;
-        current_ = *std::move(fresh);
+        const bool is_other = fresh.fingerprint != current_.fingerprint;
+        current_ = std::move(fresh);
         validity_ = validity;
         return is_other;
     } catch (const Error& error) {
-        unused_ = std::string(error.what()) + " Until then the certificate that expires at " +
-                  files::utc_text(validity_.ends) + " stays in use.";
+        waiting_.reset();
+        refuse(error.what());
         return false;
     }
+}
+
+void KeptCertificate::refuse(const std::string& why) {
+    unused_ = why + " Until then the certificate that expires at " +
+              files::utc_text(validity_.ends) + " stays in use.";
+}
+
+// Without the time, so that it is told once.
+std::string KeptCertificate::not_yet_text(const net::Validity& validity) const {
+    return what_ + " is valid only from " + files::utc_text(validity.begins) +
+           " on; set this machine's clock if it is wrong, else wait.";
 }
 
 std::string KeptCertificate::end_text(files::UtcSeconds now) const {
     const std::string end = files::utc_text(validity_.ends);
     const files::UtcSeconds days = (validity_.ends - now) / day;
     if (now > validity_.ends)
-        return what_ + " expired at " + end + "; " + advice_;
+        return what_ + " expired at " + end + ", so browsers warn; " + advice_;
     return what_ + " expires at " + end + ", in " +
            (days == 0   ? "less than a day; "
             : days == 1 ? "1 day; "
@@ -62,6 +84,8 @@ std::string KeptCertificate::end_text(files::UtcSeconds now) const {
 std::string KeptCertificate::problem(files::UtcSeconds now, const std::string& name) const {
     if (!unused_.empty())
         return unused_;
+    if (now < validity_.begins)
+        return not_yet_text(validity_) + " Until then browsers warn.";
     const files::UtcSeconds notice =
         std::min(longest_notice, (validity_.ends - validity_.begins) / 3);
     if (now > validity_.ends - notice)

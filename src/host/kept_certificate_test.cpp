@@ -11,6 +11,7 @@
 namespace theatron::host {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 constexpr files::UtcSeconds day = 24 * 3600;
@@ -24,12 +25,13 @@ protected:
     }
     net::CertificateFiles files() const { return {folder.path() / "crt", folder.path() / "key"}; }
     // The files stay as they are for one look.
-    static bool settle(KeptCertificate& kept) {
-        const auto use = [](const net::Certificate&) {};
-        const bool at_once = kept.follow(use);
+    bool settle(KeptCertificate& kept) const {
+        const bool at_once = kept.follow(any, now);
         EXPECT_FALSE(at_once) << "a file was just changed, the other one may follow";
-        return kept.follow(use);
+        return kept.follow(any, now);
     }
+
+    static void any(const net::Certificate&) {}
 
     const net::Certificate first = net::make_certificate(), second = net::make_certificate();
     const testing::TemporaryFolder folder;
@@ -76,8 +78,8 @@ TEST_F(KeptCertificateTest, OneThatCannotBeUsedStaysOut) {
     KeptCertificate kept(files());
     write(second, second);
     const auto refuse = [](const net::Certificate&) { throw Error("Too short a key."); };
-    (void)kept.follow(refuse);
-    EXPECT_FALSE(kept.follow(refuse));
+    (void)kept.follow(refuse, now);
+    EXPECT_FALSE(kept.follow(refuse, now));
     EXPECT_EQ(kept.current().fingerprint, first.fingerprint);
     EXPECT_THAT(kept.problem(now, "theatron"), HasSubstr("Too short a key."));
 }
@@ -91,9 +93,43 @@ TEST_F(KeptCertificateTest, WarnsThreeWeeksBeforeItsEnd) {
     EXPECT_THAT(kept.problem(end + 1, "theatron"), HasSubstr("expired at"));
 }
 
+TEST_F(KeptCertificateTest, OneThatIsNotValidYetIsShownIfThereIsNoOther) {
+    const KeptCertificate kept(files());
+    const files::UtcSeconds begin = kept.validity().begins;
+    EXPECT_THAT(
+        kept.problem(begin - 3600, "theatron"),
+        AllOf(HasSubstr("valid only from " + files::utc_text(begin)), HasSubstr("browsers warn")));
+    EXPECT_EQ(kept.problem(begin, "theatron"), "");
+}
+
+TEST_F(KeptCertificateTest, OneThatIsNotValidYetWaitsForItsTime) {
+    KeptCertificate kept(files());
+    write(second, second);
+    const files::UtcSeconds begin = net::validity_of(second).begins;
+    (void)kept.follow(any, begin - 1);
+    for (int i = 0; i < 3; ++i)
+        EXPECT_FALSE(kept.follow(any, begin - 1));
+    EXPECT_EQ(kept.current().fingerprint, first.fingerprint);
+    EXPECT_THAT(kept.problem(now, "theatron"), HasSubstr("stays in use"));
+    EXPECT_TRUE(kept.follow(any, begin));
+    EXPECT_EQ(kept.current().fingerprint, second.fingerprint);
+    EXPECT_EQ(kept.problem(now, "theatron"), "");
+    EXPECT_FALSE(kept.follow(any, begin));
+}
+
+TEST_F(KeptCertificateTest, OneThatHasExpiredStaysOut) {
+    KeptCertificate kept(files());
+    write(second, second);
+    const files::UtcSeconds end = net::validity_of(second).ends;
+    (void)kept.follow(any, end + 1);
+    EXPECT_FALSE(kept.follow(any, end + 1));
+    EXPECT_THAT(kept.problem(now, "theatron"), HasSubstr("has expired"));
+    EXPECT_FALSE(kept.follow(any, now)) << "it is looked at once";
+}
+
 TEST_F(KeptCertificateTest, TheHostsOwnOneIsNotForANameButHasAnEnd) {
     KeptCertificate kept(first, "/state");
-    EXPECT_FALSE(kept.follow([](const net::Certificate&) { FAIL(); }));
+    EXPECT_FALSE(kept.follow([](const net::Certificate&) { FAIL(); }, now));
     EXPECT_EQ(kept.problem(now, "or-3"), "");
     EXPECT_THAT(kept.problem(kept.validity().ends, "or-3"), HasSubstr("'/state'"));
 }

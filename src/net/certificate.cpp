@@ -166,13 +166,6 @@ Certificate read_certificate(const std::filesystem::path& certificate,
                         "' are no certificate with its key, both in PEM; the key must have no "
                         "passphrase.");
     }
-    const Validity validity = validity_of(c);
-    const files::UtcSeconds now = files::utc_now();
-    if (now > validity.ends)
-        throw Error("The certificate '" + certificate.string() + "' has expired; renew it.");
-    if (now < validity.begins)
-        throw Error("The certificate '" + certificate.string() + "' is valid only from " +
-                    files::utc_text(validity.begins) + " on; wait, or set this machine's clock.");
     return c;
 }
 

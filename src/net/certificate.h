@@ -38,9 +38,9 @@ Certificate make_certificate();
 Certificate load_or_make_certificate(const std::filesystem::path& folder);
 
 // Reads a certificate, perhaps followed by those of its issuers, and its key, both in PEM: those of
-// an organisation, which browsers trust. Throws Error naming the file that is missing, damaged,
-// expired, not valid yet, or open to others. Without a key (empty): a certificate that another
-// program shows.
+// an organisation, which browsers trust. Throws Error naming the file that is missing, damaged, or
+// open to others. One that has expired or is not valid yet is read, too: the clock may be wrong.
+// Without a key (empty): a certificate that another program shows.
 Certificate read_certificate(const std::filesystem::path& certificate,
                              const std::filesystem::path& key);
 

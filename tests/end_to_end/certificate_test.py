@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """From a request to the certificate that a running host shows, and what is said of certificates that cannot be used."""
+import hashlib
 import json
 import os
 import pathlib
@@ -12,7 +13,7 @@ import tempfile
 import unittest
 
 from authority import Authority
-from raw_peer import Link, RawPeer
+from raw_peer import Link, RawPeer, https_request
 from theatron_process import Process, host, run
 
 HOOK = pathlib.Path(__file__).resolve().parents[2] / "packaging/theatron-acme-hook"
@@ -119,6 +120,28 @@ class Certificates(unittest.TestCase):
         code, _, errors = self.certificate_command("install", self.authority.answer(self.request()["request"]))
         self.assertEqual(code, 0)
         self.assertIn("does not know 'CN=Issuer'", errors)
+
+    def test_a_host_whose_certificate_has_wrong_dates_starts_and_says_so(self):
+        # The clock of the authority or of this machine is wrong, or nobody renewed it.
+        request = self.request()["request"]
+        for begins, ends, told in ((1, 100, "valid only from .*browsers warn"), (-48, -1, "expired at .*browsers warn")):
+            shutil.copy(self.authority.answer(request, begins=begins, ends=ends), self.certificate)
+            code, out, errors = run("host", "--config", self.config, "--check-config")
+            self.assertEqual((code, errors), (0, ""))
+            self.assertRegex(out, f"can be used\\.\nThe certificate .*{told}")
+            with Process("host", "--config", self.config) as h:
+                h.wait_for_error("browsers warn")
+                self.assertEqual(https_request(h.read_json()["link"], "GET", "/health")[0], 200)
+        # One that runs keeps a certificate that is valid.
+        shutil.copy(self.authority.answer(request), self.certificate)
+        with Process("host", "--config", self.config) as h:
+            shown = self.fingerprint(link := h.read_json()["link"])
+            shutil.copy(self.authority.answer(request, begins=1), self.certificate)
+            h.wait_for_error("stays in use")
+            self.assertEqual(self.fingerprint(link), shown)
+
+    def fingerprint(self, link):
+        return hashlib.sha256(ssl.PEM_cert_to_DER_cert(ssl.get_server_certificate(("127.0.0.1", Link.parse(link).port)))).digest()
 
     def other_request(self):
         """One that names no purpose, so that the authority chooses it."""

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The host as a service: its configuration file, what it tells its manager, and the installed manual and completion."""
+import json
 import os
 import pathlib
 import re
@@ -111,6 +112,20 @@ class Service(unittest.TestCase):
                 h.send(signal.SIGTERM)
                 self.assertEqual(h.end(), 0)
         self.assertTrue(has_told("STOPPING=1"))
+
+    def test_the_log_is_json_on_request(self):
+        state = self.folder / "state"
+        self.config.write_text("listen = 127.0.0.1:0\n")
+        with Process("host", "--config", self.config, "--state", state, "--json-log") as h:
+            h.wait_for_error('"listening"')
+            self.assertEqual(run("link", "--show", "expert", "--state", state)[0], 0)
+            h.send(signal.SIGTERM)
+            self.assertEqual(h.end(), 0)
+        lines = [json.loads(line) for line in h.errors]
+        listening = next(line for line in lines if line.get("event") == "listening")
+        self.assertEqual((listening["level"], listening["area"]), ("info", "host"))
+        self.assertRegex(listening["time"], r"^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d\.\d{3}Z$")
+        self.assertRegex(listening["fields"]["address"], r"^https://127\.0\.0\.1:\d+/$")
 
     def test_without_a_manager_the_end_of_its_terminal_is_the_end_of_the_host(self):
         self.config.write_text("listen = 127.0.0.1:0\njson = yes\n")
