@@ -50,11 +50,12 @@ struct CompareCloseUp {
 };
 
 struct CompareMethod {
-    std::string id;      // stable, for scripts
-    std::string name;    // for people who know no codec
-    std::string plain;   // what it does, one sentence for them
-    std::string ran;     // for people who know codecs
-    std::string reason;  // why there are no figures at all; empty if there are some
+    std::string id;         // stable, for scripts
+    std::string name;       // for people who know no codec
+    std::string plain;      // what it does, one sentence for them
+    std::string ran;        // for people who know codecs
+    std::string reason;     // why there are no figures at all; empty if there are some
+    bool is_video = false;  // shows cameras' pictures and nothing from another place
     int cameras = 0;
     double mbit_per_camera = 0;    // at 30 pictures a second, without the first picture
     double rate_setting_mbit = 0;  // the rate that its encoder was set to; 0: it was set to none
@@ -100,8 +101,10 @@ struct Compared {
 };
 
 inline constexpr double compare_pictures_per_s = 30;
-inline constexpr const char *video_call_id = "video_call", *zoomed_call_id = "video_call_zoomed",
-                            *paper_id = "paper", *pcl_id = "pcl", *theatron_id = "theatron",
+inline constexpr const char *video_call_id = "video_call", *full_hd_call_id = "video_call_full_hd",
+                            *zoomed_call_id = "video_call_zoomed",
+                            *two_camera_call_id = "video_call_two_cameras", *paper_id = "paper",
+                            *pcl_id = "pcl", *theatron_id = "theatron",
                             *theatron_near_id = "theatron_near";
 
 }  // namespace theatron::bench

@@ -126,10 +126,9 @@ std::vector<std::string> compare_limits() {
         "The lines are simulated, without losses and without other users. The age of a "
         "picture is without the time that camera, drawing and display take; this holds for every "
         "way.",
-        "The video call's camera hangs where Theatron's first one does, once with a usual lens and "
-        "once "
-        "zoomed to the wound. Somebody in the room could put it nearer or turn it when the expert "
-        "asks.",
+        "The video calls' cameras hang where Theatron's do, and one of them is zoomed to the "
+        "wound. "
+        "Somebody in the room could put a camera nearer or turn it when the expert asks.",
         "No figure says whether an expert decides better or sooner. That takes a study with "
         "surgeons."};
 }
@@ -141,7 +140,7 @@ std::vector<std::string> compare_notes() {
         "graphics card's work.",
         "Data is that of the pictures after the first one, which no other precedes and which is "
         "larger.",
-        "The video call is one encoder at one rate. Products for video calls add and leave out "
+        "Each video call is one encoder at one rate. Products for video calls add and leave out "
         "much that is not measured here, sound among it.",
         "The near camera hangs on the side from which the expert looks; other places were not "
         "measured.",

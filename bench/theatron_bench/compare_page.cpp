@@ -60,8 +60,9 @@ std::string arrival_text(const LinkFigures& f) {
 }
 
 std::string ways_text(std::size_t count) {
-    constexpr std::array<const char*, 7> numbers = {
-        "No way", "One way", "Two ways", "Three ways", "Four ways", "Five ways", "Six ways"};
+    constexpr std::array<const char*, 9> numbers = {"No way",     "One way",    "Two ways",
+                                                    "Three ways", "Four ways",  "Five ways",
+                                                    "Six ways",   "Seven ways", "Eight ways"};
     return count < numbers.size() ? numbers[count] : std::to_string(count) + " ways";
 }
 
@@ -135,6 +136,12 @@ std::string in_short(const Compared& c) {
             "A video call needs the least: " + tenths_text(call->mbit_of_all()) +
             " Mbit/s. The expert sees what one camera sees, and cannot step aside or look past a "
             "head or a hand that is in the way.");
+    for (const char* id : {full_hd_call_id, two_camera_call_id})
+        if (const CompareMethod* other = c.find_measured(id))
+            points.push_back(other->name + ": " + tenths_text(other->mbit_of_all()) +
+                             " Mbit/s. The expert sees what " +
+                             (other->cameras == 1 ? "that camera sees, sharper."
+                                                  : "either camera sees, and from nowhere else."));
     if (ours) {
         points.push_back(
             "With Theatron the expert looks from any place. The whole view of " +

@@ -3,7 +3,7 @@
 
 namespace theatron::bench {
 
-// Below 52rem the table is a list: each figure has a line, with the name of its way before it, so
+// Below 64rem the table is a list: each figure has a line, with the name of its way before it, so
 // that no title of a column has to stay in view.
 const char* compare_page_head() {
     return R"(<!doctype html>
@@ -38,7 +38,7 @@ dd { margin-left: 0; }
 figure { margin: 0; }
 figure button { display: block; width: 100%; padding: 0; border: 1px solid var(--line); background: none; cursor: zoom-in; }
 figure.ours button { border: 3px solid var(--ours); }
-figure img { width: 100%; aspect-ratio: 16 / 9; display: block; }
+figure img { width: 100%; aspect-ratio: 16 / 9; object-fit: contain; background: #202226; display: block; }
 button:focus-visible { outline: 4px solid var(--ours); outline-offset: 2px; }
 figcaption { margin-top: .35rem; line-height: 1.4; }
 figcaption small { display: block; }
@@ -53,12 +53,13 @@ dialog .below button { font: inherit; min-width: 2.8rem; min-height: 2.8rem; col
 table { border-collapse: collapse; table-layout: fixed; width: 100%; font-size: .95rem; }
 th, td { text-align: left; vertical-align: top; padding: .45rem .6rem; border-bottom: 1px solid var(--line); overflow-wrap: anywhere; }
 thead th { position: sticky; top: 0; background: var(--page); border-bottom: 2px solid var(--quiet); }
-thead th:first-child { width: 28%; }
+thead th:first-child { width: 22%; }
 tbody th { font-weight: normal; }
 th small, td small { display: block; }
+.list { display: none; }
 td.ours, thead th.ours { background: var(--tint); }
 tr.part th { font-weight: bold; background: var(--part); }
-@media screen and (max-width: 52rem) {
+@media screen and (max-width: 64rem) {
 body { padding: 1rem; }
 table, tbody, tr { display: block; }
 thead { display: none; }
@@ -68,6 +69,8 @@ tbody th small { font-weight: normal; }
 td { display: grid; grid-template-columns: 45% 1fr; border-bottom: 0; padding: .1rem .3rem; }
 td::before { content: attr(data-way); grid-row: span 2; }
 td small { grid-column: 2; }
+td.none { display: none; }
+.list { display: block; }
 }
 @page { size: A4; margin: 14mm; }
 @media print {

@@ -112,7 +112,22 @@ TEST(ComparePage, TheCloseUpComesFirstAndEachPlaceFollowsWithTheTruth) {
                              "Likeness 19.4 dB: strong differences."})
         EXPECT_THAT(page, HasSubstr("<small>" + std::string(line)));
     // In its alternative text, too.
-    EXPECT_EQ(times_in(page, "<small>The same picture as before"), 1);
+    EXPECT_EQ(times_in(page, "<small>The same as before: cameras do not move"), 1);
+}
+
+TEST(ComparePage, ACallOfTwoCamerasSaysWhosePicturesItShows) {
+    Compared c = given_comparison();
+    CompareMethod& two = c.methods[0];
+    EXPECT_THAT(page_of(c), HasSubstr("<small>From the camera&#39;s place, not the expert&#39;s."));
+    two.cameras = 2;
+    const std::string page = page_of(c);
+    EXPECT_THAT(page, HasSubstr("<small>From the cameras&#39; places, not the expert&#39;s, beside "
+                                "each other.</small>"));
+    EXPECT_THAT(page, HasSubstr("Cut out of each camera&#39;s picture that shows the wound: "
+                                "together 8 pixels wide"));
+    EXPECT_THAT(page, HasSubstr("from any place<small>or only from where a camera hangs</small>"
+                                "</th>" +
+                                cell("no") + our_cell("yes")));
 }
 
 TEST(ComparePage, AWayThatWasNotMeasuredHasNoBoxAndNoColumn) {
@@ -151,6 +166,14 @@ TEST(ComparePage, TheTableHasTheWoundBeforeTheStandingPlaces) {
     for (const char* figure : {"1.5 %", "0.3 %", "32.0 %", "6.7 %"})
         EXPECT_THAT(page, HasSubstr(our_cell(figure)));
     EXPECT_THAT(page, HasSubstr(our_cell("22.0 dB<small>clear differences</small>")));
+}
+
+TEST(ComparePage, CellsWithoutAFigureAreMarked) {
+    const std::string page = page_of(given_comparison());
+    EXPECT_THAT(page,
+                HasSubstr("<td role=\"cell\" class=\"none\" data-way=\"Video call\"><small>no "
+                          "such picture</small></td>"));
+    EXPECT_THAT(page, Not(HasSubstr("class=\"ours none\"")));
 }
 
 TEST(ComparePage, TheVerdictComesBeforeAllElse) {

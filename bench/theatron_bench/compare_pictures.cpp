@@ -33,12 +33,23 @@ std::string row_of(const std::string& title, const std::string& line, const std:
            "<div class=\"pictures\">\n" + figures + "</div>\n";
 }
 
-// The caption of a camera's picture, which is a close-up by its lens or by a cut.
+// The caption of cameras' pictures, which are close-ups by their lens or by a cut.
 std::string pixels_line(const CompareMethod& method) {
-    return std::string(method.id == zoomed_call_id ? "The zoomed camera's picture: "
-                                                   : "Cut out of the camera's picture: ") +
-           std::to_string(method.close_up->picture.size.width) +
-           " pixels wide, from the camera's place.";
+    const std::string width = std::to_string(method.close_up->picture.size.width) + " pixels wide";
+    if (method.id == zoomed_call_id)
+        return "The zoomed camera's picture: " + width + ", from the camera's place.";
+    if (method.cameras > 1)
+        return "Cut out of each camera's picture that shows the wound: together " + width +
+               ", from the cameras' places.";
+    return "Cut out of the camera's picture: " + width + ", from the camera's place.";
+}
+
+// The caption of cameras' whole pictures.
+std::string video_line(const CompareMethod& method, bool is_first_place) {
+    if (!is_first_place)
+        return "The same as before: cameras do not move with the expert.";
+    return method.cameras > 1 ? "From the cameras' places, not the expert's, beside each other."
+                              : "From the camera's place, not the expert's.";
 }
 
 std::string close_up_row(const Compared& c) {
@@ -69,14 +80,10 @@ std::string place_row(const Compared& c, std::size_t place) {
     for (const CompareMethod& method : c.methods) {
         if (!method.is_measured() || method.pictures.empty())
             continue;
-        const bool is_call = method.id == video_call_id;
         const ColorImage& picture = method.pictures[place < method.pictures.size() ? place : 0];
         std::string line;
-        if (is_call)
-            line = place == 0 ? "From the camera's place, not the expert's: a video call can show "
-                                "no other one."
-                              : "The same picture as before: the camera does not move with the "
-                                "expert.";
+        if (method.is_video)
+            line = video_line(method, place == 0);
         else if (place < method.from_place.size())
             line = likeness_line(method.from_place[place]);
         figures += figure(picture, method.name, line, is_theatron(method));

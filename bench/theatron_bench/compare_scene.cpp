@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "compare_scene.h"
 
-#include <atomic>
+#include <exception>
+#include <functional>
+#include <mutex>
 #include <thread>
 
 #include "base/error.h"
@@ -52,29 +54,46 @@ double fov_of_close_up(Vec3 eye) {
     return 2 * std::atan(close_up_width_m / 2 / length(wound - eye)) / radians_of(1);
 }
 
-// The pictures of a video camera at `eye` that is zoomed to the wound.
-void add_zoomed(CompareScene& scene, const synthetic::OperatingRoom& room, Vec3 eye, Size size,
-                int frames) {
-    constexpr std::uint32_t seed = 5003;
+constexpr std::uint32_t zoomed_seed = 5003, full_hd_seed = 5009;
+
+Calibration full_hd_calibration(const CompareSceneOptions& options) {
+    synthetic::LoopOptions loop = loop_of(options, 0);
+    loop.color = options.quick ? Size{960, 540} : Size{1920, 1080};
+    return synthetic::loop_calibration(loop);
+}
+
+Calibration zoomed_calibration(const CompareSceneOptions& options) {
+    const synthetic::LoopOptions loop = loop_of(options, 0);
+    const Vec3 eye = synthetic::loop_calibration(loop).room_from_camera.translation;
+    return synthetic::free_viewpoint(eye, wound, loop.color, fov_of_close_up(eye));
+}
+
+// `drawn` is called after each picture.
+CompareCamera make_video_camera(const synthetic::OperatingRoom& room,
+                                const Calibration& calibration, std::uint32_t seed, int frames,
+                                const std::function<void()>& drawn) {
+    CompareCamera camera{.calibration = calibration};
     const auto view =
-        room.look_from(synthetic::free_viewpoint(eye, wound, size, fov_of_close_up(eye)),
-                       {.depth = false, .surface = false, .color = true});
+        room.look_from(calibration, {.depth = false, .surface = false, .color = true});
     const auto encoder =
         video::make_color_encoder(video::parse_color_setting("jpeg:quality=90").setting);
     for (int i = 0; i < frames; ++i) {
-        scene.zoomed_exact = view->render(*room.at(moment_of(i))).color;
+        camera.last_exact = view->render(*room.at(moment_of(i))).color;
+        const Size size = camera.last_exact.size;
         ColorData noisy;
         noisy.size = size;
         noisy.pixels.resize(size);
-        synthetic::apply_color_sensor({}, seed, std::uint32_t(i), scene.zoomed_exact.view(),
+        synthetic::apply_color_sensor({}, seed, std::uint32_t(i), camera.last_exact.view(),
                                       noisy.pixels.view());
         const auto encoded = encoder->encode(noisy, true);
         if (!encoded)
             throw Error("A picture of the generated room could not be compressed.");
-        ColorData& jpeg = scene.zoomed.emplace_back();
+        ColorData& jpeg = camera.color.emplace_back();
         jpeg.size = size;
         jpeg.jpeg.assign(encoded->bytes.begin(), encoded->bytes.end());
+        drawn();
     }
+    return camera;
 }
 
 void add_frame(CompareCamera& camera, synthetic::FrameMaker& maker,
@@ -90,7 +109,32 @@ void add_frame(CompareCamera& camera, synthetic::FrameMaker& maker,
     camera.color.push_back(std::move(color));
 }
 
+// Runs all works side by side; throws what one of them threw.
+void run_all(const std::vector<std::function<void()>>& works) {
+    std::vector<std::exception_ptr> failures(works.size());
+    std::vector<std::jthread> threads;
+    for (std::size_t i = 0; i < works.size(); ++i)
+        threads.emplace_back([&, i] {
+            try {
+                works[i]();
+            } catch (...) {
+                failures[i] = std::current_exception();
+            }
+        });
+    threads.clear();
+    for (const std::exception_ptr& failure : failures)
+        if (failure)
+            std::rethrow_exception(failure);
+}
+
 }  // namespace
+
+std::vector<const CompareCamera*> CompareScene::usual_cameras() const {
+    std::vector<const CompareCamera*> usual;
+    for (std::size_t i = 0; i + 1 < cameras.size(); ++i)
+        usual.push_back(&cameras[i]);
+    return usual;
+}
 
 CompareScene make_compare_scene(const CompareSceneOptions& options,
                                 const capture::Progress& progress) {
@@ -100,10 +144,13 @@ CompareScene make_compare_scene(const CompareSceneOptions& options,
     const int cameras = options.cameras + 1;
     scene.cameras.resize(std::size_t(cameras));
     std::vector<ViewBenchCamera> last(scene.cameras.size());
-    std::atomic<int> done = 0;
-    const int all = (cameras + 1) * options.frames;
-    std::vector<std::exception_ptr> failures(scene.cameras.size());
+    int done = 0;
+    const double all = double(cameras + 2) * options.frames;
     std::mutex telling;
+    const auto drawn = [&] {
+        const std::lock_guard lock(telling);
+        progress("drawing what the cameras see", ++done / all);
+    };
     const auto make = [&](int index) {
         const synthetic::LoopOptions loop = loop_of(options, index);
         CompareCamera& camera = scene.cameras[std::size_t(index)];
@@ -113,8 +160,7 @@ CompareScene make_compare_scene(const CompareSceneOptions& options,
         for (int i = 0; i < options.frames; ++i) {
             synthetic::GroundTruth truth = view->render(*room.at(moment_of(i)));
             add_frame(camera, maker, truth, i);
-            const std::lock_guard lock(telling);
-            progress("drawing what the cameras see", ++done / double(all));
+            drawn();
             if (i + 1 < options.frames)
                 continue;
             ViewBenchCamera& exact = last[std::size_t(index)];
@@ -124,32 +170,29 @@ CompareScene make_compare_scene(const CompareSceneOptions& options,
             camera.last_exact = std::move(truth.color);
         }
     };
-    std::vector<std::jthread> threads;
+    std::vector<std::function<void()>> works = {
+        [&] {
+            scene.full_hd = make_video_camera(room, full_hd_calibration(options), full_hd_seed,
+                                              options.frames, drawn);
+        },
+        [&] {
+            scene.zoomed = make_video_camera(room, zoomed_calibration(options), zoomed_seed,
+                                             options.frames, drawn);
+        }};
     for (int i = 0; i < cameras; ++i)
-        threads.emplace_back([&, i] {
-            try {
-                make(i);
-            } catch (...) {
-                failures[std::size_t(i)] = std::current_exception();
-            }
-        });
-    threads.clear();
-    for (const std::exception_ptr& failure : failures)
-        if (failure)
-            std::rethrow_exception(failure);
+        works.emplace_back([&make, i] { make(i); });
+    run_all(works);
 
-    add_zoomed(scene, room, scene.cameras.front().calibration.room_from_camera.translation,
-               loop_of(options, 0).color, options.frames);
     const auto moment = room.at(moment_of(options.frames - 1));
     const std::pair<double, const char*> places[] = {
         {2, "at the foot of the table"}, {24, "a step to the left"}, {-20, "a step to the right"}};
     const auto without_near = std::vector(last.begin(), last.end() - 1);
     const double all_pictures = 2 * (double(std::size(places)) + 1);
-    int drawn = 0;
+    int places_drawn = 0;
     const auto seen_from = [&](const std::vector<ViewBenchCamera>& by, Vec3 eye, double fov) {
         ViewBenchPlace place =
             make_view_bench_place(room, *moment, by, {eye, wound, fov}, options.picture);
-        progress("drawing what the expert would see", ++drawn / all_pictures);
+        progress("drawing what the expert would see", ++places_drawn / all_pictures);
         return place;
     };
     scene.wound = wound;

@@ -18,7 +18,7 @@ struct CompareSceneOptions {
 
 struct CompareCamera {
     Calibration calibration;
-    std::vector<DepthImage> depth;  // with the sensor's noise
+    std::vector<DepthImage> depth;  // with the sensor's noise; none of a video camera
     std::vector<ColorData> color;   // JPEG, as from a camera
     ColorImage last_exact;          // the last colour picture before noise and JPEG
 };
@@ -37,11 +37,14 @@ struct CompareScene {
     std::vector<CompareCamera> cameras;  // the near one last: it hangs over the table's foot
     CompareViews without_near, with_near;
     std::vector<std::string> place_names;
-    // A video camera at the first camera's place whose lens shows the wound as wide as the
-    // close-up, as JPEG, and its last picture before noise and JPEG.
-    std::vector<ColorData> zoomed;
-    ColorImage zoomed_exact;
+    // Video cameras at the first camera's place: one with its lens and more pixels, and one whose
+    // lens shows the wound as wide as the close-up.
+    CompareCamera full_hd, zoomed;
     Vec3 wound;
+
+    const CompareCamera& near_camera() const { return cameras.back(); }
+    // All without the near one.
+    std::vector<const CompareCamera*> usual_cameras() const;
 };
 
 CompareScene make_compare_scene(const CompareSceneOptions& options,

@@ -41,7 +41,7 @@ public:
                  small(meaning) + "</th>";
         for (const CompareMethod* method : methods_) {
             const Cell cell = cell_of(*method);
-            text_ += "<td role=\"cell\"" + class_of(*method) + " data-way=\"" +
+            text_ += "<td role=\"cell\"" + class_of(*method, cell.figure.empty()) + " data-way=\"" +
                      escaped(method->name) + "\">" + escaped(cell.figure) + small(cell.words) +
                      "</td>";
         }
@@ -51,8 +51,13 @@ public:
     std::string text() const { return text_ + "</tbody></table>\n"; }
 
 private:
-    static std::string class_of(const CompareMethod& method) {
-        return method.id == theatron_id || method.id == theatron_near_id ? " class=\"ours\"" : "";
+    // "none" has no line where the table is a list.
+    static std::string class_of(const CompareMethod& method, bool has_no_figure = false) {
+        const bool is_ours = method.id == theatron_id || method.id == theatron_near_id;
+        if (!is_ours && !has_no_figure)
+            return "";
+        return std::string(" class=\"") + (is_ours ? "ours" : "") +
+               (is_ours && has_no_figure ? " " : "") + (has_no_figure ? "none" : "") + "\"";
     }
     static std::string small(const std::string& words) {
         return words.empty() ? "" : "<small>" + escaped(words) + "</small>";
@@ -139,7 +144,7 @@ void add_pictures(Table& table, std::size_t places) {
     table.part(places_title(places));
     table.row("Looks from any place", "or only from where a camera hangs",
               [](const CompareMethod& m) {
-                  return Cell{m.id == video_call_id || m.id == zoomed_call_id ? "no" : "yes", ""};
+                  return Cell{m.is_video ? "no" : "yes", ""};
               });
     table.row("Dark part of the picture", "of the whole picture; lower is better",
               percent(&CompareLikeness::undrawn_percent));
@@ -226,9 +231,10 @@ std::string compare_table(const Compared& c) {
                                   "95 of 100: " + whole_text(m.links[i].delay_p95_ms) + " ms"};
                   });
     }
-    return "<h2>What it gives and what it costs</h2>\n" + table.text() + "<p class=\"quiet\">" +
-           escaped(psnr_scale()) + " " + escaped(ssim_scale()) +
-           " The words are this page's own, not a standard's.</p>\n";
+    return "<h2>What it gives and what it costs</h2>\n"
+           "<p class=\"quiet list\">A way without such a picture has no line.</p>\n" +
+           table.text() + "<p class=\"quiet\">" + escaped(psnr_scale()) + " " +
+           escaped(ssim_scale()) + " The words are this page's own, not a standard's.</p>\n";
 }
 
 }  // namespace theatron::bench

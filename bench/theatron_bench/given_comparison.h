@@ -24,6 +24,7 @@ inline Compared given_comparison() {
     c.close_up_truth = ColorImage({16, 8});
     c.close_up_width_m = 0.5;
     CompareMethod call{.id = video_call_id, .name = "Video call", .ran = "one camera"};
+    call.is_video = true;
     call.plain = "One picture";
     call.cameras = 1;
     call.mbit_per_camera = 2.04;

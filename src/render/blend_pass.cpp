@@ -3,6 +3,7 @@
 // last pass averages the layers where they show the same surface. After the idea of
 // BlendPCR (Mühlenbrock, Weller, Zachmann 2024): blend in screen space, by quality and by
 // closeness to an edge, instead of building a common mesh.
+#include <algorithm>
 #include <map>
 #include <string>
 #include <vector>
@@ -22,6 +23,7 @@ struct BlendProgram {
     Program program;
     GLint depth_from_w = program.uniform("depth_from_w");
     GLint picture_corner = program.uniform("picture_corner");
+    GLint tan_per_pixel = program.uniform("tan_per_pixel");
     GLint presence = program.uniform("presence");
 
     explicit BlendProgram(int layers)
@@ -95,7 +97,9 @@ private:
     void blend(const CloudFrame& frame) {
         std::vector<float> presence;
         bool all_present = true;
+        double tan_per_pixel = 0;  // of the coarsest depth image
         for (const CloudCamera* camera : frame.cameras) {
+            tan_per_pixel = std::max(tan_per_pixel, camera->tan_per_pixel());
             presence.push_back(float(camera->presence));
             all_present = all_present && camera->presence == 1;
         }
@@ -108,6 +112,7 @@ private:
         p.program.use();
         set_depth_from_w(frame.view, p.depth_from_w);
         glUniform2i(p.picture_corner, target.x, target.y);
+        glUniform1f(p.tan_per_pixel, float(tan_per_pixel));
         glUniform1fv(p.presence, GLsizei(presence.size()), presence.data());
         if (!all_present) {
             glEnable(GL_BLEND);

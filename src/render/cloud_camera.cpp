@@ -103,10 +103,9 @@ CameraUniforms uniforms(const CloudCamera& camera, const CameraView& view) {
             : may_be_hidden(calibration) ? 1
                                          : 0);
     }
-    const double tan_per_pixel = 2 / (calibration.depth.fx + calibration.depth.fy);
     const double offset_m =
         calibration.depth_offset_mm ? *calibration.depth_offset_mm / 1000 : camera.depth_offset_m;
-    put(u.depth, calibration.depth_unit_mm / 1000, tan_per_pixel, offset_m, 0);
+    put(u.depth, calibration.depth_unit_mm / 1000, camera.tan_per_pixel(), offset_m, 0);
     const Vec3 viewer = inverse(eye_from_camera).translation;
     put(u.viewer, viewer.x, viewer.y, viewer.z, 0);
     const Vec3 gain = camera.color_gain;

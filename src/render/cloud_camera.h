@@ -73,6 +73,8 @@ public:
 
     const Calibration& calibration() const { return calibration_; }
     Size depth_size() const { return calibration_.depth.size; }
+    // The side of the square that a depth pixel covers at a distance of one metre, in metres.
+    double tan_per_pixel() const { return 2 / (calibration_.depth.fx + calibration_.depth.fy); }
     Size color_size() const { return color_size_; }  // of the newest picture; 0 x 0: none yet
     GridMesh& grid() const { return *grid_; }
 

@@ -10,7 +10,8 @@ import unittest
 
 from theatron_process import PROGRAM, run
 
-METHODS = ["video_call", "video_call_zoomed", "paper", "pcl", "theatron", "theatron_near"]
+METHODS = ["video_call", "video_call_full_hd", "video_call_zoomed", "video_call_two_cameras", "paper", "pcl", "theatron", "theatron_near"]
+WHOLE_PICTURES_OF_VIDEO = ["video_call", "video_call_full_hd", "video_call_two_cameras"]
 
 
 class Compare(unittest.TestCase):
@@ -50,7 +51,7 @@ class Compare(unittest.TestCase):
                 if method["close_up"]:
                     causes = method["close_up"]["see_through_causes"]
                     self.assertAlmostEqual(sum(causes.values()), method["close_up"]["see_through_percent"])
-                pictures += len(found["places"]) + 1 if method["expert"] or method["id"] == "video_call" else 0
+                pictures += len(found["places"]) + 1 if method["expert"] or method["id"] in WHOLE_PICTURES_OF_VIDEO else 0
                 pictures += method["id"] == "video_call_zoomed"  # the close-up alone
         self.assertEqual(shown.count("<figure"), pictures)
         self.assertEqual(shown.count('src="data:image/jpeg;'), pictures)
@@ -63,6 +64,9 @@ class Compare(unittest.TestCase):
             self.assertEqual(methods[name]["cameras"], 2)
         self.assertIsNone(methods["video_call"]["expert"])
         self.assertEqual(methods["theatron_near"]["cameras"], 3)
+        if not methods["video_call"]["reason"]:
+            self.assertEqual(methods["video_call_two_cameras"]["cameras"], 2)
+            self.assertIsNotNone(methods["video_call_full_hd"]["own_view"])
         if methods["theatron"]["expert"]:
             self.assertLess(methods["theatron"]["expert"]["holes_percent"], methods["paper"]["expert"]["holes_percent"])
             near, usual = methods["theatron_near"]["close_up"], methods["theatron"]["close_up"]

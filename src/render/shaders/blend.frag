@@ -9,6 +9,7 @@ uniform sampler2DArray layer_depths;
 uniform vec2 depth_from_w;    // window depth of distance w: x + y / w
 uniform ivec2 picture_corner;  // of the target in its framebuffer
 uniform float presence[16];
+uniform float tan_per_pixel;  // of the coarsest depth image: the side of its pixels at one metre
 
 const float set_back_from_behind = 0.15;  // metres
 
@@ -31,8 +32,10 @@ void main() {
     if (front == 1e6)
         discard;
 
-    // Sensors and their registration agree on a surface to within some centimetres.
-    float agreement = 0.05 + 0.015 * front;
+    // Sensors and their registration agree on a surface to within some centimetres and pixels, mostly
+    // within one. An instrument is an edge in its camera's picture and has little weight, so the
+    // weight of a surface that another camera sees a few centimetres behind it must be less.
+    float agreement = 0.03 + 4.5 * tan_per_pixel * front;
     vec4 color = vec4(0.0);
     float distance = 0.0;
     float coverage = 0.0;
@@ -41,8 +44,8 @@ void main() {
         if (behind > agreement)
             continue;
         vec4 layer = layers[i];
-        float weight = pow(layer.a, 3.0) * presence[i] *
-                       (1.0 - smoothstep(0.5 * agreement, agreement, behind)) + 1e-9;
+        float apart = behind / agreement;
+        float weight = pow(layer.a, 3.0) * presence[i] * pow(1.0 - apart * apart, 8.0) + 1e-9;
         color += vec4(layer.rgb, 1.0) * weight;
         distance += distances[i] * weight;
         coverage = max(coverage, presence[i]);

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "compare_costs.h"
+
+#include <algorithm>
+#include <ctime>
+
+#include "base/statistics.h"
+
+namespace theatron::bench {
+
+double processor_ms() {
+    timespec time{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return double(time.tv_sec) * 1e3 + double(time.tv_nsec) * 1e-6;
+}
+
+void add_costs(CompareMethod& method, const std::vector<std::vector<PictureCost>>& cameras,
+               const std::vector<CompareLink>& links) {
+    const std::size_t pictures = cameras.front().size(), first = pictures > 1 ? 1 : 0;
+    std::vector<SentMoment> moments(pictures);
+    std::vector<double> sender, receiver;
+    double bytes = 0;
+    for (const std::vector<PictureCost>& camera : cameras)
+        for (std::size_t i = 0; i < pictures; ++i) {
+            const PictureCost& cost = camera[i];
+            SentMoment& moment = moments[i];
+            moment.bytes += cost.bytes;
+            moment.sender_ms = std::max(moment.sender_ms, cost.sender_ms);
+            moment.receiver_ms = std::max(moment.receiver_ms, cost.receiver_ms);
+            if (i < first)
+                continue;
+            bytes += double(cost.bytes);
+            sender.push_back(cost.sender_ms);
+            receiver.push_back(cost.receiver_ms);
+        }
+    method.cameras = int(cameras.size());
+    method.mbit_per_camera = bytes / double(sender.size()) * 8 * compare_pictures_per_s / 1e6;
+    method.sender_ms = median(sender);
+    method.receiver_ms = median(receiver);
+    for (const CompareLink& link : links)
+        method.links.push_back(sent_over(link, moments, compare_pictures_per_s));
+}
+
+}  // namespace theatron::bench

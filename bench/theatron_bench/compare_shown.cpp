@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "compare_shown.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/error.h"
+#include "camera_frames.h"
+#include "compare_close_up.h"
+#include "compare_points.h"
+#include "render/cloud_set.h"
+#include "render/gl_driver.h"
+
+namespace theatron::bench {
+namespace {
+
+// The last depth images of the cameras, beside what arrived of them.
+std::vector<CauseCamera> causes_with(const std::vector<const CompareCamera*>& cameras,
+                                     const std::vector<ArrivedCamera>& arrived) {
+    std::vector<CauseCamera> causes;
+    for (std::size_t c = 0; c < cameras.size(); ++c)
+        causes.push_back({cameras[c]->calibration, cameras[c]->depth.back().view(),
+                          arrived[c].depth.back().view()});
+    return causes;
+}
+
+}  // namespace
+
+ColorImage beside_each_other(const std::vector<ColorImage>& pictures) {
+    Size size;
+    for (const ColorImage& picture : pictures) {
+        size.width += picture.size.width;
+        size.height = std::max(size.height, picture.size.height);
+    }
+    ColorImage all(size);
+    int left = 0;
+    for (const ColorImage& picture : pictures) {
+        for (int y = 0; y < picture.size.height; ++y)
+            std::copy_n(picture.view().row(y), picture.size.width, all.view().row(y) + left);
+        left += picture.size.width;
+    }
+    return all;
+}
+
+void show_video(CompareMethod& method, const std::vector<const CompareCamera*>& cameras,
+                const std::vector<ArrivedCamera>& arrived, Vec3 point_room, bool is_zoomed) {
+    std::vector<ColorImage> pictures, parts;
+    for (std::size_t c = 0; c < cameras.size(); ++c) {
+        pictures.push_back(arrived[c].color.back());
+        const auto part = part_around(cameras[c]->calibration, pictures.back().size, point_room,
+                                      close_up_width_m);
+        if (is_zoomed)
+            parts.push_back(pictures.back());
+        else if (part)
+            parts.push_back(parts_of<Rgb>({pictures.back()}, *part).front());
+    }
+    if (!is_zoomed)
+        method.pictures = {beside_each_other(pictures)};
+    if (!parts.empty())
+        method.close_up = {beside_each_other(parts), {}, {}, {}};
+}
+
+CompareDrawing::CompareDrawing() {
+    try {
+        context_ = std::make_unique<render::OffscreenContext>();
+        driver_ = render::driver_name();
+    } catch (const Error& e) {
+        reason_ = e.what();
+    }
+}
+
+void CompareDrawing::check() const {
+    if (context_ && context_->errors() > 0)
+        throw Error("The graphics driver reports an error: " + context_->first_error());
+}
+
+void CompareDrawing::show_clouds(CompareMethod& method, const CompareViews& exact,
+                                 const std::vector<const CompareCamera*>& cameras,
+                                 const std::vector<ArrivedCamera>& arrived,
+                                 const std::string& renderer,
+                                 const std::function<void(double)>& progress) const {
+    if (!context_) {
+        method.expert_reason = reason_;
+        return;
+    }
+    const auto draw = [&](render::CloudSet& clouds, const ViewBenchPlace& place) {
+        return clouds.render(place.view, place.exact_color.size, renderer);
+    };
+    render::CloudSet clouds;
+    for (std::size_t c = 0; c < arrived.size(); ++c)
+        clouds.set_camera(CameraId(c), arrived[c].calibration);
+    const std::size_t images = arrived.front().depth.size();
+    const double all = double(images + exact.places.size());
+    for (std::size_t i = 0; i < images; ++i) {
+        for (std::size_t c = 0; c < arrived.size(); ++c)
+            if (clouds.upload(CameraId(c), arrived[c].depth[i].view(),
+                              arrived[c].color[i].view()) != Status::ok)
+                throw Error("A generated camera's images do not have its calibrated size.");
+        if (i + 1 < images)
+            (void)draw(clouds, exact.places.front());
+        progress(double(i + 1) / all);
+    }
+    DrawnViews drawn;
+    for (const ViewBenchPlace& place : exact.places) {
+        drawn.places.push_back(draw(clouds, place));
+        progress(double(images + drawn.places.size()) / all);
+    }
+    drawn.close_up = draw(clouds, exact.close_up);
+    judge(method, exact, std::move(drawn), causes_with(cameras, arrived));
+}
+
+void show_points(CompareMethod& method, const CompareViews& exact,
+                 const std::vector<const CompareCamera*>& cameras,
+                 const std::vector<ArrivedCamera>& arrived) {
+    std::vector<PlacedCloud> placed;
+    for (const ArrivedCamera& camera : arrived)
+        placed.push_back({&camera.points, camera.calibration.room_from_camera});
+    const auto draw = [&](const ViewBenchPlace& place) {
+        return draw_points(placed, place.view, place.exact_color.size,
+                           arrived.front().point_edge_m);
+    };
+    DrawnViews drawn;
+    for (const ViewBenchPlace& place : exact.places)
+        drawn.places.push_back(draw(place));
+    drawn.close_up = draw(exact.close_up);
+    judge(method, exact, std::move(drawn), causes_with(cameras, arrived));
+}
+
+}  // namespace theatron::bench
