@@ -82,7 +82,8 @@ std::vector<fs::path> files_below(const fs::path& folder, std::size_t& links) {
 }  // namespace
 
 bool is_nifti_file(const fs::path& file) {
-    return ends_with(file, ".nii") || ends_with(file, ".nii.gz") || is_nifti_head_file(file);
+    return ends_with(file, ".nii") || ends_with(file, ".nii.gz") || ends_with(file, ".nii.bz2") ||
+           is_nifti_head_file(file);
 }
 
 bool is_nifti_head_file(const fs::path& file) {
@@ -118,8 +119,8 @@ SourceFiles find_source_files(const fs::path& source) {
                         " is a finished case already; a session offers it if it lies in the "
                         "folder of 'theatron host --cases'.");
         throw Error(name +
-                    " holds neither DICOM images nor surfaces (STL, OBJ, PLY, GLB) nor label "
-                    "maps (NIfTI, NRRD) nor pictures (PNG, JPEG)" +
+                    " holds neither DICOM images nor surfaces (STL, OBJ, PLY, GLB, glTF) nor "
+                    "label maps (NIfTI, NRRD) nor pictures (PNG, JPEG)" +
                     (files.others.empty() ? "" : ", but " + first_names(files.others)) +
                     (files.links > 0 ? "; links in it are not followed." : "."));
     }
