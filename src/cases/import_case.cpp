@@ -57,6 +57,15 @@ void require_labels(const ImportOptions& options, const std::set<int>& found) {
                         " in the source, though --label names it.");
 }
 
+std::string remark_on_label_maps(const std::vector<fs::path>& files) {
+    const bool is_one = files.size() == 1;
+    return "The source has surfaces, so " +
+           (is_one ? quoted_path(files[0]) + " is" : std::to_string(files.size()) + " files are") +
+           " not used" + (is_one ? "" : ": " + first_names(files)) +
+           "; with --from-labels parts are made of " + (is_one ? "its" : "their") +
+           " labels, and not of the surfaces.";
+}
+
 std::vector<ImportedPart> parts_of(const SourceFiles& files, const std::optional<Case>& manifest,
                                    const ImportOptions& options, LeftOut& left_out,
                                    std::set<fs::path>& beside, std::vector<std::string>& remarks,
@@ -66,9 +75,7 @@ std::vector<ImportedPart> parts_of(const SourceFiles& files, const std::optional
         throw Error("The source holds no label map (NIfTI, NRRD) to make surfaces of.");
     if (!from_labels) {
         if (!files.label_maps.empty())
-            remarks.push_back(
-                "The source has surfaces, so its label map is not used; use it with "
-                "--from-labels.");
+            remarks.push_back(remark_on_label_maps(files.label_maps));
         if (!options.labels.empty())
             throw Error(
                 "--label names labels of a label map, which is not used here; give "
@@ -139,9 +146,16 @@ void remark_on_others(const SourceFiles& files, std::set<fs::path> read,
         if (const std::optional<fs::path> samples = sample_file_of(file))
             read.insert(*samples);
     std::vector<fs::path> unread;
-    for (const fs::path& file : files.others)
-        if (file.filename() != manifest_name && !read.contains(file))
+    LeftOut known;
+    for (const fs::path& file : files.others) {
+        if (file.filename() == manifest_name || read.contains(file))
+            continue;
+        if (const char* const reason = reason_of_other_kind(file))
+            known.add(file, reason);
+        else
             unread.push_back(file);
+    }
+    known.append_to(remarks);
     if (files.links > 0)
         remarks.push_back("Links in the source are not followed, so what they lead to (" +
                           std::to_string(files.links) + ") is left out.");

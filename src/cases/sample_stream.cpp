@@ -97,7 +97,10 @@ namespace {
 
 ReadSamples result_of(bool is_good, std::size_t found, std::size_t wanted, bool damaged) {
     if (!is_good)
-        return {"holds values that are no labels: images are read as DICOM", true};
+        return {
+            "holds values that are no labels; if it is an image, add it as DICOM, as which alone "
+            "images are read",
+            true};
     if (damaged)
         return {"is damaged or cut off"};
     if (found < wanted)

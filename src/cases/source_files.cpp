@@ -2,6 +2,7 @@
 #include "cases/source_files.h"
 
 #include <algorithm>
+#include <span>
 
 #include "base/error.h"
 #include "cases/case_folder.h"
@@ -96,6 +97,30 @@ bool is_nifti_head_file(const fs::path& file) {
 
 bool is_nrrd_file(const fs::path& file) {
     return ends_with(file, ".nrrd") || ends_with(file, ".nhdr");
+}
+
+const char* reason_of_other_kind(const fs::path& file) {
+    constexpr std::string_view archives[] = {".zip", ".7z", ".rar", ".tar", ".tgz", ".gz",
+                                             ".bz2", ".xz", ".zst", ".iso", ".mrb"};
+    constexpr std::string_view surfaces[] = {".vtk", ".vtp", ".vtu",   ".3mf", ".fbx",  ".dae",
+                                             ".off", ".wrl", ".blend", ".x3d", ".step", ".stp"};
+    constexpr std::string_view label_maps[] = {".mha", ".mhd", ".mgz", ".mgh", ".mnc", ".nia"};
+    constexpr std::string_view pictures[] = {".pdf",  ".tif", ".tiff", ".bmp",
+                                             ".heic", ".gif", ".webp", ".svg"};
+    const auto is_any = [&](std::span<const std::string_view> ends) {
+        return !is_of_finder(file) &&
+               std::any_of(ends.begin(), ends.end(),
+                           [&](std::string_view end) { return ends_with(file, end); });
+    };
+    if (is_any(archives))
+        return "is an archive, which is not opened; unpack it and import its folder";
+    if (is_any(surfaces))
+        return "may hold a surface in a format that is not read; save it as STL, OBJ, PLY or glTF";
+    if (is_any(label_maps))
+        return "may hold a label map in a format that is not read; save it as NIfTI or NRRD";
+    if (is_any(pictures))
+        return "may hold pictures in a format that is not read; save what matters as PNG or JPEG";
+    return nullptr;
 }
 
 SourceFiles find_source_files(const fs::path& source) {

@@ -161,7 +161,7 @@ def nifti_files():
     yield Input("pixels of three bytes", {"o.nii": with_bytes((70, "hh", 128, 24)) + plain[352:] * 2},
                 refused="samples")
     flat = with_bytes((40, "4h", 2, SIZE[0], SIZE[1], 1))
-    yield Input("two dimensions without a label", {"o.nii": flat}, refused="has no labels but 0")
+    yield Input("two dimensions without a label", {"o.nii": flat}, refused="marks nothing: there are no labels but 0")
     comment = struct.pack("<ii", 32, 6) + b"made by a program".ljust(24, b"\0")
     yield Input("a comment in its extension", {"o.nii": nifti(extension=comment)}, parts=parts())
     yield Input("two extensions", {"o.nii": nifti(extension=comment * 2)}, parts=parts())

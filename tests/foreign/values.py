@@ -92,8 +92,8 @@ def labels_by_nibabel(paths):
         if len(where) == 0:
             continue
         unit = {"meter": 1000, "micron": 1e-3}.get(image.header.get_xyzt_units()[0], 1)
-        place = image.affine * [[unit]] * 4
-        corners = [place @ [*((w + at)[:3] - 0.5), 1] for w in (where.min(0), where.max(0)) for at in ((0,) * where.shape[1], (1,) * where.shape[1])]
+        place = image.affine * numpy.array([[unit]] * 3 + [[1]])
+        corners = [place @ [*(end[:3] - 0.5), 1] for end in (where.min(0), where.max(0) + 1)]
         points += [(-c[0], -c[1], c[2]) for c in corners]
         volume += len(where) * abs(numpy.linalg.det(place[:3, :3]))
     return bounds(points) + [volume] if points else None
@@ -164,7 +164,7 @@ def tiles(raw, width, height):
 
 def tiles_of_file(command, more=()):
     """Of the first picture and the last one that FFmpeg makes of these arguments, behind their number and sides."""
-    done = subprocess.run(["ffmpeg", "-v", "error", "-noautoscale", *command, *more, "-f", "image2pipe", "-c:v", "ppm", "-"],
+    done = subprocess.run(["ffmpeg", "-v", "error", *command, *more, "-f", "image2pipe", "-c:v", "ppm", "-"],
                           capture_output=True, timeout=LONGEST)
     found, at, data = [], 0, done.stdout
     while data[at:at + 2] == b"P6":
@@ -186,21 +186,32 @@ def tiles_of_file(command, more=()):
     return out
 
 
-def video_by_ffmpeg(path, more=()):
-    """Square pixels, as a player shows it."""
-    return tiles_of_file(["-i", str(path), "-map", "0:V:0", "-vsync", "passthrough"], ["-pix_fmt", "rgb24", *more])
+def played_by_ffmpeg(path, track="0:V:0", more=()):
+    """A video, a track of it, or pictures whose name is a pattern, as a player shows them."""
+    return tiles_of_file(["-i", str(path), "-map", track, "-vsync", "passthrough"], ["-pix_fmt", "rgb24", *more])
 
 
-def video_by_theatron(camera, program):
-    """(measure or None, what was said, exit code)"""
+def depths_by_ffmpeg(path, track="0:V:0"):
+    """The sum of all values of the depth pictures in a track, or in files whose name is a pattern."""
+    import numpy
+    done = subprocess.run(["ffmpeg", "-v", "error", "-i", str(path), "-map", track, "-vsync", "passthrough", "-pix_fmt", "gray16le",
+                           "-f", "rawvideo", "-"], capture_output=True, timeout=LONGEST)
+    return int(numpy.frombuffer(done.stdout, "<u2").sum(dtype="u8"))
+
+
+def played_by_theatron(camera, program):
+    """(colour, sum of depth, exit code, what was said); the first two are None where nothing was played."""
     with tempfile.TemporaryDirectory() as out:
         file = pathlib.Path(out) / "r.mkv"
         done = subprocess.run([program, "record", "--camera", camera, "--raw", str(file)], capture_output=True, text=True,
                               timeout=LONGEST)
         said = (done.stdout + done.stderr).strip()
         subprocess.run([program, "export", str(file), "--png", out + "/p"], capture_output=True, timeout=LONGEST)
-        pictures = sorted((pathlib.Path(out) / "p").rglob("color/*"))
-        if not pictures:
-            return None, said, done.returncode
-        first, last = ([tiles_of_file(["-i", str(one)], ["-pix_fmt", "rgb24"]) for one in (pictures[0], pictures[-1])])
-        return [len(pictures)] + first[1:15] + last[3:15], said, done.returncode
+        pictures = sorted(pathlib.Path(out).rglob("p/color/*"))
+        color = depth = None
+        if pictures:
+            first, last = (played_by_ffmpeg(one) for one in (pictures[0], pictures[-1]))
+            color = [len(pictures)] + first[1:15] + last[3:15]
+        if sorted(pathlib.Path(out).rglob("p/depth/*")):
+            depth = depths_by_ffmpeg(out + "/p/depth/%05d.png")
+        return color, depth, done.returncode, said
