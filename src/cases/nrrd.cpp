@@ -166,6 +166,8 @@ std::optional<Vec3> millimetres(const std::string& units) {
             found.push_back(1000);
         else if (unit == "um" || unit == "\xc2\xb5m" || unit == "micrometer")
             found.push_back(0.001);
+        else if (unit == "in" || unit == "inch" || unit == "inches")
+            found.push_back(25.4);
         else
             return std::nullopt;
     }
@@ -272,7 +274,7 @@ std::string read_grid(const Fields& fields, const Axes& axes, medical::VolumeGri
     const std::optional<Vec3> mm = millimetres(units);
     if (!mm)
         return "has the unit " + clean_text(units, 40) +
-               " (space units), and mm, cm, m and um are read; save it in millimetres";
+               " (space units), and mm, cm, m, um and inch are read; save it in millimetres";
     if (axes.sizes[0] * axes.sizes[1] * axes.sizes[2] > max_label_samples / axes.layers)
         return "has more samples than are read";
     const auto placed = [&](Vec3 v) {
