@@ -216,7 +216,8 @@ struct Axes {
     std::vector<std::size_t> sizes;  // of space
     std::vector<Vec3> directions;
     std::size_t layers = 1;
-    bool layers_come_first = true;  // each place has all layers, one after another
+    std::size_t before_layers = 1;  // samples of one layer that follow one another
+    bool layers_come_last = false;  // one whole layer after another
 };
 
 // Returns the problem as the end of a sentence, or nothing.
@@ -241,12 +242,11 @@ std::string read_axes(const Fields& fields, Axes& axes) {
         if (directions[i]) {
             axes.sizes.push_back(std::size_t(sizes[i]));
             axes.directions.push_back(*directions[i]);
-        } else if (i == 0 || i == 3) {
+        } else {
             axes.layers = std::size_t(sizes[i]);
-            axes.layers_come_first = i == 0;
-        } else if (sizes[i] > 1) {
-            return "has its layers between its axes of space (space directions), and they are read "
-                   "as the first or the last axis; save it so";
+            axes.layers_come_last = i == 3;
+            for (std::size_t k = 0; k < i; ++k)
+                axes.before_layers *= std::size_t(sizes[k]);
         }
     }
     std::istringstream kinds(lower(field(fields, "kinds")));
@@ -380,11 +380,12 @@ ParsedLabels parse_nrrd(ByteView file, std::size_t layer, ByteView data) {
         return other_content(bad_field(fields, "endian", "order of bytes (little, big)"));
     layout.big_endian = order == "big";
     layout.count = parsed.value.grid.size();
-    if (axes.layers_come_first) {
+    if (axes.layers_come_last) {
+        layout.skipped = layer * layout.count;
+    } else {
         layout.step = axes.layers;
         layout.first = layer;
-    } else {
-        layout.skipped = layer * layout.count;
+        layout.run = axes.before_layers;
     }
     ByteView content = data.empty() ? file.subspan(*begin) : data;
     const long lines = skipped(fields, "line skip", 0, parsed.problem);

@@ -82,7 +82,8 @@ bool LabelCollector::add(const std::byte* sample) {
 
 bool LabelCollector::add_value(double value) {
     const std::size_t at = at_++;
-    if (at < layout_.skipped || (at - layout_.skipped) % layout_.step != layout_.first)
+    if (at < layout_.skipped ||
+        (at - layout_.skipped) / layout_.run % layout_.step != layout_.first)
         return true;
     value = std::isnan(value) ? 0 : layout_.slope * value + layout_.intercept;
     constexpr double rounding = 1e-3;
