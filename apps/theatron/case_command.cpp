@@ -127,7 +127,7 @@ void add_import(CLI::App& group) {
     cases::ImportOptions& options = arguments->options;
     CLI::App* command = group.add_subcommand(
         "import",
-        "Makes a case of DICOM images, surfaces (STL, OBJ, PLY, GLB), label maps "
+        "Makes a case of DICOM images, surfaces (STL, OBJ, PLY, glTF), label maps "
         "(NIfTI, NRRD) and pictures (PNG, JPEG).");
     command->footer("Example: theatron case import patient-17 cases/patient-17 --name \"Case 17\"");
     command->add_option("SOURCE", arguments->source, "The folder, or one file")->required();
@@ -141,11 +141,11 @@ void add_import(CLI::App& group) {
                       "Leave out PNG and JPEG pictures");
     command
         ->add_option("--unit", arguments->unit,
-                     "Unit of surfaces: mm, cm or m; usually m in GLB, else mm")
+                     "Unit of surfaces: mm, cm or m; usually m in glTF, else mm")
         ->check(CLI::IsMember({"mm", "cm", "m"}));
     command
         ->add_option("--axes", arguments->axes,
-                     "Axes of surfaces: lps, ras or y_up; usually y_up in GLB, else lps or what "
+                     "Axes of surfaces: lps, ras or y_up; usually y_up in glTF, else lps or what "
                      "the file says")
         ->check(CLI::IsMember({"lps", "ras", "y_up"}));
     command

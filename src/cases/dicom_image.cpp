@@ -181,19 +181,27 @@ void read_padding(const DicomSet& set, bool is_signed, DicomSlice& slice) {
     slice.padding_high = high;
 }
 
-// Maps, masks and doses (PS3.4, B.5): their values mean nothing without other fields, as of a dose
-// its scaling and of a mask its segments.
-bool is_no_image_of_scanner(const DicomSet& set) {
-    const std::string kind_of_object = set.text(0x00080016);
-    for (const char* other : {"30", "66", "66.4", "66.7", "481.2"})
-        if (kind_of_object == std::string("1.2.840.10008.5.1.4.1.1.") + other)
-            return true;
-    const std::string modality = set.text(0x00080060);
-    return modality == "RTDOSE" || modality == "SEG";
+// Objects whose values mean nothing without other fields (PS3.4, B.5), as of a dose its scaling and
+// of a segmentation its segments; content for all others.
+Answer kind_of_object(const DicomSet& set) {
+    const std::string object = set.text(0x00080016), modality = set.text(0x00080060);
+    const auto is = [&](std::string_view end) {
+        return object == "1.2.840.10008.5.1.4.1.1." + std::string(end);
+    };
+    if (is("481.2") || modality == "RTDOSE")
+        return Answer::dose;
+    if (is("66.4") || is("66.5") || is("66.7") || is("481.3") || modality == "SEG" ||
+        modality == "RTSTRUCT")
+        return Answer::segmentation;
+    if (is("30"))
+        return Answer::map;
+    return is("66") ? Answer::no_image : Answer::content;  // 66: raw data
 }
 
 Answer kind_of(const DicomSet& set, const DicomImage& image) {
     constexpr DicomTag float_pixels = 0x7fe00008, double_pixels = 0x7fe00009;
+    if (const Answer other = kind_of_object(set); other != Answer::content)
+        return other;
     if (set.has(float_pixels) || set.has(double_pixels))
         return Answer::other_samples;
     if (set.is_cut_off() && !set.has(pixel_data_tag))
@@ -212,7 +220,7 @@ Answer kind_of(const DicomSet& set, const DicomImage& image) {
     if (set.integer(0x00280002, 1) != 1 || kind.starts_with("PALETTE") || kind.starts_with("RGB") ||
         kind.starts_with("YBR"))
         return Answer::color;
-    if ((image.bits.allocated != 8 && image.bits.allocated != 16) || is_no_image_of_scanner(set))
+    if (image.bits.allocated != 8 && image.bits.allocated != 16)
         return Answer::other_samples;
     if (image.columns > medical::max_volume_side || image.rows > medical::max_volume_side)
         return Answer::too_large;

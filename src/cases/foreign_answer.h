@@ -25,16 +25,23 @@ enum class Answer : std::uint8_t {
     color,          // not grey
     many_frames,    // several images in one file, without a place of each
     other_samples,  // of a kind that is no grey image's: bits, floating-point numbers
+    dose,           // of a radiation, as DICOM
+    map,            // of computed values, as DICOM
+    segmentation,   // masks or contours, as DICOM
     no_dicom,       // other content than the file's name says
     no_picture,     // the same
     no_mesh,        // the same
     no_triangles,   // points, lines, or nothing at all
     extension,      // of glTF, which is needed and not known; its name follows
     property,       // of glTF, whose value cannot be; its name follows
+    version,        // of glTF, which is not read; its number follows
     skin,           // of glTF, which would move the corners
-    other_buffer,   // of glTF, in another file
-    polygons,       // in a format of triangles
-    no_places,      // of the corners, but other properties
+    hidden,         // of glTF: all that it has
+    // A file beside a glTF file is needed; its name follows. The reader's input has its content
+    // when it is asked to go on.
+    other_buffer,
+    polygons,   // in a format of triangles
+    no_places,  // of the corners, but other properties
 };
 
 inline void answer(sandbox::Inside& inside, Answer what, std::size_t bytes = 0) {

@@ -27,6 +27,7 @@ inline constexpr std::size_t max_mesh_file_bytes = std::size_t(256) << 20;
 inline constexpr std::size_t max_picture_file_bytes = std::size_t(128) << 20;
 inline constexpr std::size_t max_reader_memory_bytes = std::size_t(2) << 30;
 inline constexpr std::size_t max_meshes_in_file = 1024;
+inline constexpr std::size_t max_buffers_of_file = 64;
 
 // A file that holds nothing that is imported, though nothing in it is damaged: a picture in colour
 // or a report beside the series, points instead of a surface, other content than its name says. It
@@ -40,6 +41,8 @@ public:
 private:
     std::string reason_;
 };
+
+class ExchangedFile;
 
 // Reads DICOM files, one after another, in one process.
 class DicomFiles {
@@ -55,8 +58,7 @@ public:
     const std::vector<Identifier>& identifiers() const { return identifiers_; }
 
 private:
-    class Input;
-    std::unique_ptr<Input> input_;
+    std::unique_ptr<ExchangedFile> input_;
     std::unique_ptr<sandbox::Child> child_;
     std::vector<Identifier> identifiers_;
 };
@@ -64,7 +66,7 @@ private:
 // True if the file begins as DICOM does, with a preamble (PS3.10) or without, or if its name ends
 // like a DICOM file's, packed (.dcm.gz) or not.
 bool is_dicom_file(const std::filesystem::path& file);
-// STL, OBJ, PLY, GLB, by the end of the name.
+// STL, OBJ, PLY, glTF (.glb, .gltf), by the end of the name.
 bool is_mesh_file(const std::filesystem::path& file);
 
 // PNG, JPEG, by the end of the name.
@@ -74,8 +76,13 @@ struct NamedMesh {
     std::string name;    // that the file gives it; may be empty
     medical::Mesh mesh;  // as in the file: not welded, no normals, the file's unit and axes
 };
+struct MeshFile {
+    std::vector<NamedMesh> meshes;              // at least one
+    std::vector<std::string> hidden;            // names of those that are hidden in it (glTF)
+    std::vector<std::filesystem::path> beside;  // files with its corners (glTF)
+};
 // All surfaces in a file. Throws NotForUs, or Error where the file is damaged.
-std::vector<NamedMesh> read_mesh_file(const std::filesystem::path& file);
+MeshFile read_mesh_file(const std::filesystem::path& file);
 
 // The picture in a file as medical/picture.h has it: upright, with sides that it allows. Throws
 // NotForUs, or Error where the file is damaged.

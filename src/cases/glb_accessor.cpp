@@ -10,54 +10,6 @@
 
 namespace theatron::cases::glb {
 
-const Json& no_list() {
-    static const Json none = Json::array();
-    return none;
-}
-
-const Json& list_of(const Json& object, const char* name) {
-    if (!object.is_object())
-        return no_list();
-    const auto found = object.find(name);
-    return found != object.end() && found->is_array() ? *found : no_list();
-}
-
-std::size_t whole_of(const Json& number) {
-    if (number.is_number_unsigned())
-        return number.get<std::size_t>();
-    constexpr double most = 1e15;
-    const double value = number.is_number_float() ? number.get<double>() : -1;
-    return value >= 0 && value <= most && value == std::floor(value) ? std::size_t(value)
-                                                                     : no_index;
-}
-
-std::optional<std::size_t> index_of(const Json& object, const char* name) {
-    if (!object.is_object())
-        return std::nullopt;
-    const auto found = object.find(name);
-    if (found == object.end() || found->is_null())
-        return std::nullopt;
-    return whole_of(*found);
-}
-
-std::string text_of(const Json& object, const char* name) {
-    if (!object.is_object())
-        return "";
-    const auto found = object.find(name);
-    return found != object.end() && found->is_string() ? found->get<std::string>() : "";
-}
-
-bool has_extension(const Json& object, const char* name) {
-    if (!object.is_object())
-        return false;
-    const auto all = object.find("extensions");
-    return all != object.end() && all->is_object() && all->contains(name);
-}
-
-const Json& extension_in(const Json& object, const char* name) {
-    return has_extension(object, name) ? object["extensions"][name] : no_list();
-}
-
 const Json& meshopt_in(const Json& view) {
     return extension_in(view, has_extension(view, meshopt) ? meshopt : meshopt_successor);
 }
@@ -194,16 +146,16 @@ Answer Accessors::find_view(const Json& holder, std::size_t needed, ByteView& by
 }
 
 // The place in the buffer that a view names; an object of the extension is as one.
-Answer Accessors::find_bytes(const Json& place, ByteView& bytes) const {
-    const std::size_t buffer = index_of(place, "buffer").value_or(0);
-    const Json& buffers = list_of(root_, "buffers");
-    if (buffer != 0 || (!buffers.empty() && buffers[0].contains("uri")))
-        return Answer::other_buffer;
+Answer Accessors::find_bytes(const Json& place, ByteView& bytes) {
+    ByteView buffer;
+    if (const Answer found = buffers_.find(index_of(place, "buffer").value_or(0), buffer);
+        found != Answer::content)
+        return found;
     const std::size_t begin = index_of(place, "byteOffset").value_or(0);
     const std::size_t length = index_of(place, "byteLength").value_or(0);
-    if (begin > buffer_.size() || length > buffer_.size() - begin)
+    if (begin > buffer.size() || length > buffer.size() - begin)
         return Answer::lacks;
-    bytes = buffer_.subspan(begin, length);
+    bytes = buffer.subspan(begin, length);
     return Answer::content;
 }
 

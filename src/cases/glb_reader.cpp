@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// glTF 2.0 in one file: https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html
+// glTF 2.0: https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html
 #include <algorithm>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "base/outside_text.h"
 #include "cases/glb_accessor.h"
+#include "cases/glb_buffers.h"
 #include "cases/glb_place.h"
 #include "cases/mesh_files.h"
 
@@ -27,19 +29,38 @@ bool is_harmless(const std::string& name) {
     return name == "KHR_mesh_quantization";
 }
 
+constexpr const char* visibility = "KHR_node_visibility";
+
 bool is_read(const std::string& name) {
     return is_harmless(name) || name == glb::draco || name == glb::meshopt ||
-           name == glb::meshopt_successor;
+           name == glb::meshopt_successor || name == visibility;
+}
+
+// The node and all below it.
+bool is_hidden(const Json& node) {
+    const Json& about = glb::extension_in(node, visibility);
+    const auto visible = about.is_object() ? about.find("visible") : about.end();
+    return about.is_object() && visible != about.end() && *visible == false;
+}
+
+// The version that a reader must know; empty where it knows it: 2.0, or 2.1 in a form that 2.0
+// reads. Files that say none are taken for it.
+std::string unknown_version(const Json& root) {
+    const auto asset = root.find("asset");
+    if (asset == root.end())
+        return "";
+    const std::string least = glb::text_of(*asset, "minVersion");
+    if (!least.empty() && least != "2.0" && !least.starts_with("1."))
+        return least;
+    const std::string version = glb::text_of(*asset, "version");
+    return version.empty() || version.starts_with("2.") ? "" : version;
 }
 
 class Scene {
 public:
-    Scene(const Json& root, ByteView buffer, const TakeMesh& take, std::string& extension,
+    Scene(const Json& root, glb::Buffers& buffers, const TakeMesh& take, std::string& said,
           glb::UnpackDraco unpack_draco)
-        : root_(root),
-          accessors_(root, buffer, extension, unpack_draco),
-          take_(take),
-          extension_(extension) {}
+        : root_(root), accessors_(root, buffers, said, unpack_draco), take_(take), said_(said) {}
 
     Answer walk() {
         const Json& nodes = glb::list_of(root_, "nodes");
@@ -48,10 +69,11 @@ public:
         visited_.resize(nodes.size());
         const Matrix here{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
         for (const std::size_t node : first_nodes(nodes)) {
-            if (const Answer sent = send(nodes, node, here, 0); sent != Answer::content)
+            if (const Answer sent = send(nodes, node, here, 0, false); sent != Answer::content)
                 return sent;
         }
-        return any_ ? Answer::end : Answer::no_triangles;
+        said_ = hidden_;
+        return any_ ? Answer::end : hidden_.empty() ? Answer::no_triangles : Answer::hidden;
     }
 
 private:
@@ -76,7 +98,7 @@ private:
         return first;
     }
 
-    Answer send(const Json& nodes, std::size_t at, const Matrix& parent, int depth) {
+    Answer send(const Json& nodes, std::size_t at, const Matrix& parent, int depth, bool hidden) {
         // Each node has one place in the tree.
         if (at >= nodes.size() || visited_[at] || depth > deepest_node)
             return Answer::unreadable;
@@ -84,36 +106,43 @@ private:
         const Json& node = nodes[at];
         Matrix local;
         if (const char* const impossible = glb::read_place(node, local)) {
-            extension_ = impossible;
+            said_ = impossible;
             return Answer::property;
         }
         if (glb::has_extension(node, "EXT_mesh_gpu_instancing")) {
-            extension_ = "EXT_mesh_gpu_instancing";
+            said_ = "EXT_mesh_gpu_instancing";
             return Answer::extension;
         }
         const Matrix place = glb::product(parent, local);
+        hidden = hidden || is_hidden(node);
         if (const auto mesh = glb::index_of(node, "mesh")) {
             const Json& meshes = glb::list_of(root_, "meshes");
             if (*mesh >= meshes.size())
                 return Answer::unreadable;
-            if (node.contains("skin"))
+            if (hidden)
+                hidden_ += clean_text(name_of(node, meshes[*mesh]), 64) + "\n";
+            else if (node.contains("skin"))
                 return Answer::skin;
-            if (const Answer sent = send_mesh(node, meshes[*mesh], place); sent != Answer::content)
+            else if (const Answer sent = send_mesh(node, meshes[*mesh], place);
+                     sent != Answer::content)
                 return sent;
         }
         for (const Json& child : glb::list_of(node, "children")) {
-            if (const Answer sent = send(nodes, glb::whole_of(child), place, depth + 1);
+            if (const Answer sent = send(nodes, glb::whole_of(child), place, depth + 1, hidden);
                 sent != Answer::content)
                 return sent;
         }
         return Answer::content;
     }
 
+    static std::string name_of(const Json& node, const Json& mesh) {
+        const std::string name = glb::text_of(node, "name");
+        return name.empty() ? glb::text_of(mesh, "name") : name;
+    }
+
     Answer send_mesh(const Json& node, const Json& mesh, const Matrix& place) {
         NamedMesh named;
-        named.name = glb::text_of(node, "name");
-        if (named.name.empty())
-            named.name = glb::text_of(mesh, "name");
+        named.name = name_of(node, mesh);
         const Json& weights = glb::list_of(node.contains("weights") ? node : mesh, "weights");
         for (const Json& primitive : glb::list_of(mesh, "primitives"))
             if (const Answer added = add(primitive, weights, place, named.mesh);
@@ -142,7 +171,7 @@ private:
         const Json& targets = glb::list_of(primitive, "targets");
         for (std::size_t i = 0; i < std::min(targets.size(), weights.size()); ++i) {
             if (!weights[i].is_number()) {
-                extension_ = "weights";
+                said_ = "weights";
                 return Answer::property;
             }
             const auto weight = weights[i].get<double>();
@@ -168,7 +197,7 @@ private:
         if (mode < triangles)
             return Answer::content;  // points and lines
         if (mode > fan) {
-            extension_ = "mode";
+            said_ = "mode";
             return Answer::property;
         }
         const Json& attributes =
@@ -217,22 +246,25 @@ private:
     const Json& root_;
     glb::Accessors accessors_;
     const TakeMesh& take_;
-    std::string& extension_;
+    std::string& said_;
+    std::string hidden_;  // names of the meshes that are not shown, one a line
     std::vector<bool> visited_;
     bool any_ = false;
 };
 
-}  // namespace
-
-Answer read_glb(ByteView file, const TakeMesh& take, std::string& extension,
-                glb::UnpackDraco unpack_draco) {
+// The JSON and the buffer in a file of one piece (GLB).
+Answer find_chunks(ByteView file, ByteView& json, ByteView& buffer, std::string& said) {
     constexpr std::size_t header_bytes = 12, chunk_head = 8;
-    if (file.size() < header_bytes || std::memcmp(file.data(), "glTF", 4) != 0)
+    if (file.size() < header_bytes)
         return Answer::no_mesh;
-    if (load_le<std::uint32_t>(file.data() + 4) != 2)
-        return Answer::no_mesh;
+    constexpr std::uint32_t largest_version = 9;  // beyond it are other bytes
+    if (const auto version = load_le<std::uint32_t>(file.data() + 4); version != 2) {
+        if (version == 0 || version > largest_version)
+            return Answer::no_mesh;
+        said = std::to_string(version);
+        return Answer::version;
+    }
     constexpr std::uint32_t json_kind = 0x4e4f534a, buffer_kind = 0x004e4942;
-    ByteView json, buffer;
     std::size_t at = header_bytes;
     while (file.size() - at >= chunk_head) {
         const std::size_t size = load_le<std::uint32_t>(file.data() + at);
@@ -246,16 +278,38 @@ Answer read_glb(ByteView file, const TakeMesh& take, std::string& extension,
             buffer = file.subspan(at, size);
         at += size;
     }
+    return Answer::content;
+}
+
+}  // namespace
+
+Answer read_gltf(ByteView file, const TakeMesh& take, std::string& said,
+                 const glb::FindBeside& find_beside, glb::UnpackDraco unpack_draco) {
+    ByteView json = file, buffer;
+    const bool is_binary = file.size() >= 4 && std::memcmp(file.data(), "glTF", 4) == 0;
+    if (is_binary) {
+        json = {};
+        if (const Answer found = find_chunks(file, json, buffer, said); found != Answer::content)
+            return found;
+    }
     const char* text = reinterpret_cast<const char*>(json.data());
+    const std::string_view begin(text, std::min<std::size_t>(json.size(), 64));
+    const std::size_t first = begin.find_first_not_of(" \t\r\n\xef\xbb\xbf");
+    if (!is_binary && (first == begin.npos || begin[first] != '{'))
+        return Answer::no_mesh;
     const Json root = Json::parse(text, text + json.size(), nullptr, false);
     if (!root.is_object())
         return Answer::unreadable;
+    said = clean_text(unknown_version(root), 20);
+    if (!said.empty())
+        return Answer::version;
     for (const Json& name : glb::list_of(root, "extensionsRequired"))
         if (name.is_string() && !is_read(name.get<std::string>())) {
-            extension = name.get<std::string>();
+            said = name.get<std::string>();
             return Answer::extension;
         }
-    return Scene(root, buffer, take, extension, unpack_draco).walk();
+    glb::Buffers buffers(root, buffer, find_beside, said);
+    return Scene(root, buffers, take, said, unpack_draco).walk();
 }
 
 }  // namespace theatron::cases

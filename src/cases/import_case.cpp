@@ -57,22 +57,30 @@ void require_labels(const ImportOptions& options, const std::set<int>& found) {
                         " in the source, though --label names it.");
 }
 
+std::string remark_on_label_maps(const std::vector<fs::path>& files) {
+    const bool is_one = files.size() == 1;
+    return "The source has surfaces, so " +
+           (is_one ? quoted_path(files[0]) + " is" : std::to_string(files.size()) + " files are") +
+           " not used" + (is_one ? "" : ": " + first_names(files)) +
+           "; with --from-labels parts are made of " + (is_one ? "its" : "their") +
+           " labels, and not of the surfaces.";
+}
+
 std::vector<ImportedPart> parts_of(const SourceFiles& files, const std::optional<Case>& manifest,
                                    const ImportOptions& options, LeftOut& left_out,
-                                   std::vector<std::string>& remarks, const Progress& progress) {
+                                   std::set<fs::path>& beside, std::vector<std::string>& remarks,
+                                   const Progress& progress) {
     const bool from_labels = options.surfaces_from_labels || files.meshes.empty();
     if (options.surfaces_from_labels && files.label_maps.empty())
         throw Error("The source holds no label map (NIfTI, NRRD) to make surfaces of.");
     if (!from_labels) {
         if (!files.label_maps.empty())
-            remarks.push_back(
-                "The source has surfaces, so its label map is not used; use it with "
-                "--from-labels.");
+            remarks.push_back(remark_on_label_maps(files.label_maps));
         if (!options.labels.empty())
             throw Error(
                 "--label names labels of a label map, which is not used here; give "
                 "--from-labels, too.");
-        return import_meshes(files.meshes, manifest, options, left_out, remarks, progress);
+        return import_meshes(files.meshes, manifest, options, left_out, beside, remarks, progress);
     }
     std::vector<ImportedPart> parts;
     std::set<int> found;
@@ -131,16 +139,23 @@ void remark_on_places(const std::vector<ImportedPart>& parts,
     }
 }
 
-// No file is left out without a word.
-void remark_on_others(const SourceFiles& files, std::vector<std::string>& remarks) {
-    std::set<fs::path> read;
+// No file is left out without a word. `read`: those that were read with others.
+void remark_on_others(const SourceFiles& files, std::set<fs::path> read,
+                      std::vector<std::string>& remarks) {
     for (const fs::path& file : files.label_maps)
         if (const std::optional<fs::path> samples = sample_file_of(file))
             read.insert(*samples);
     std::vector<fs::path> unread;
-    for (const fs::path& file : files.others)
-        if (file.filename() != manifest_name && !read.contains(file))
+    LeftOut known;
+    for (const fs::path& file : files.others) {
+        if (file.filename() == manifest_name || read.contains(file))
+            continue;
+        if (const char* const reason = reason_of_other_kind(file))
+            known.add(file, reason);
+        else
             unread.push_back(file);
+    }
+    known.append_to(remarks);
     if (files.links > 0)
         remarks.push_back("Links in the source are not followed, so what they lead to (" +
                           std::to_string(files.links) + ") is left out.");
@@ -176,8 +191,9 @@ ImportReport import_case(const fs::path& source, const fs::path& folder,
     ImportReport report;
     const std::optional<Case> manifest = manifest_of(files);
     LeftOut left_out;
+    std::set<fs::path> beside;
     std::vector<ImportedPart> parts =
-        parts_of(files, manifest, options, left_out, report.remarks, progress);
+        parts_of(files, manifest, options, left_out, beside, report.remarks, progress);
     if (!manifest)
         make_regions_translucent(parts);
     std::set<Identifier> identifiers;
@@ -256,7 +272,7 @@ ImportReport import_case(const fs::path& source, const fs::path& folder,
     write_identifiers(target.path(), all_series);
     files::write_file(target.path() / manifest_name, as_bytes(manifest_text(result)));
     progress("Writing", 1);
-    remark_on_others(files, report.remarks);
+    remark_on_others(files, std::move(beside), report.remarks);
     target.keep();
     return report;
 }

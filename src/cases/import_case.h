@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Makes a case (case_folder.h) out of the files of surgeons' programs: folders with DICOM images,
-// surfaces (STL, OBJ, PLY, GLB), label maps (NIfTI, NRRD) and pictures (PNG, JPEG).
+// surfaces (STL, OBJ, PLY, glTF), label maps (NIfTI, NRRD) and pictures (PNG, JPEG).
 //
 // The source is not changed. Large libraries read it in processes of their own. Texts that identify
 // the patient go into a separate file that only this user can read.

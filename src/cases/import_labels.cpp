@@ -41,7 +41,7 @@ bool add_parts(const LabelMap& map, const fs::path& file, const ImportOptions& o
     if (looks_like_an_image(map))
         throw NotForUs(file,
                        "is an image and no label map: its values change from sample to "
-                       "sample; images are read as DICOM");
+                       "sample; add it as DICOM, as which alone images are read");
     if (labels.size() > max_parts)
         throw NotForUs(file, "has more than " + std::to_string(max_parts) +
                                  " labels; save those that matter as a label map of their own");
@@ -137,7 +137,7 @@ std::vector<ImportedPart> import_labels(const fs::path& file, const ImportOption
                             parts, remarks, progress) ||
                   any;
         if (!any)
-            throw NotForUs(file, "has no labels but 0");
+            throw NotForUs(file, "marks nothing: there are no labels but 0");
     } catch (const NotForUs& error) {
         left_out.add(file, error.reason());
         return {};

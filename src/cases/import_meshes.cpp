@@ -45,7 +45,7 @@ bool says_ras(const fs::path& file) {
 Frame frame_of(const fs::path& file, const std::optional<Case>& manifest,
                const ImportOptions& options) {
     Frame frame;
-    if (extension_of(file) == ".glb")
+    if (const std::string end = extension_of(file); end == ".glb" || end == ".gltf")
         frame = {Unit::m, Axes::y_up};
     else if (says_ras(file))
         frame.axes = Axes::ras;
@@ -114,6 +114,18 @@ void add_part(const fs::path& file, Part part, Mesh mesh, const ImportOptions& o
     parts.push_back({std::move(part), std::move(mesh)});
 }
 
+// Surfaces that the program that wrote the file does not show are not shown here, either.
+void remark_on_hidden(const fs::path& file, const std::vector<std::string>& names,
+                      std::vector<std::string>& remarks) {
+    if (names.empty())
+        return;
+    const std::vector<fs::path> shown(names.begin(), names.end());
+    remarks.push_back(first_names(shown) + (names.size() == 1 ? " is" : " are") + " hidden in " +
+                      quoted_path(file) +
+                      " and left out; show what you need there and export it "
+                      "again.");
+}
+
 }  // namespace
 
 Part usual_part(const std::string& name) {
@@ -144,6 +156,7 @@ void remark_on_size(const std::vector<ImportedPart>& parts, std::vector<std::str
 std::vector<ImportedPart> import_meshes(const std::vector<fs::path>& files,
                                         const std::optional<Case>& manifest,
                                         const ImportOptions& options, LeftOut& left_out,
+                                        std::set<fs::path>& beside,
                                         std::vector<std::string>& remarks,
                                         const Progress& progress) {
     if (files.size() > max_parts)
@@ -154,14 +167,16 @@ std::vector<ImportedPart> import_meshes(const std::vector<fs::path>& files,
     for (std::size_t i = 0; i < files.size(); ++i) {
         progress("Reading surfaces", double(i) / double(files.size()));
         const Frame frame = frame_of(files[i], manifest, options);
-        std::vector<NamedMesh> meshes;
+        MeshFile file;
         try {
-            meshes = read_mesh_file(files[i]);
+            file = read_mesh_file(files[i]);
         } catch (const NotForUs& error) {
             left_out.add(files[i], error.reason());
         }
-        for (NamedMesh& named : meshes) {
-            const bool alone = meshes.size() == 1 || named.name.empty();
+        beside.insert(file.beside.begin(), file.beside.end());
+        remark_on_hidden(files[i], file.hidden, remarks);
+        for (NamedMesh& named : file.meshes) {
+            const bool alone = file.meshes.size() == 1 || named.name.empty();
             Part part = usual_part(alone ? files[i].stem().string() : named.name);
             if (const Part* known = named_in(manifest, files[i]); known && alone)
                 part = *known;

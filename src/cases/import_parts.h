@@ -38,9 +38,11 @@ struct ImportedPart {
 };
 
 // `manifest`: the parts as a case.json in the source describes them; without one, defaults apply.
+// `beside` gets the files that hold corners of others.
 std::vector<ImportedPart> import_meshes(const std::vector<std::filesystem::path>& files,
                                         const std::optional<medical::Case>& manifest,
                                         const ImportOptions& options, LeftOut& left_out,
+                                        std::set<std::filesystem::path>& beside,
                                         std::vector<std::string>& remarks,
                                         const Progress& progress);
 // None where the file is no label map, but an image for example. Adds the values of the labels to

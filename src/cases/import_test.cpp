@@ -105,7 +105,8 @@ TEST_F(Import, AnEmptyLabelMapIsNamed) {
         << "NRRD0004\ntype: uchar\ndimension: 3\nspace: left-posterior-superior\nsizes: 2 2 2\n"
            "space directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\nencoding: raw\n\n"
         << std::string(8, '\0');
-    EXPECT_THAT(refusal(), HasSubstr("empty.nrrd' is left out: it has no labels but 0"));
+    EXPECT_THAT(refusal(),
+                HasSubstr("empty.nrrd' is left out: it marks nothing: there are no labels but 0"));
 }
 
 TEST_F(Import, AFolderThatIsThereStaysAsItIs) {

@@ -216,8 +216,9 @@ TEST(Nrrd, UnitsBecomeMillimetresOrAreNamed) {
     };
     EXPECT_EQ(read("\"cm\" \"cm\" \"cm\"").value.grid.origin_mm, (Vec3{-100, 200, -300}));
     EXPECT_EQ(read("\"m\" \"m\" \"m\"").value.grid.slice_step_mm, (Vec3{0, 0, 2000}));
-    const ParsedLabels other = read("\"inch\" \"inch\" \"inch\"");
-    EXPECT_THAT(other.problem, HasSubstr("inch"));
+    EXPECT_EQ(read("\"inch\" \"inch\" \"inch\"").value.grid.slice_step_mm, (Vec3{0, 0, 50.8}));
+    const ParsedLabels other = read("\"pixel\" \"pixel\" \"pixel\"");
+    EXPECT_THAT(other.problem, HasSubstr("pixel"));
     EXPECT_TRUE(other.is_other_content);
 }
 

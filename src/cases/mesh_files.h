@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Surfaces out of the bytes of STL, PLY and GLB files. Pure, safe for any bytes, bounded by them;
+// Surfaces out of the bytes of STL, PLY and glTF files. Pure, safe for any bytes, bounded by them;
 // nothing throws but std::bad_alloc. They run in the process that reads foreign files.
 //
 // Each hands over its meshes one after another; `take` returns false to stop. The answer is
@@ -11,6 +11,7 @@
 #include "base/bytes.h"
 #include "cases/foreign_answer.h"
 #include "cases/foreign_files.h"
+#include "cases/glb_buffers.h"
 #include "cases/glb_packed.h"
 
 namespace theatron::cases {
@@ -24,11 +25,16 @@ Answer read_stl(ByteView file, const TakeMesh& take);
 // Text or binary in either order of bytes; elements in any order; polygons and strips of triangles.
 Answer read_ply(ByteView file, const TakeMesh& take);
 
-// glTF 2.0 in one file; positions as floating-point numbers or quantized, also packed with
-// meshoptimizer. The meshes of one node are one. `extension` names the one that the file needs and
-// that is not known, with Answer::extension, or a property, with Answer::property; Draco is one of
-// them unless `unpack_draco` is given (glb_packed.h), which makes this as safe as that library is.
-Answer read_glb(ByteView file, const TakeMesh& take, std::string& extension,
-                glb::UnpackDraco unpack_draco = nullptr);
+// glTF 2.0, in one piece (GLB) or as JSON with its buffers within it or beside it; positions as
+// floating-point numbers or quantized, also packed with meshoptimizer. The meshes of one node are
+// one; hidden ones (KHR_node_visibility) are left out.
+//
+// `said` is what the answer speaks of: an extension, a property, a version, the name of a file
+// that is needed (other_buffer), or with end and hidden the names of hidden meshes, one a line.
+// `find_beside` may be empty: then each file beside is one that is not there. Draco is an extension
+// that is not known unless `unpack_draco` is given (glb_packed.h), which makes this as safe as that
+// library is.
+Answer read_gltf(ByteView file, const TakeMesh& take, std::string& said,
+                 const glb::FindBeside& find_beside = {}, glb::UnpackDraco unpack_draco = nullptr);
 
 }  // namespace theatron::cases

@@ -32,7 +32,7 @@ Found read(const std::string& file, Read reader) {
 Found read_glb_text(const std::string& file) {
     std::string extension;
     Found found = read(file, [&](ByteView bytes, const TakeMesh& take) {
-        return read_glb(bytes, take, extension);
+        return read_gltf(bytes, take, extension);
     });
     found.extension = extension;
     return found;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads STL, PLY and GLB with readers of our own (mesh_files.h), packed corners of GLB with Draco
+// Reads STL, PLY and glTF with readers of our own (mesh_files.h), packed corners of glTF with Draco
 // and meshoptimizer, OBJ with assimp. Runs in a sandbox, because the libraries are large and the
 // files are untrusted.
 #include <assimp/importerdesc.h>
@@ -236,7 +236,13 @@ void serve_meshes(sandbox::Inside& inside) {
     const std::string extension(reinterpret_cast<const char*>(request->data()), request->size());
     Sender sender(inside);
     const TakeMesh take = [&](const NamedMesh& named) { return sender.send(named); };
-    std::string needed;
+    std::string said;
+    const glb::FindBeside find_beside = [&](const std::string& name) -> std::optional<Bytes> {
+        answer(inside, Answer::other_buffer, as_bytes(name));
+        if (!inside.receive())
+            return std::nullopt;
+        return bytes_of(inside, max_mesh_file_bytes);
+    };
     Answer result = Answer::no_mesh;
     if (extension == "obj") {
         result = read_obj(inside.input(), sender);
@@ -246,11 +252,11 @@ void serve_meshes(sandbox::Inside& inside) {
             result = read_stl(file, take);
         else if (extension == "ply")
             result = read_ply(file, take);
-        else if (extension == "glb")
-            result = read_glb(file, take, needed, glb::unpack_draco);
+        else
+            result = read_gltf(file, take, said, find_beside, glb::unpack_draco);
     }
     if (sender.wanted())
-        answer(inside, result, as_bytes(needed));
+        answer(inside, result, as_bytes(said));
     while (inside.receive()) {
     }
 }

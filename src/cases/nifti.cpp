@@ -272,16 +272,31 @@ std::vector<LabelName> names_in(ByteView behind_header) {
     return names;
 }
 
+// Packed files are known by their first bytes, whatever their names say.
+std::optional<Packing> packing_of(ByteView file) {
+    const auto begins = [&](std::string_view bytes, std::size_t at = 0) {
+        return file.size() >= at + bytes.size() &&
+               std::memcmp(file.data() + at, bytes.data(), bytes.size()) == 0;
+    };
+    if (begins("\x1f\x8b"))
+        return Packing::gzip;
+    // Behind its digit is the first block.
+    if (begins("BZh") && begins("\x31\x41\x59\x26", 4))
+        return Packing::bzip2;
+    return std::nullopt;
+}
+
 // The first `size` bytes of the content; fewer where it has fewer.
-Bytes first_bytes(ByteView file, bool packed, std::size_t size) {
-    if (!packed) {
+Bytes first_bytes(ByteView file, std::size_t size) {
+    const std::optional<Packing> packing = packing_of(file);
+    if (!packing) {
         const ByteView head = file.first(std::min(size, file.size()));
         return {head.begin(), head.end()};
     }
     Bytes head;
     bool damaged = false;
     unpack(
-        file, Packing::gzip, size,
+        file, *packing, size,
         [&](ByteView piece) {
             head.insert(head.end(), piece.begin(), piece.end());
             return true;
@@ -292,20 +307,16 @@ Bytes first_bytes(ByteView file, bool packed, std::size_t size) {
 
 // The bytes of the longer of both headers, zeros where the file has fewer; empty if it is too short
 // for either.
-Bytes head_of(ByteView file, bool packed) {
-    Bytes head = first_bytes(file, packed, header_size_2);
+Bytes head_of(ByteView file) {
+    Bytes head = first_bytes(file, header_size_2);
     head.resize(head.size() < header_size ? 0 : header_size_2);
     return head;
-}
-
-bool is_packed(ByteView file) {
-    return file.size() > 2 && file[0] == std::byte(0x1f) && file[1] == std::byte(0x8b);
 }
 
 }  // namespace
 
 bool is_nifti_head(ByteView file) {
-    const Bytes head = head_of(file, is_packed(file));
+    const Bytes head = head_of(file);
     if (head.empty())
         return false;
     const Header header(head);
@@ -313,8 +324,7 @@ bool is_nifti_head(ByteView file) {
 }
 
 ParsedLabels parse_nifti(ByteView file, ByteView samples) {
-    const bool packed = is_packed(file);
-    const Bytes head = head_of(file, packed);
+    const Bytes head = head_of(file);
     if (head.empty())
         return {{}, "is no NIfTI file, or cut off"};
     const Header header(head);
@@ -353,12 +363,10 @@ ParsedLabels parse_nifti(ByteView file, ByteView samples) {
     layout.big_endian = header.big_endian();
     layout.count = parsed.value.grid.size();
     layout.skipped_bytes = std::size_t(offset);
-    const Bytes before = first_bytes(file, packed, apart ? max_offset : layout.skipped_bytes);
+    const Bytes before = first_bytes(file, apart ? max_offset : layout.skipped_bytes);
     parsed.value.names = names_in(ByteView(before).subspan(std::min(header.size(), before.size())));
     const ByteView content = apart ? samples : file;
-    ReadSamples read =
-        read_labels(content, is_packed(content) ? std::optional(Packing::gzip) : std::nullopt,
-                    layout, parsed.value.labels);
+    ReadSamples read = read_labels(content, packing_of(content), layout, parsed.value.labels);
     parsed.problem = std::move(read.problem);
     parsed.is_other_content = read.is_other_content;
     return parsed;

@@ -166,6 +166,8 @@ std::optional<Vec3> millimetres(const std::string& units) {
             found.push_back(1000);
         else if (unit == "um" || unit == "\xc2\xb5m" || unit == "micrometer")
             found.push_back(0.001);
+        else if (unit == "in" || unit == "inch" || unit == "inches")
+            found.push_back(25.4);
         else
             return std::nullopt;
     }
@@ -214,7 +216,8 @@ struct Axes {
     std::vector<std::size_t> sizes;  // of space
     std::vector<Vec3> directions;
     std::size_t layers = 1;
-    bool layers_come_first = true;  // each place has all layers, one after another
+    std::size_t before_layers = 1;  // samples of one layer that follow one another
+    bool layers_come_last = false;  // one whole layer after another
 };
 
 // Returns the problem as the end of a sentence, or nothing.
@@ -239,12 +242,11 @@ std::string read_axes(const Fields& fields, Axes& axes) {
         if (directions[i]) {
             axes.sizes.push_back(std::size_t(sizes[i]));
             axes.directions.push_back(*directions[i]);
-        } else if (i == 0 || i == 3) {
+        } else {
             axes.layers = std::size_t(sizes[i]);
-            axes.layers_come_first = i == 0;
-        } else if (sizes[i] > 1) {
-            return "has its layers between its axes of space (space directions), and they are read "
-                   "as the first or the last axis; save it so";
+            axes.layers_come_last = i == 3;
+            for (std::size_t k = 0; k < i; ++k)
+                axes.before_layers *= std::size_t(sizes[k]);
         }
     }
     std::istringstream kinds(lower(field(fields, "kinds")));
@@ -272,7 +274,7 @@ std::string read_grid(const Fields& fields, const Axes& axes, medical::VolumeGri
     const std::optional<Vec3> mm = millimetres(units);
     if (!mm)
         return "has the unit " + clean_text(units, 40) +
-               " (space units), and mm, cm, m and um are read; save it in millimetres";
+               " (space units), and mm, cm, m, um and inch are read; save it in millimetres";
     if (axes.sizes[0] * axes.sizes[1] * axes.sizes[2] > max_label_samples / axes.layers)
         return "has more samples than are read";
     const auto placed = [&](Vec3 v) {
@@ -378,11 +380,12 @@ ParsedLabels parse_nrrd(ByteView file, std::size_t layer, ByteView data) {
         return other_content(bad_field(fields, "endian", "order of bytes (little, big)"));
     layout.big_endian = order == "big";
     layout.count = parsed.value.grid.size();
-    if (axes.layers_come_first) {
+    if (axes.layers_come_last) {
+        layout.skipped = layer * layout.count;
+    } else {
         layout.step = axes.layers;
         layout.first = layer;
-    } else {
-        layout.skipped = layer * layout.count;
+        layout.run = axes.before_layers;
     }
     ByteView content = data.empty() ? file.subspan(*begin) : data;
     const long lines = skipped(fields, "line skip", 0, parsed.problem);

@@ -82,7 +82,8 @@ bool LabelCollector::add(const std::byte* sample) {
 
 bool LabelCollector::add_value(double value) {
     const std::size_t at = at_++;
-    if (at < layout_.skipped || (at - layout_.skipped) % layout_.step != layout_.first)
+    if (at < layout_.skipped ||
+        (at - layout_.skipped) / layout_.run % layout_.step != layout_.first)
         return true;
     value = std::isnan(value) ? 0 : layout_.slope * value + layout_.intercept;
     constexpr double rounding = 1e-3;
@@ -97,7 +98,10 @@ namespace {
 
 ReadSamples result_of(bool is_good, std::size_t found, std::size_t wanted, bool damaged) {
     if (!is_good)
-        return {"holds values that are no labels: images are read as DICOM", true};
+        return {
+            "holds values that are no labels; if it is an image, add it as DICOM, as which alone "
+            "images are read",
+            true};
     if (damaged)
         return {"is damaged or cut off"};
     if (found < wanted)

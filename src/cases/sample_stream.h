@@ -21,8 +21,9 @@ struct SampleLayout {
     bool big_endian = false;
     double slope = 1, intercept = 0;  // a label is slope * sample + intercept
     std::size_t skipped_bytes = 0;    // before the first sample, after unpacking
-    // One of every `step` samples is taken, that numbered `first`; `skipped` ones come before.
-    std::size_t first = 0, step = 1, skipped = 0;
+    // One of every `step` runs of `run` samples is taken, that numbered `first`; `skipped` samples
+    // come before.
+    std::size_t first = 0, step = 1, run = 1, skipped = 0;
     std::size_t count = 0;  // samples that are taken
 
     std::size_t bytes() const { return skipped_bytes + (skipped + count * step) * size_of(type); }

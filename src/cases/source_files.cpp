@@ -2,6 +2,7 @@
 #include "cases/source_files.h"
 
 #include <algorithm>
+#include <span>
 
 #include "base/error.h"
 #include "cases/case_folder.h"
@@ -82,7 +83,8 @@ std::vector<fs::path> files_below(const fs::path& folder, std::size_t& links) {
 }  // namespace
 
 bool is_nifti_file(const fs::path& file) {
-    return ends_with(file, ".nii") || ends_with(file, ".nii.gz") || is_nifti_head_file(file);
+    return ends_with(file, ".nii") || ends_with(file, ".nii.gz") || ends_with(file, ".nii.bz2") ||
+           is_nifti_head_file(file);
 }
 
 bool is_nifti_head_file(const fs::path& file) {
@@ -95,6 +97,30 @@ bool is_nifti_head_file(const fs::path& file) {
 
 bool is_nrrd_file(const fs::path& file) {
     return ends_with(file, ".nrrd") || ends_with(file, ".nhdr");
+}
+
+const char* reason_of_other_kind(const fs::path& file) {
+    constexpr std::string_view archives[] = {".zip", ".7z", ".rar", ".tar", ".tgz", ".gz",
+                                             ".bz2", ".xz", ".zst", ".iso", ".mrb"};
+    constexpr std::string_view surfaces[] = {".vtk", ".vtp", ".vtu",   ".3mf", ".fbx",  ".dae",
+                                             ".off", ".wrl", ".blend", ".x3d", ".step", ".stp"};
+    constexpr std::string_view label_maps[] = {".mha", ".mhd", ".mgz", ".mgh", ".mnc", ".nia"};
+    constexpr std::string_view pictures[] = {".pdf",  ".tif", ".tiff", ".bmp",
+                                             ".heic", ".gif", ".webp", ".svg"};
+    const auto is_any = [&](std::span<const std::string_view> ends) {
+        return !is_of_finder(file) &&
+               std::any_of(ends.begin(), ends.end(),
+                           [&](std::string_view end) { return ends_with(file, end); });
+    };
+    if (is_any(archives))
+        return "is an archive, which is not opened; unpack it and import its folder";
+    if (is_any(surfaces))
+        return "may hold a surface in a format that is not read; save it as STL, OBJ, PLY or glTF";
+    if (is_any(label_maps))
+        return "may hold a label map in a format that is not read; save it as NIfTI or NRRD";
+    if (is_any(pictures))
+        return "may hold pictures in a format that is not read; save what matters as PNG or JPEG";
+    return nullptr;
 }
 
 SourceFiles find_source_files(const fs::path& source) {
@@ -118,8 +144,8 @@ SourceFiles find_source_files(const fs::path& source) {
                         " is a finished case already; a session offers it if it lies in the "
                         "folder of 'theatron host --cases'.");
         throw Error(name +
-                    " holds neither DICOM images nor surfaces (STL, OBJ, PLY, GLB) nor label "
-                    "maps (NIfTI, NRRD) nor pictures (PNG, JPEG)" +
+                    " holds neither DICOM images nor surfaces (STL, OBJ, PLY, GLB, glTF) nor "
+                    "label maps (NIfTI, NRRD) nor pictures (PNG, JPEG)" +
                     (files.others.empty() ? "" : ", but " + first_names(files.others)) +
                     (files.links > 0 ? "; links in it are not followed." : "."));
     }

@@ -26,4 +26,8 @@ bool is_nifti_file(const std::filesystem::path& file);
 bool is_nifti_head_file(const std::filesystem::path& file);
 bool is_nrrd_file(const std::filesystem::path& file);
 
+// The end of a sentence on a file of a kind that is not read: what it may hold, by its name, and
+// what to do, as in "is an archive, ...". Null where nothing is known.
+const char* reason_of_other_kind(const std::filesystem::path& file);
+
 }  // namespace theatron::cases

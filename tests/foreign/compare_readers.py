@@ -7,11 +7,16 @@
 
 Another reader counts as reading an input if it gives pixels, samples or triangles of all files of its kind, whatever
 their values are; the right values are known for Theatron alone. Readers that are not installed are left out, and named.
+Videos, recordings and folders of pictures (video_inputs.py) are recorded, and compared with what FFmpeg shows.
+
+With --values FOLDER, each folder in that one is an input of which nothing is known: the table has values, boxes and volumes
+(values.py) as Theatron has them and as the other readers do.
 """
 
 import argparse
 import collections
 import importlib.util
+import json
 import os
 import pathlib
 import shutil
@@ -22,11 +27,15 @@ import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import foreign_test  # noqa: E402
+import values  # noqa: E402
+import video_inputs  # noqa: E402
 from expected import problem  # noqa: E402
 
 LONGEST = 10  # seconds for a reader and an input
 KINDS = (("DICOM", ("dicom",)), ("NIfTI", ("nifti",)), ("NRRD", ("nrrd",)), ("STL", ("stl",)), ("PLY", ("ply",)),
-         ("GLB", ("glb",)), ("OBJ", ("obj",)))
+         ("glTF", ("glb", "gltf")), ("OBJ", ("obj",)))
+PLAYED = (("videos", video_inputs.videos, "video:%s"), ("recordings", video_inputs.recordings, "mkv:%s"),
+          ("camera folders", video_inputs.folders, "folder:%s,fps=60"))
 
 
 def gdcm_reads(path):
@@ -85,7 +94,7 @@ def assimp_reads(path):
 READERS = (("gdcm", gdcm_reads, "gdcm", ("DICOM",)), ("dcmtk", dcmtk_reads, "dcm2pnm", ("DICOM",)),
            ("dcm2niix", dcm2niix_reads, "dcm2niix", ("DICOM",)),
            ("nibabel", nibabel_reads, "nibabel", ("NIfTI",)), ("vtk", vtk_reads, "vtkmodules", ("NIfTI", "NRRD", "STL", "PLY", "OBJ")),
-           ("meshio", meshio_reads, "meshio", ("STL", "PLY", "OBJ")), ("assimp", assimp_reads, "assimp", ("STL", "PLY", "GLB", "OBJ")))
+           ("meshio", meshio_reads, "meshio", ("STL", "PLY", "OBJ")), ("assimp", assimp_reads, "assimp", ("STL", "PLY", "glTF", "OBJ")))
 
 
 def is_there(what):
@@ -113,8 +122,8 @@ def kind_of(name):
 
 
 def files_of(kind, folder):
-    endings = {"NIfTI": (".nii", ".gz"), "NRRD": (".nrrd", ".nhdr"), "STL": (".stl",), "PLY": (".ply",), "GLB": (".glb",),
-               "OBJ": (".obj",)}.get(kind)
+    endings = {"NIfTI": (".nii", ".gz", ".bz2"), "NRRD": (".nrrd", ".nhdr"), "STL": (".stl",), "PLY": (".ply",),
+               "glTF": (".glb", ".gltf"), "OBJ": (".obj",)}.get(kind)
     for path in sorted(folder.rglob("*")):
         if path.is_file() and (endings is None or path.suffix.lower() in endings):
             yield path
@@ -129,12 +138,94 @@ def outcome(one, folder, program):
     return ("right", "") if done.returncode == 0 else ("refused", text.strip())
 
 
+def played_problem(kind, path, shown, color, depth):
+    """What differs from what FFmpeg shows; None if nothing does."""
+    if kind == "camera folders":
+        names = sorted((path / "color").iterdir())
+        wanted = values.played_by_ffmpeg(path / "color" / ("%05d" + names[0].suffix))
+        wanted_depth = values.depths_by_ffmpeg(path / "depth/%05d.png")
+    elif kind == "recordings":
+        wanted = values.played_by_ffmpeg(path, "0:v:1")
+        wanted_depth = values.depths_by_ffmpeg(path, "0:v:0")
+    else:
+        wanted, wanted_depth = values.played_by_ffmpeg(path, more=shown), depth
+    if depth != wanted_depth:
+        return "depth adds up to %s, not %s" % (depth, wanted_depth)
+    if (color is None) != (wanted is None) or (wanted and not (color[0] == wanted[0] and values.agree(color, wanted, 0, 2.5))):
+        return "colour is %s, not %s" % (color and [round(v) for v in color], wanted and [round(v) for v in wanted])
+    return None
+
+
+def compare_played(program, counts, options):
+    for kind, make, camera in PLAYED:
+        if options.kind not in (None, kind):
+            continue
+        with tempfile.TemporaryDirectory() as folder:
+            for name, path, *shown in make(pathlib.Path(folder)):
+                color, depth, code, said = values.played_by_theatron(camera % path, program)
+                found = None if depth is None else played_problem(kind, path, shown[0] if shown else (), color, depth)
+                # The exit code 3 says that something was not given.
+                what = "refused" if depth is None else "wrong" if found and code != 3 else "right"
+                by_ffmpeg = kind == "camera folders" or values.played_by_ffmpeg(path, "0:v:0") is not None
+                row = counts[kind]
+                row.update(["inputs", what] + ["ffmpeg", "others", what + " of others"] * by_ffmpeg)
+                if options.list and (what != "right" or code != 0):
+                    print("%s, %s: %s (%d) %s; %s" % (kind, name, what, code, found or "", said.splitlines()[-1] if said else ""))
+
+
+def values_of(kind, paths):
+    """Reader -> measure, of those that Theatron has."""
+    found = {"DICOM": (("gdcm", values.dicom_by_gdcm), ("dcm2niix", values.dicom_by_dcm2niix)),
+             "NIfTI": (("nibabel", values.labels_by_nibabel),), "NRRD": (("vtk", values.labels_by_vtk),),
+             "glTF": (("assimp", values.surface_by_assimp),)}.get(
+                 kind, (("vtk", values.surface_by_vtk), ("assimp", values.surface_by_assimp)))
+    with tempfile.TemporaryDirectory() as folder:
+        out = {}
+        for name, measure in found:
+            file = pathlib.Path(folder) / name
+            if in_process(lambda paths: file.write_text(json.dumps(measure(paths))), paths):
+                out[name] = json.loads(file.read_text())
+        return out
+
+
+def show(measure):
+    return " ".join("%.6g" % v for v in measure) if measure else "-"
+
+
+def compare_values(program, folder):
+    print("| input | Theatron | others | |")
+    print("|---|---|---|---|")
+    for source in sorted(path for path in folder.iterdir() if path.is_dir()):
+        kind = next((kind for kind, names in KINDS if any(name in source.name for name in names)), None)
+        if kind is None:
+            continue
+        with tempfile.TemporaryDirectory() as temporary:
+            case = pathlib.Path(temporary) / "case"
+            done = subprocess.run([program, "case", "import", source, case], capture_output=True, text=True, timeout=120)
+            text = (done.stdout + done.stderr).replace(str(source), "")
+            ours = None
+            if done.returncode == 0:
+                ours = values.series_of_case(case) if kind == "DICOM" else values.surfaces_of_case(case)
+        others = values_of(kind, [path for path in files_of(kind, source)])
+        same = [name for name, one in others.items() if ours and one and values.agree(
+            ours[-1:] if len(one) == 1 else ours, one, 0.03 if kind != "DICOM" else 1e-4, 1.5 if kind != "DICOM" else 0.02)]
+        verdict = "refused" if ours is None else "as " + ", ".join(same) if same else "differs" if any(others.values()) else "alone"
+        said = [line for line in text.splitlines() if line.startswith(("theatron:", "remark:"))]
+        print("| %s | %s | %s | %s |" % (source.name, show(ours), "; ".join("%s %s" % (n, show(o)) for n, o in others.items()), verdict))
+        for line in said:
+            print("| | %s | | |" % line)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--list", action="store_true", help="also each input that is refused or wrong")
-    parser.add_argument("--kind", choices=[kind for kind, _ in KINDS], help="only inputs of this kind")
+    parser.add_argument("--kind", choices=[row[0] for row in KINDS + PLAYED], help="only inputs of this kind")
+    parser.add_argument("--values", type=pathlib.Path, metavar="FOLDER", help="values of inputs of which nothing is known")
     options = parser.parse_args()
     program = os.environ["THEATRON"]
+    if options.values:
+        compare_values(program, options.values)
+        return
     readers = [one for one in READERS if is_there(one[2])]
     for one in READERS:
         if one not in readers:
@@ -164,10 +255,11 @@ def main():
         if options.list and what != "right":
             print("%s: %s; read by %s: %s" % (one.name, what, ", ".join(read_by) or "none", words.splitlines()[-1]))
         print("\r%d inputs" % sum(c["inputs"] for c in counts.values()), end="", file=sys.stderr)
+    compare_played(program, counts, options)
     print("| kind | inputs | right | refused | wrong | read by others | of these refused | by reader |")
     print("|---|---|---|---|---|---|---|---|")
     for kind, row in counts.items():
-        each = ", ".join("%s %d" % (name, row[name]) for name, _, _, kinds in readers if kind in kinds)
+        each = ", ".join("%s %d" % (name, row[name]) for name, _, _, kinds in readers if kind in kinds) or "ffmpeg %d" % row["ffmpeg"]
         print("| %s | %d | %d | %d | %d | %d | %d | %s |" % (kind, row["inputs"], row["right"], row["refused"], row["wrong"],
                                                        row["others"], row["refused of others"], each))
 

@@ -13,7 +13,6 @@ from mesh_inputs import box, stl_binary
 
 STORAGE = "1.2.840.10008.5.1.4.1.1."
 GE_PIXELS = "1.2.840.113619.5.2"
-NO_IMAGE = "it may be a map, a mask or a dose"
 
 
 def every(**changed):
@@ -40,11 +39,14 @@ def maps():
     dose = {"_00080016": ("UI", STORAGE + "481.2"), "_00080060": ("CS", "RTDOSE"), "_3004000e": ("DS", "0.0001"), **other}
     mask = {"_00080016": ("UI", STORAGE + "66.4"), "_00080060": ("CS", "SEG"), "_00280100": ("US", 8), "_00280101": ("US", 8),
             "_00280102": ("US", 7), "_7fe00010": ("OB", b"\1" * 768), **other}
-    for name, file in (("a dose of 16 bits", file_of(slice_elements(1, **dose))),
-                       ("a map of whole numbers", file_of(slice_elements(1, _00080016=("UI", STORAGE + "30"), **other))),
-                       ("a mask of 8 bits", file_of(enhanced(4, **mask)))):
-        yield Input(name + " beside", good() | {"other.dcm": file}, [series()], remarks=["other.dcm' is left out", NO_IMAGE])
-        yield Input(name + " alone", {"other.dcm": file}, refused=NO_IMAGE)
+    for name, words, file in (
+            ("a dose of 16 bits", "holds a radiation dose", file_of(slice_elements(1, **dose))),
+            ("a map of whole numbers", "holds computed values", file_of(slice_elements(1, _00080016=("UI", STORAGE + "30"), **other))),
+            ("a mask of 8 bits", "holds a segmentation as DICOM", file_of(enhanced(4, **mask))),
+            ("contours", "holds a segmentation as DICOM", file_of(slice_elements(1, _00080016=("UI", STORAGE + "481.3"), _00080060=(
+                "CS", "RTSTRUCT"), _7fe00010=None, _00280010=None, _00280011=None, **other)))):
+        yield Input(name + " beside", good() | {"other.dcm": file}, [series()], remarks=["other.dcm' is left out", words])
+        yield Input(name + " alone", {"other.dcm": file}, refused=words)
     tiles = file_of(slice_elements(1, _00080008=("CS", "ORIGINAL\\PRIMARY\\M\\ND\\MOSAIC"), **other))
     yield Input("slices side by side in one picture", good() | {"mosaic.dcm": tiles}, [series()],
                 remarks=["mosaic.dcm' is left out: it holds several images in one file"])

@@ -326,15 +326,15 @@ def beside():
     other = {"_0020000e": ("UI", "1.2.3.9")}
     cases = {
         "float map": (slice_elements(1, _7fe00010=None, _00280100=("US", 32), _7fe00008=(
-            "OF", struct.pack("<192f", *([0.5] * 192))), **other), "no grey image of 8 or 16 bits"),
+            "OF", struct.pack("<192f", *([0.5] * 192))), **other), "pixels of neither 8 nor 16 bits (it may be a map, a mask or a dose)"),
         "double map": (slice_elements(1, _7fe00010=None, _00280100=("US", 64), _7fe00009=(
-            "OD", struct.pack("<192d", *([0.5] * 192))), **other), "no grey image of 8 or 16 bits"),
+            "OD", struct.pack("<192d", *([0.5] * 192))), **other), "pixels of neither 8 nor 16 bits (it may be a map, a mask or a dose)"),
         "mask of bits": (slice_elements(1, _00280100=("US", 1), _00280101=("US", 1), _00280102=("US", 0),
                                         _7fe00010=("OB", b"\x55" * 24), **other),
-                         "no grey image of 8 or 16 bits"),
+                         "pixels of neither 8 nor 16 bits (it may be a map, a mask or a dose)"),
         "dose of 32 bits": (slice_elements(1, _00280100=("US", 32), _00280101=("US", 32),
                                            _00280102=("US", 31), _7fe00010=("OW", b"\1\0\0\0" * 192),
-                                           **other), "no grey image of 8 or 16 bits"),
+                                           **other), "pixels of neither 8 nor 16 bits (it may be a map, a mask or a dose)"),
         "report": ({0x00080016: ("UI", "1.2.840.10008.5.1.4.1.1.88.11"), 0x00080060: ("CS", "SR"),
                     0x00100020: ("LO", "GEN-1"), 0x0020000e: ("UI", "1.2.9")}, "holds no image"),
         "sheet": ({0x00080016: ("UI", "1.2.840.10008.5.1.4.1.1.104.1"), 0x00080060: ("CS", "DOC"),

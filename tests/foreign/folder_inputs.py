@@ -55,7 +55,8 @@ def slicer_scene():
              "vessels.stl": stl_binary(), "Model.vtk": b"# vtk DataFile Version 5.1\nmodel\nASCII\nDATASET POLYDATA\n",
              "Camera.mrk.json": b'{"markups": []}', "2024-05-01-Scene.mrb": b"PK\3\4" + bytes(60)}
     yield Input("scene of 3D Slicer", dict(files), parts=[box("vessels")],
-                remarks=["use it with --from-labels", "Model.vtk", "Scene.mrb"])
+                remarks=["2 files are not used: ", "Segmentation.seg.nrrd'; with --from-labels parts are made of their labels",
+                         "Model.vtk' is left out: it may hold a surface", "Scene.mrb' is left out: it is an archive"])
     del files["vessels.stl"]
     yield Input("scene of 3D Slicer without a surface", files, parts=[part(1, "liver"), part(2, "tumour")],
                 remarks=["CT.nrrd' is left out: it holds values that are no labels", "Model.vtk"])
@@ -97,11 +98,12 @@ def stick():
     for name in ("Leber.STL", "Img00.DCM", "scan.nii.gz", "scan.nii", "vein.ply", "photo.jpg", "mask.nrrd"):
         files["__MACOSX/Fall Müller 1/._" + name] = finder_file()
     yield Input("stick of Windows and macOS", dict(files), [dicom_inputs.series()], [box("Leber")], pictures=0,
-                remarks=["12 files were not read, being of no kind that is imported"])
+                remarks=["10 files were not read, being of no kind that is imported", "1.zip' is left out: it is an archive",
+                         "Befund.pdf' is left out: it may hold pictures"])
     del files["Fall Müller 1/Modelle für OP/Leber.STL"]
     files["Fall Müller 1/maske.nii.gz"] = gzip.compress(nifti())
     yield Input("stick with a label map", files, [dicom_inputs.series()], [part(1, "label 1"), part(2, "label 2")],
-                remarks=["12 files were not read"])
+                remarks=["10 files were not read"])
 
 
 def two_of_one_name():
@@ -114,7 +116,7 @@ def two_of_one_name():
 def empty_segments():
     names = ("aorta", "colon", "heart", "kidney_left", "kidney_right", "lung", "spleen")
     files = {"segmentations/%s.nii.gz" % name: gzip.compress(nifti(labels((0, 0, 0)))) for name in names}
-    words = "7 files are left out, since each of them has no labels but 0"
+    words = "7 files are left out, since each of them marks nothing: there are no labels but 0"
     yield Input("segments of which none is there", dict(files), refused=words)
     files["segmentations/liver.nii.gz"] = gzip.compress(nifti(labels((0, 1, 0))))
     yield Input("segments of which one is there", files, parts=[part(1, "liver")], remarks=[words])

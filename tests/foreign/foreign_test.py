@@ -19,6 +19,7 @@ import case_seeds  # noqa: E402
 import device_inputs  # noqa: E402
 import dicom_inputs  # noqa: E402
 import folder_inputs  # noqa: E402
+import gltf_inputs  # noqa: E402
 import label_inputs  # noqa: E402
 import mesh_inputs  # noqa: E402
 import more_inputs  # noqa: E402
@@ -28,14 +29,14 @@ import unusual_inputs  # noqa: E402
 from expected import problem  # noqa: E402
 
 LEAST = 200
-FUZZERS = {".stl": "stl_fuzz", ".ply": "ply_fuzz", ".glb": "glb_fuzz", ".nii": "nifti_fuzz",
+FUZZERS = {".stl": "stl_fuzz", ".ply": "ply_fuzz", ".glb": "glb_fuzz", ".gltf": "glb_fuzz", ".nii": "nifti_fuzz",
            ".nrrd": "nrrd_fuzz", ".nhdr": "nrrd_fuzz", ".dcm": "dicom_fuzz", "": "dicom_fuzz"}
 LONGEST_SEED = 1 << 16
 
 
 def inputs():
-    for module in (dicom_inputs, label_inputs, mesh_inputs, packed_glb, folder_inputs, more_inputs, unusual_inputs,
-                   device_inputs):
+    for module in (dicom_inputs, label_inputs, mesh_inputs, gltf_inputs, packed_glb, folder_inputs, more_inputs,
+                   unusual_inputs, device_inputs):
         yield from module.inputs()
 
 
@@ -54,7 +55,7 @@ def write_seeds(folder):
     """The first file of each input, for the target that reads its kind."""
     for one in inputs():
         name, data = next(iter(one.files.items()))
-        name = name.removesuffix(".gz")
+        name = name.removesuffix(".gz").removesuffix(".bz2")
         extension = pathlib.PurePath(name).suffix
         target = FUZZERS.get(extension)
         if target and len(data) <= LONGEST_SEED:
@@ -90,6 +91,9 @@ class ForeignFiles(unittest.TestCase):
 
     def test_surfaces_and_pictures(self):
         self.run_all(mesh_inputs)
+
+    def test_gltf(self):
+        self.run_all(gltf_inputs)
 
     def test_packed_surfaces(self):
         self.run_all(packed_glb)

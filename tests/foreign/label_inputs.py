@@ -224,12 +224,12 @@ def nrrd_inputs():
     for name in ("scanner-xyz", "3D-right-handed", None):
         yield Input("space %s" % name, {"o.nrrd": nrrd(fields={"space": name})},
                     refused="where in the patient it lies")
-    for unit, scale in (("mm", 1), ("cm", 10), ("m", 1000), ("um", 0.001)):
+    for unit, scale in (("mm", 1), ("cm", 10), ("m", 1000), ("um", 0.001), ("inch", 25.4)):
         in_unit = {"space units": " ".join(['"%s"' % unit] * 3),
-                   "space directions": "(%g,0,0) (0,%g,0) (0,0,%g)" % tuple(s / scale for s in STEP),
-                   "space origin": "(%g,%g,%g)" % tuple(o / scale for o in ORIGIN)}
+                   "space directions": "(%.9g,0,0) (0,%.9g,0) (0,0,%.9g)" % tuple(s / scale for s in STEP),
+                   "space origin": "(%.9g,%.9g,%.9g)" % tuple(o / scale for o in ORIGIN)}
         yield Input("unit " + unit, {"o.nrrd": nrrd(fields=in_unit)}, parts=parts())
-    yield Input("unit inch", {"o.nrrd": nrrd(fields={"space units": '"inch" "inch" "inch"'})},
+    yield Input("unit pixel", {"o.nrrd": nrrd(fields={"space units": '"pixel" "pixel" "pixel"'})},
                 refused="has the unit")
     directions = "none (%g,0,0) (0,%g,0) (0,0,%g)" % STEP
     listed = {"dimension": "4", "sizes": "1 %d %d %d" % SIZE, "space directions": directions,

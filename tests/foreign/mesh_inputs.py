@@ -250,7 +250,7 @@ def glb_inputs():
 
     def far(root):
         root["buffers"][0]["uri"] = "other.bin"
-    yield Input("buffer elsewhere", {"o.glb": box_glb(change=far)}, refused="in another file")
+    yield Input("buffer elsewhere", {"o.glb": box_glb(change=far)}, refused="'other.bin', which must lie beside it")
 
     def lines(root):
         root["meshes"][0]["primitives"][0]["mode"] = 1

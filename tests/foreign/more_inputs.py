@@ -2,6 +2,7 @@
 """More inputs of each kind, as further programs and devices write them."""
 
 import base64
+import bz2
 import gzip
 import struct
 import zlib
@@ -160,10 +161,16 @@ def nifti_files():
     yield Input("pixels of three bytes", {"o.nii": with_bytes((70, "hh", 128, 24)) + plain[352:] * 2},
                 refused="samples")
     flat = with_bytes((40, "4h", 2, SIZE[0], SIZE[1], 1))
-    yield Input("two dimensions without a label", {"o.nii": flat}, refused="has no labels but 0")
+    yield Input("two dimensions without a label", {"o.nii": flat}, refused="marks nothing: there are no labels but 0")
     comment = struct.pack("<ii", 32, 6) + b"made by a program".ljust(24, b"\0")
     yield Input("a comment in its extension", {"o.nii": nifti(extension=comment)}, parts=parts())
     yield Input("two extensions", {"o.nii": nifti(extension=comment * 2)}, parts=parts())
+    for name, data in (("one part", bz2.compress(plain)), ("two parts", bz2.compress(plain[:999]) + bz2.compress(plain[999:]))):
+        yield Input("packed with bzip2, " + name, {"o.nii.bz2": data}, parts=parts())
+        yield Input("packed with bzip2 under another name, " + name, {"o.nii.gz": data}, parts=parts())
+    yield Input("packed with bzip2 and cut off", {"o.nii.bz2": bz2.compress(plain)[:-30]}, refused="cut off")
+    yield Input("an image packed with bzip2", {"o.nii.bz2": bz2.compress(nifti(list(range(3840)), "int16")), "liver.stl": stl_binary()},
+                parts=[box("liver")])
     yield Input("a float map of two labels", {"o.nii.gz": gzip.compress(nifti([float(v) for v in labels()], "float"))},
                 parts=parts())
     head, samples = plain[:108] + struct.pack("<f", 0) + plain[112:344] + b"ni1\0" + bytes(4), plain[352:]
@@ -280,7 +287,7 @@ def glb_files():
 
     def embedded(root):
         root["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64.b64encode(b"x").decode()
-    yield Input("a buffer within its text", {"o.glb": box_glb(change=embedded)}, refused="in another file")
+    yield Input("a buffer within its text", {"o.glb": box_glb(change=embedded)}, refused="fewer triangles")
     plain = box_glb()
     extra = struct.pack("<I", 8) + b"XTRA" + bytes(8)
     data = plain[:8] + struct.pack("<I", len(plain) + 16) + plain[12:] + extra
@@ -296,7 +303,7 @@ def glb_files():
     def optional(root):
         root["extensionsUsed"] = ["KHR_draco_mesh_compression", "VENDOR_shape"]
     yield Input("extensions that it does not need", {"o.glb": box_glb(change=optional)}, parts=[box(tolerance=0.01)])
-    yield Input("version 1", {"o.glb": plain[:4] + struct.pack("<I", 1) + plain[8:]}, refused="no surface of the format")
+    yield Input("version 1", {"o.glb": plain[:4] + struct.pack("<I", 1) + plain[8:]}, refused="is of version '1' of glTF")
 
 
 def obj_files():

@@ -200,7 +200,7 @@ def meshopt_inputs():
         return change
     for field, value, words in (("count", 10**9, refused), ("count", 0, refused), ("byteStride", 300, refused),
                                 ("byteStride", 6, refused), ("mode", "POINTS", refused), ("byteOffset", 10**6, "fewer triangles"),
-                                ("buffer", 1, "in another file"), ("count", "8", refused)):
+                                ("buffer", 1, "fewer triangles"), ("count", "8", refused)):
         yield Input("meshopt with %s %s" % (field, value), {"o.glb": meshopt_glb(change=change_of(field, value))},
                     refused=words)
 

@@ -163,8 +163,13 @@ def nrrd_files():
     yield Input("signs and commas of vectors", with_field("space directions", "(+1.5,0.,-0)(0,2.0,0)\t(0,0,3)"), parts=parts())
     middle = {"dimension": "4", "space directions": "(1.5,0,0) none (0,2,0) (0,0,3)", "kinds": "domain list domain domain"}
     yield Input("a list of one, in the middle", {"o.nrrd": nrrd(fields=dict(middle, sizes="20 1 16 12"))}, parts=parts())
-    yield Input("a list of two, in the middle", {"o.nrrd": nrrd(labels() * 2, fields=dict(middle, sizes="20 2 16 12"))},
-                refused="has its layers between its axes of space")
+    first, second = labels((0, 1, 0)), labels((0, 0, 2))
+    rows = [v for at in range(0, len(first), 20) for layer in (first, second) for v in layer[at:at + 20]]
+    planes = [v for at in range(0, len(first), 320) for layer in (first, second) for v in layer[at:at + 320]]
+    for name, values, sizes, directions in (("second", rows, "20 2 16 12", middle["space directions"]),
+                                            ("third", planes, "20 16 2 12", "(1.5,0,0) (0,2,0) none (0,0,3)")):
+        fields = dict(middle, sizes=sizes, **{"space directions": directions})
+        yield Input("a list of two, as the %s axis" % name, {"o.nrrd": nrrd(values, fields=fields)}, parts=parts())
     name = "Segment0_Name:=liver\nSegment0_LabelValue:=%s\n"
     yield Input("a label's number with a comma", {"o.seg.nrrd": nrrd(keys=name % "1,5")}, parts=parts())
     yield Input("a label's number with blanks", {"o.seg.nrrd": nrrd(keys=name % " 1 ")}, parts=[part(1, "liver"), part(2, "label 2")])

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// A file in memory whose content is exchanged while a reader's process holds it open: one process
+// reads several files, and opens none. One thread at a time. Only for this module.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <vector>
+
+namespace theatron::cases {
+
+class ExchangedFile {
+public:
+    ExchangedFile();  // empty; throws Error
+    ~ExchangedFile();
+    ExchangedFile(const ExchangedFile&) = delete;
+    ExchangedFile& operator=(const ExchangedFile&) = delete;
+
+    int descriptor() const { return memory_; }
+
+    // Takes the bytes of the file in the place of those before. Follows no link. Throws Error, also
+    // where the file has more than `most` bytes.
+    void load(const std::filesystem::path& path, std::size_t most);
+
+private:
+    int memory_;
+    std::vector<char> buffer_;
+};
+
+}  // namespace theatron::cases
