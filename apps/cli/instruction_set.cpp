@@ -25,7 +25,7 @@ std::string instruction_set_in_use() {
 
 void hold_to_instruction_set() {
     const char* const name = std::getenv(instruction_set_variable);
-    if (name == nullptr)
+    if (name == nullptr || *name == '\0')
         return;
     // Highway numbers a better instruction set with a lower bit.
     std::int64_t held = 0;

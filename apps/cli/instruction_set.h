@@ -16,9 +16,9 @@ inline constexpr const char* instruction_set_variable = "THEATRON_TARGETS";
 std::string known_instruction_sets();
 // The best of these: what the kernels of this process run with.
 std::string instruction_set_in_use();
-// If the variable is set, the kernels of this process use no better instruction set from now on,
-// and a line on the standard error says so; upper and lower case are equal. Throws Error, which
-// names those that are there, for another name. Call it before the first kernel runs.
+// If the variable is set and not empty, the kernels of this process use no better instruction set
+// from now on, and a line on the standard error says so; upper and lower case are equal. Throws
+// Error, which names those that are there, for another name. Call it before the first kernel runs.
 void hold_to_instruction_set();
 
 }  // namespace theatron::cli

@@ -40,6 +40,8 @@ TEST_F(InstructionSet, WithoutTheVariableNothingIsHeld) {
     unsetenv(instruction_set_variable);
     hold_to_instruction_set();
     EXPECT_EQ(known_instruction_sets(), all);
+    hold_to("");
+    EXPECT_EQ(known_instruction_sets(), all);
 }
 
 TEST_F(InstructionSet, AnUnknownOneIsRefusedWithThoseThatAreThere) {

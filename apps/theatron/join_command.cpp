@@ -348,7 +348,8 @@ void add_join_command(CLI::App& app) {
     command->footer(
         "Depth codecs: " + join_names(video::depth_codec_names()) +
         "\nColour codecs: " + join_names(video::color_codec_names()) +
-        ", auto (H.264 or JPEG, whichever suits the host; see 'theatron status')"
+        ", auto (H.264, or JPEG of at most 20 Mbit/s a camera, whichever suits the host; "
+        "see\n'theatron status')"
         "\n\nA window opens unless a file (--offscreen, --depth) or figures (--json, --every) are "
         "asked for.\nIn it, F1 shows the keys. Without one, lines on standard input change what "
         "is sent:\n'depth rvl', 'color jpeg:quality=60', 'latency 200', 'ceiling 20', "

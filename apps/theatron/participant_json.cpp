@@ -59,19 +59,21 @@ nlohmann::json position_json(const Calibration& calibration) {
 
 nlohmann::json camera_json(const client::CameraFigures& figures, wire::Role reader) {
     const auto& [camera, depth, color, direct, played] = figures;
+    const auto age = [&](double ms) { return depth.frames > 0 ? nlohmann::json(ms) : nullptr; };
     return {{"id", int(camera.description.id)},
             {"publisher", int(camera.description.publisher)},
             {"name", camera.description.name},
             {"state", client::state_text(figures)},
             {"problem", client::problem_text(camera.state, reader)},
             {"filter", camera.state.filter},
+            {"filter_device", camera.state.filter_device},
             {"adjusted", client::adjustment_text(camera.description)},
             {"position", position_json(camera.calibration)},
             {"fps", depth.frames_per_second},
             {"frames", depth.frames},
             {"mbit_per_s", figures.mbit_per_second()},
-            {"newest_age_ms", depth.age_ms},
-            {"age_now_ms", depth.age_now_ms},
+            {"newest_age_ms", age(depth.age_ms)},
+            {"age_now_ms", age(depth.age_now_ms)},
             {"past", depth.past},
             {"direct", direct},
             {"newest_frame", depth.newest},
@@ -117,6 +119,16 @@ std::string age_part(const client::ParticipantFigures& figures) {
     return text;
 }
 
+std::string moments_part(const MomentFigures& moments) {
+    if (!moments.any())
+        return "";
+    char text[120];
+    std::snprintf(text, sizeof(text), "cameras %.0f ms apart (at most %.0f), %llu pictures alone",
+                  moments.skew_p50_ms, moments.skew_max_ms,
+                  static_cast<unsigned long long>(moments.unpaired));
+    return text;
+}
+
 nlohmann::json participant_json(const client::Participant& participant) {
     const client::ParticipantFigures figures = client::figures_of(participant);
     const client::Participant::Status& status = figures.status;
@@ -147,6 +159,8 @@ nlohmann::json participant_json(const client::Participant& participant) {
             {"age_ms", age_json(oldest_age(figures))},
             {"past", is_past(figures)},
             {"dropped", figures.dropped()},
+            {"skew_ms", host::skew_json(figures.moments)},
+            {"unpaired", figures.moments.unpaired},
             {"codec", codecs_of_last(figures)},
             {"round_trip_ms", to_ms(status.round_trip)},
             {"clock_error_ms", to_ms(status.clock_error)},
@@ -175,6 +189,8 @@ std::string status_line(const client::Participant& participant) {
                   figures.mbit_per_second(), age_part(figures).c_str(),
                   static_cast<unsigned long long>(figures.dropped()));
     std::string line = text + codecs_of_last(figures);
+    if (const std::string moments = moments_part(figures.moments); !moments.empty())
+        line += "  " + moments;
     if (const auto playback = participant.playback())
         line += "  " + viewer::playback_text(*playback, participant.now());
     if (const std::string recorded = client::recorded_text(figures); !recorded.empty())

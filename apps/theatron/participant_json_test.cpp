@@ -23,5 +23,11 @@ TEST(AgePart, WhileThePastIsShownItIsItsAge) {
     EXPECT_EQ(age_of(camera.depth).max, 23'400);
 }
 
+TEST(MomentsPart, TellsTheSkewAndThePicturesThatCameAlone) {
+    EXPECT_EQ(moments_part({}), "") << "one camera";
+    EXPECT_EQ(moments_part({.skew_p50_ms = 15.25, .skew_max_ms = 18, .whole = 90, .unpaired = 12}),
+              "cameras 15 ms apart (at most 18), 12 pictures alone");
+}
+
 }  // namespace
 }  // namespace theatron::app

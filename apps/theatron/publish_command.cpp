@@ -16,7 +16,9 @@
 #include "commands.h"
 #include "files/json_text.h"
 #include "files/state_folder.h"
+#include "host/host_figures.h"
 #include "link_argument.h"
+#include "participant_json.h"
 #include "published_cameras.h"
 #include "source_remarks.h"
 #include "wire/condition_text.h"
@@ -45,6 +47,7 @@ nlohmann::json camera_json(const publish::CameraPublisher::Figures& camera) {
             {"problem", wire::english(camera.lane.camera.problem)},
             {"filter", camera.lane.filter},
             {"filter_device", camera.lane.filter_device},
+            {"sync_offset_ms", camera.lane.sync_offset_seconds * 1000},
             {"fps", camera.lane.frames_per_second},
             {"frames", camera.lane.frames},
             {"dropped_newest", camera.lane.dropped_newest},
@@ -62,6 +65,8 @@ nlohmann::json figures_json(const publish::CameraPublisher& publisher,
             {"phase", client::text_of(status.phase)},
             {"joins", status.joins},
             {"dropped_slow", status.media_dropped},
+            {"skew_ms", host::skew_json(publisher.moments())},
+            {"unpaired", publisher.moments().unpaired},
             {"cameras", cameras}};
 }
 
@@ -77,6 +82,8 @@ std::string status_line(const publish::CameraPublisher& publisher,
                       camera.lane.encoders.empty() ? ", nobody sees it" : "");
         line += text;
     }
+    if (const std::string moments = moments_part(publisher.moments()); !moments.empty())
+        line += "  " + moments;
     return line;
 }
 
@@ -151,7 +158,8 @@ void add_publish_command(CLI::App& app) {
             "--filter", flags->filters,
             "Filters of depth: off, paper, default, stereo (for cameras that have few distinct "
             "depths), a line of filters or a JSON file; "
-            "CAMERA=... for one camera, by number from 0 or name")
+            "CAMERA=... for one camera, by number from 0 or name. At its end @cuda filters on an "
+            "NVIDIA GPU and @auto on whichever is quicker, that or the processor: default@cuda")
         ->allow_extra_args(false);
     command->add_option("--places", flags->places,
                         "Where the cameras are in the room: a file that 'theatron register' wrote");

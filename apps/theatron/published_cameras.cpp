@@ -16,6 +16,7 @@ std::unique_ptr<publish::CameraPublisher> open_published(const std::vector<std::
     auto sources = host::filter_sources(filters, publisher->camera_names(), host::usual_filter);
     for (std::size_t i = 0; i < sources.size(); ++i) {
         const host::LoadedFilter filter = sources[i].load();
+        host::tell_missing_gpu(filter.settings);
         host::check_background(filter, publisher->depth_size(i));
         publisher->set_filter(i, filter.settings, filter.background);
     }

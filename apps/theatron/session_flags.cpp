@@ -106,7 +106,8 @@ void add_session_options(CLI::App& command, SessionFlags& flags) {
             "--filter", flags.options.filters,
             "Filters of depth: off, paper, default, stereo (for cameras that have few distinct "
             "depths), a line of filters or a JSON file, which may change meanwhile; CAMERA=... for "
-            "one camera, by number from 0 or name")
+            "one camera, by number from 0 or name. At its end @cuda filters on an NVIDIA GPU and "
+            "@auto on whichever is quicker, that or the processor: default@cuda")
         ->allow_extra_args(false);
     command
         .add_option(

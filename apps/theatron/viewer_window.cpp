@@ -215,12 +215,7 @@ void print_end(viewer::Viewer& viewer, const client::Participant& participant,
                   "drew %llu pictures, age on screen %.0f ms (half), %.0f ms (99 of 100)\n",
                   static_cast<unsigned long long>(viewer.pictures()),
                   viewer.ages_ms().percentile(0.5), viewer.ages_ms().percentile(0.99));
-    std::string together;
-    if (const auto skew = viewer.same_moment().skew(participant.now()))
-        together = "cameras " + std::to_string(skew->count() / 1000) + " ms apart, " +
-                   std::to_string(viewer.same_moment().unpaired()) +
-                   " pictures without those of their moment\n";
-    output::print(status_line(participant) + "\n" + drawn + together);
+    output::print(status_line(participant) + "\n" + drawn);
     if (window.gl_errors() > 0)
         log::say("The graphics driver reported " + std::to_string(window.gl_errors()) +
                  " errors, the first: " + window.first_gl_error());

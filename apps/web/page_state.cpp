@@ -96,7 +96,7 @@ json camera_json(const client::CameraFigures& figures) {
             {"frames", seen ? seen->frames : 0},
             {"fps", seen ? seen->frames_per_second : 0},
             {"mbit_per_second", figures.mbit_per_second()},
-            {"age_ms", seen ? age_json(seen->age_now_ms) : json()},
+            {"age_ms", seen && seen->frames > 0 ? age_json(seen->age_now_ms) : json()},
             {"age_p50_ms", age_json(depth.age_p50_ms)},
             {"age_p95_ms", age_json(depth.age_p95_ms)},
             {"age_p99_ms", age_json(depth.age_p99_ms)},
@@ -182,7 +182,7 @@ json state_of(const viewer::Facts& facts, const client::Participant& participant
             {"is_of_camera", is_of_camera(overlay.notice, participant)},
             // The skew of the cameras that are drawn together; null: fewer than two.
             {"skew_ms", facts.skew_ms ? json(*facts.skew_ms) : json()},
-            {"unpaired", facts.unpaired},
+            {"unpaired", facts.received.moments.unpaired},
             {"drawn_per_second", facts.drawn_per_second},
             {"renderer", facts.way.renderer},
             {"depth_step", facts.way.depth_step},

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "capture/uneven_camera.h"
 
+#include "base/error.h"
+
 namespace theatron::capture {
 namespace {
 
@@ -50,6 +52,8 @@ std::unique_ptr<Camera> make_uneven_camera(std::unique_ptr<Camera> camera, Uneve
 std::optional<Unevenness> take_uneven_options(Options& options) {
     const int late_ms = options.take_int("late_ms", 0, 0, 30);
     const int skip_every = options.take_int("skip_every", 0, 0, 1'000'000);
+    if (skip_every == 1)
+        throw Error("skip_every=1 leaves no picture; it takes 2 and more, or 0 for none.");
     if (late_ms == 0 && skip_every == 0)
         return std::nullopt;
     return Unevenness{std::chrono::milliseconds(late_ms), skip_every};

@@ -25,7 +25,8 @@ struct Unevenness {
 std::unique_ptr<Camera> make_uneven_camera(std::unique_ptr<Camera> camera, Unevenness unevenness,
                                            std::function<void(Duration)> sleep);
 
-// Nullopt without the options late_ms= and skip_every=.
+// Nullopt without the options late_ms= and skip_every=. Throws Error where no picture would be
+// left.
 std::optional<Unevenness> take_uneven_options(Options& options);
 
 }  // namespace theatron::capture

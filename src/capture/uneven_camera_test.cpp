@@ -72,6 +72,8 @@ TEST(UnevenOptions, ACameraWithoutThemIsLeftAlone) {
     Options wrong = Options::parse("synthetic:late_ms=1000");
     (void)take_uneven_options(wrong);
     EXPECT_NE(wrong.problem(), "");
+    Options all = Options::parse("synthetic:skip_every=1");
+    EXPECT_THROW(take_uneven_options(all), Error);
 }
 
 }  // namespace

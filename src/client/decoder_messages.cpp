@@ -27,6 +27,7 @@ void figure_fields(auto& m, auto&& field) {
     field(m.past);
     field(m.decode_ms);
     field(m.decoder_failures);
+    field(m.awaited_ms);
 }
 
 template <class T>

@@ -59,6 +59,7 @@ TEST(DecoderMessages, CamerasSettingsAndFiguresArrive) {
     figures.age_p50_ms = 12.5;
     figures.decode_ms = 3.5;
     figures.decoder_failures = 4;
+    figures.awaited_ms = 900;
     const auto told = decode_from_worker(encode(FromWorker(WorkerFigures{2, {figures}})));
     ASSERT_TRUE(told);
     const auto& first = std::get<WorkerFigures>(*told).figures.at(0);
@@ -68,6 +69,7 @@ TEST(DecoderMessages, CamerasSettingsAndFiguresArrive) {
     EXPECT_EQ(first.age_p50_ms, 12.5);
     EXPECT_EQ(first.decode_ms, 3.5);
     EXPECT_EQ(first.decoder_failures, 4u);
+    EXPECT_EQ(first.awaited_ms, 900);
 }
 
 TEST(DecoderMessages, EveryShorterMessageIsRefused) {

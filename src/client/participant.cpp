@@ -229,10 +229,13 @@ net::Client::Handler Participant::handler() {
 bool Participant::on_media(Bytes& message) {
     if (has_come_directly(message))
         return true;
+    const auto header = wire::parse_media_header(message);
+    if (header)
+        note_moment(*header);
     if (!options_.media)
         // Only this thread changes the number.
         return decoders_->on_media(message, shared_->connection);
-    if (const auto header = wire::parse_media_header(message))
+    if (header)
         options_.media(*header, message);
     return true;
 }
@@ -428,6 +431,7 @@ void Participant::on_tick() {
     }
     if (reset_wanted) {
         decoders_->reset_figures();
+        moments_.reset();
         next_report_ = local;
     }
     if (!depth_wish.empty() || !color_wish.empty())
@@ -460,6 +464,7 @@ void Participant::on_tick() {
     {
         const std::lock_guard lock(shared_->mutex);
         shared_->figures = figures;
+        shared_->moments = moments_.figures();
         report.renderer = shared_->renderer;
     }
     client.send_control(wire::encode(report));

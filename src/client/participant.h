@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "base/moment_meter.h"
 #include "client/attempts.h"
 #include "client/case_keeper.h"
 #include "client/decoders.h"
@@ -167,6 +168,8 @@ public:
     bool wait_for_frame(Duration timeout);
 
     std::vector<receive::StreamFigures> figures() const;
+    // Figures of the pictures that have arrived, of the room's cameras, without the past.
+    MomentFigures moments() const;
     void reset_figures();
     // The streams whose frames come directly from their publisher now.
     std::set<StreamId> direct_streams() const;
@@ -353,6 +356,8 @@ private:
     bool has_come_directly(ByteView message);
     SettingId direct_setting(StreamId stream, TimePoint now) const;
     void note_direct_streams(TimePoint now);
+    void compare_cameras();
+    void note_moment(const wire::MediaHeader& header);
     void on_welcome();
     void on_cameras();
     void on_camera_states();
@@ -372,6 +377,8 @@ private:
     std::deque<Offer> offered_;                          // without an answer of the host
     session::KeyRequests missing_keys_;  // of its own streams, where frames could not be sent
     session::DirectArrivals arrivals_;
+    std::map<CameraId, ParticipantId> compared_;  // cameras in moments_, and their publishers
+    MomentMeter moments_;
     session::KeyGate to_host_;  // holds back the settings that the host does not need
 
     struct Shared;

@@ -47,6 +47,11 @@ std::vector<receive::StreamFigures> Participant::figures() const {
     return shared_->status.clock_known ? shared_->figures : without_ages(shared_->figures);
 }
 
+MomentFigures Participant::moments() const {
+    const std::lock_guard lock(shared_->mutex);
+    return shared_->moments;
+}
+
 void Participant::reset_figures() {
     const std::lock_guard lock(shared_->mutex);
     shared_->reset_wanted = true;

@@ -66,6 +66,7 @@ void Participant::on_welcome() {
     shared_->room.begin(session_.welcome().participant);
     shared_->status.joins += is_new;
     const bool again = is_new && shared_->status.joins > 1;
+    compare_cameras();
     lock.unlock();
     if (!session_.may_publish() && !numbers(Offer::cameras).empty())
         forget_numbers(Offer::cameras);
@@ -117,6 +118,7 @@ void Participant::on_cameras() {
         shared_->cameras = std::move(cameras);
         shared_->settings = session_.settings();
         ++shared_->generation;
+        compare_cameras();
         std::erase_if(shared_->newest,
                       [&](const auto& entry) { return without(shared_->cameras, entry.first); });
     }
@@ -127,6 +129,23 @@ void Participant::on_cameras() {
         options_.interrupted(session_.interrupted());
     if (options_.described)
         options_.described();
+}
+
+// The cameras of the room, which are shown together. The shared mutex is held.
+void Participant::compare_cameras() {
+    compared_.clear();
+    for (const Camera& camera : shared_->cameras)
+        if (camera.description.kind == wire::CameraKind::room && !is_screen(camera.calibration))
+            compared_[camera.description.id] = camera.description.publisher;
+}
+
+void Participant::note_moment(const wire::MediaHeader& header) {
+    const auto compared = compared_.find(camera_of(header.stream));
+    const auto& settings = session_.settings();
+    const auto setting = std::ranges::find(settings, header.stream, &wire::StreamSetting::stream);
+    if (compared == compared_.end() || (setting != settings.end() && setting->past))
+        return;
+    moments_.add(compared->second, compared->first, header.moment, header.captured);
 }
 
 void Participant::on_camera_states() {

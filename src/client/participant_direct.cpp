@@ -87,6 +87,8 @@ void Participant::on_direct_media(std::uint64_t link, ParticipantId publisher, B
     const bool is_wanted = header && session_.joined() &&
                            std::any_of(cameras.begin(), cameras.end(), is_its_own) &&
                            arrivals_.take(*header, session::Way::direct, steady_now());
+    if (is_wanted)
+        note_moment(*header);
     if (is_wanted && options_.media)
         options_.media(*header, message);
     else if (is_wanted && !decoders_->on_media(message, direct_link | link))

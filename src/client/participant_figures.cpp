@@ -99,26 +99,28 @@ std::string recorded_text(const ParticipantFigures& figures) {
 std::vector<receive::StreamFigures> without_ages(std::vector<receive::StreamFigures> figures) {
     for (receive::StreamFigures& stream : figures)
         stream.age_ms = stream.age_now_ms = stream.age_p50_ms = stream.age_p95_ms =
-            stream.age_p99_ms = stream.age_max_ms = 0;
+            stream.age_p99_ms = stream.age_max_ms = stream.awaited_ms = 0;
     return figures;
 }
 
 wire::CameraState state_here(const wire::CameraState& said, const receive::StreamFigures& seen,
                              bool is_thinned) {
     constexpr double silent_ms = 2000, silent_ms_thinned = 5000;
-    const bool is_silent = !seen.past && seen.frames > 0 &&
-                           seen.age_now_ms > (is_thinned ? silent_ms_thinned : silent_ms);
+    const double silent_for = seen.frames > 0 ? seen.age_now_ms : seen.awaited_ms;
+    const bool is_silent = !seen.past && silent_for > (is_thinned ? silent_ms_thinned : silent_ms);
     if (said.condition != wire::CameraCondition::live || !is_silent)
         return said;
     wire::CameraState state = said;
     state.condition = wire::CameraCondition::stale;
-    state.problem = {wire::TextCode::no_pictures_come};
+    state.problem = {seen.frames > 0 ? wire::TextCode::no_pictures_come
+                                     : wire::TextCode::no_picture_came};
     return state;
 }
 
 ParticipantFigures figures_of(const Participant& participant) {
     ParticipantFigures figures;
     figures.status = participant.status();
+    figures.moments = participant.moments();
     std::uint64_t generation = 0;
     const auto streams = participant.figures();
     const std::set<StreamId> direct = participant.direct_streams();

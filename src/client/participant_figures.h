@@ -37,6 +37,7 @@ struct ParticipantFigures {
         Duration lasts{};
     };
     std::vector<Recording> recordings = {};
+    MomentFigures moments = {};
 
     // Rate of the slowest camera, and of the slowest one that is live.
     double frames_per_second() const;
@@ -65,9 +66,9 @@ std::string recorded_text(const ParticipantFigures& figures);
 std::vector<receive::StreamFigures> without_ages(std::vector<receive::StreamFigures> figures);
 
 // The state of a camera as it shows here: one that is said to be live is stale while its pictures
-// do not arrive, because its publisher or the host has stopped or the link is cut. `is_thinned`:
-// the host leaves out frames for this participant. Without any frame so far, and while this
-// participant looks back, as it was said.
+// do not arrive, because its publisher or the host has stopped or the link is cut; also where none
+// has come since they were asked for. `is_thinned`: the host leaves out frames for this
+// participant. While this participant looks back, as it was said.
 wire::CameraState state_here(const wire::CameraState& said, const receive::StreamFigures& seen,
                              bool is_thinned);
 

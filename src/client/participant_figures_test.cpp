@@ -26,6 +26,20 @@ TEST(CameraState, IsStaleHereWhileItsPicturesDoNotArrive) {
     EXPECT_EQ(condition(5100, 10, false, Condition::ended), Condition::ended);
 }
 
+TEST(CameraState, IsStaleHereWhereNoPictureCameSinceTheyWereAskedFor) {
+    receive::StreamFigures depth;
+    depth.awaited_ms = 1900;
+    const wire::CameraState said{CameraId{0}, Condition::live, {}, ""};
+    EXPECT_EQ(state_here(said, depth, false).condition, Condition::live);
+    depth.awaited_ms = 2100;
+    EXPECT_EQ(state_here(said, depth, true).condition, Condition::live) << "few frames are sent";
+    const wire::CameraState state = state_here(said, depth, false);
+    EXPECT_EQ(state.condition, Condition::stale);
+    EXPECT_EQ(wire::english(state.problem), "None of its pictures has arrived yet.");
+    depth.past = true;
+    EXPECT_EQ(state_here(said, depth, false).condition, Condition::live);
+}
+
 TEST(CameraState, SaysWhyItIsStale) {
     receive::StreamFigures depth;
     depth.frames = 1;
@@ -41,11 +55,11 @@ TEST(Figures, HaveNoAgesWhileTheSessionsClockIsUnknown) {
     receive::StreamFigures depth;
     depth.frames = 7;
     depth.age_ms = depth.age_now_ms = -8e7;
-    depth.age_p50_ms = depth.age_p99_ms = depth.age_max_ms = 8e7;
+    depth.age_p50_ms = depth.age_p99_ms = depth.age_max_ms = depth.awaited_ms = 8e7;
     const receive::StreamFigures shown = without_ages({depth}).front();
     EXPECT_EQ(shown.frames, 7u);
-    for (const double age :
-         {shown.age_ms, shown.age_now_ms, shown.age_p50_ms, shown.age_p99_ms, shown.age_max_ms})
+    for (const double age : {shown.age_ms, shown.age_now_ms, shown.age_p50_ms, shown.age_p99_ms,
+                             shown.age_max_ms, shown.awaited_ms})
         EXPECT_EQ(age, 0);
 }
 

@@ -47,6 +47,7 @@ struct Participant::Shared {
     std::size_t taken = 0;    // bytes that decoders took, not yet passed to the client
     bool is_telling = false;  // tell_taken() has been posted
     std::vector<receive::StreamFigures> figures;
+    MomentFigures moments;
     bool reset_wanted = false;
     net::ClockSync clock;
     net::Client* client = nullptr;  // while one runs

@@ -75,6 +75,11 @@ std::optional<Device> device_of(std::string_view name) {
     return std::nullopt;
 }
 
+// Shortens text from outside for a message.
+std::string shown(const std::string& text) {
+    return text.size() <= 40 ? text : text.substr(0, 40) + "...";
+}
+
 class Reader {
 public:
     void set_device(std::string_view name) {
@@ -109,6 +114,8 @@ public:
     }
 
     ParsedChain finish() {
+        if (parsed_.settings.device != Device::processor && parsed_.settings.off())
+            note("There are no filters to run on a GPU: leave the device out.");
         for (const Step& step : parsed_.settings.steps)
             if (const auto* range = std::get_if<RangeParams>(&step))
                 if (range->min_mm >= range->max_mm)
@@ -142,11 +149,6 @@ void read_step(const std::string& text, Reader& reader) {
         reader.note("There is no filter '" + options.kind() + "'; " + known + ".");
     else if (!options.problem().empty())
         reader.note(options.problem());
-}
-
-// Shortens text from outside for a message.
-std::string shown(const std::string& text) {
-    return text.size() <= 40 ? text : text.substr(0, 40) + "...";
 }
 
 void read_step(const json& object, Reader& reader) {
@@ -225,7 +227,14 @@ ParsedChain parse_chain(std::string_view text) {
     const auto at = text.rfind('@');
     if (at != std::string_view::npos &&
         (device_of(text.substr(at + 1)) || text.find("file=") == std::string_view::npos)) {
-        reader.set_device(text.substr(at + 1));
+        const std::string_view device = text.substr(at + 1),
+                               name = device.substr(0, device.find('+'));
+        if (name != device && device_of(name))
+            reader.note("The device stands at the end of the line: '" +
+                        shown(std::string(text.substr(0, at)) +
+                              std::string(device.substr(name.size())) + "@" + std::string(name)) +
+                        "'.");
+        reader.set_device(device);
         text = text.substr(0, at);
     }
     bool first = true;

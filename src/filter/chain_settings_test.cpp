@@ -70,6 +70,12 @@ TEST(ChainSettings, ADeviceMayBeChosenAtTheEnd) {
     EXPECT_EQ(both.device, Device::cuda);
     for (const char* text : {"default@gpu", "default@", "@cuda@x"})
         EXPECT_THAT(parse_chain(text).problem, HasSubstr("there are cpu, cuda and auto")) << text;
+    EXPECT_EQ(parse_chain("default@cuda+range:max_mm=2000").problem,
+              "The device stands at the end of the line: 'default+range:max_mm=2000@cuda'.");
+    for (const char* text : {"off@cuda", "off@auto"})
+        EXPECT_EQ(parse_chain(text).problem,
+                  "There are no filters to run on a GPU: leave the device out.");
+    EXPECT_EQ(parse_chain("off@cpu").problem, "");
 }
 
 TEST(ChainSettings, AFileSaysTheSame) {

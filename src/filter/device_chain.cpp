@@ -27,6 +27,20 @@ std::optional<Duration> shortest(Apply apply, const std::function<TimePoint()>& 
 
 }  // namespace
 
+const std::string& missing_gpu() {
+    static const std::string why = [] {
+        ChainSettings settings;
+        settings.steps = {RangeParams{}};
+        std::string problem;
+        return CudaChain::make(settings, {.size = {64, 48}}, problem) ? std::string() : problem;
+    }();
+    return why;
+}
+
+std::string on_processor(const std::string& why) {
+    return why + " The filters run on the processor, with the same result.";
+}
+
 DeviceChain::DeviceChain(ChainSettings settings, const ChainCamera& camera,
                          std::function<TimePoint()> now, MakeGpuChain make_gpu_chain)
     : settings_(std::move(settings)),
@@ -44,8 +58,8 @@ DeviceChain::DeviceChain(ChainSettings settings, const ChainCamera& camera,
 void DeviceChain::use_processor(const std::string& why) {
     gpu_.reset();
     processor_.emplace(settings_, camera_);
-    if (settings_.device == Device::cuda && !why.empty())
-        remark_ = why + " The filters run on the processor, with the same result.";
+    if (!why.empty() && why != missing_gpu())
+        remark_ = on_processor(why);
 }
 
 // Both chains are made anew afterwards, so that none has seen the frame before.

@@ -13,6 +13,12 @@
 
 namespace theatron::filter {
 
+// Why no GPU of this machine can filter, one sentence; empty: one can. It looks at the first call
+// alone, which takes up to a second where there is a GPU. From any thread.
+const std::string& missing_gpu();
+// That sentence, and that the processor takes its place.
+std::string on_processor(const std::string& why);
+
 // Not thread safe.
 class DeviceChain {
 public:
@@ -34,7 +40,8 @@ public:
     std::string device() const { return gpu_ ? gpu_->device() : "cpu"; }
 
     // One sentence for people about what happened since the last call: which device was found to
-    // be quicker, or why the processor filters in place of a GPU. Empty: nothing.
+    // be quicker, or why the processor filters in place of a GPU, unless it is missing_gpu(), which
+    // concerns all cameras. Empty: nothing.
     std::string take_remark() { return std::exchange(remark_, {}); }
 
 private:

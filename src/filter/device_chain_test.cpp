@@ -92,16 +92,26 @@ TEST(DeviceChain, UsesTheGpuThatIsChosen) {
 
 TEST(DeviceChain, SaysOnceWhyTheProcessorFilters) {
     SimulatedGpu gpu;
-    gpu.problem = "No CUDA device answers.";
-    DeviceChain chain = chain_on(gpu, "default@cuda");
+    gpu.problem = "The GPU of a test is full.";
+    for (const char* text : {"default@cuda", "default@auto"}) {
+        DeviceChain chain = chain_on(gpu, text);
+        expect_plain_frames(chain);
+        EXPECT_EQ(chain.device(), "cpu");
+        EXPECT_EQ(chain.take_remark(),
+                  "The GPU of a test is full. The filters run on the processor, with the same "
+                  "result.")
+            << text;
+        EXPECT_EQ(chain.take_remark(), "") << text;
+    }
+}
+
+TEST(DeviceChain, LeavesWhatAllCamerasLackToTheProgram) {
+    if (missing_gpu().empty())
+        GTEST_SKIP() << "This machine has a GPU; the test is about those without.";
+    DeviceChain chain(settings_of("default@cuda"), {.size = size}, [] { return TimePoint{}; });
     expect_plain_frames(chain);
     EXPECT_EQ(chain.device(), "cpu");
-    EXPECT_EQ(chain.take_remark(),
-              "No CUDA device answers. The filters run on the processor, with the same result.");
     EXPECT_EQ(chain.take_remark(), "");
-    DeviceChain quickest = chain_on(gpu, "default@auto");
-    EXPECT_EQ(quickest.device(), "cpu");
-    EXPECT_EQ(quickest.take_remark(), "") << "nobody asked for a GPU";
 }
 
 TEST(DeviceChain, GoesOnWhenTheGpuFails) {

@@ -2,9 +2,12 @@
 #include "host/filter_choice.h"
 
 #include <algorithm>
+#include <mutex>
 
 #include "base/error.h"
+#include "base/log.h"
 #include "files/file_bytes.h"
+#include "filter/device_chain.h"
 
 namespace theatron::host {
 namespace {
@@ -51,6 +54,16 @@ void check_background(const LoadedFilter& filter, Size depth) {
     throw Error("The background '" + filter.settings.background_file + "' was recorded with " +
                 text(filter.background->nearest.size) + " depth pixels, the camera has " +
                 text(depth) + "; record it anew with theatron background record.");
+}
+
+void tell_missing_gpu(const filter::ChainSettings& settings) {
+    static std::once_flag told;
+    if (settings.device == filter::Device::processor || settings.off())
+        return;
+    std::call_once(told, [] {
+        if (const std::string& why = filter::missing_gpu(); !why.empty())
+            log::warning("filter", filter::on_processor(why));
+    });
 }
 
 LoadedFilter FilterSource::load() {

@@ -31,6 +31,10 @@ std::string shown_filter(const std::string& spelling);
 // than `depth`, which would leave it without effect.
 void check_background(const LoadedFilter& filter, Size depth);
 
+// Says once in the life of the program, to its log, why the processor filters in place of a GPU
+// that such settings ask for or would try. From any thread.
+void tell_missing_gpu(const filter::ChainSettings& settings);
+
 // A preset, a line as in docs/filters.md, or the name of a JSON file.
 class FilterSource {
 public:

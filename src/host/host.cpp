@@ -93,6 +93,7 @@ void Host::Impl::open(const SessionOptions& options, const capture::Progress& pr
     std::vector<LoadedFilter> loaded;
     for (std::size_t i = 0; i < filters.size(); ++i) {
         loaded.push_back(filters[i].load());
+        tell_missing_gpu(loaded.back().settings);
         if (cameras[i])
             check_background(loaded.back(), cameras[i]->info().calibration.depth.size);
         else
@@ -354,6 +355,7 @@ void Host::follow_filter_files() {
             const auto changed = impl_->filters[i].changed();
             if (!changed)
                 continue;
+            tell_missing_gpu(changed->settings);
             // A camera that is found is missing until it has its lane.
             const std::lock_guard lock(impl_->missing_mutex);
             if (send::CameraLane* lane = impl_->lanes.find(i)) {

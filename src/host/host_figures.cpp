@@ -43,6 +43,10 @@ files::UtcSeconds seconds_left(const HostFigures& figures,
     return certificate.ends - now.time_since_epoch().count();
 }
 
+bool is_gpu(const std::string& filter_device) {
+    return !filter_device.empty() && filter_device != "cpu";
+}
+
 nlohmann::json camera_json(const HostFigures::Camera& camera) {
     const send::LaneFigures& f = camera.lane;
     nlohmann::json stages = nlohmann::json::array();
@@ -139,6 +143,12 @@ nlohmann::json visitor_json(const wire::Visitor& visitor) {
     return json;
 }
 
+nlohmann::json skew_json(const MomentFigures& moments) {
+    if (moments.whole == 0)
+        return nullptr;
+    return {{"p50", moments.skew_p50_ms}, {"max", moments.skew_max_ms}};
+}
+
 nlohmann::json to_json(const HostFigures& figures) {
     nlohmann::json cameras = nlohmann::json::array(), participants = nlohmann::json::array(),
                    overlaps = nlohmann::json::array();
@@ -187,7 +197,7 @@ nlohmann::json to_json(const HostFigures& figures) {
             participants.back()["age_ms"] = *age;
     }
     nlohmann::json published = nlohmann::json::array();
-    for (const auto& camera : figures.published)
+    for (const auto& camera : figures.published) {
         published.push_back({{"id", int(camera.id)},
                              {"name", camera.name},
                              {"publisher", int(camera.publisher)},
@@ -195,7 +205,13 @@ nlohmann::json to_json(const HostFigures& figures) {
                              {"state", wire::text_of(camera.condition)},
                              {"adjusted", figures.adjustment(camera.id)},
                              {"dropped_slow", camera.dropped_slow},
-                             {"bytes", camera.bytes}});
+                             {"bytes", camera.bytes},
+                             {"sync_offset_ms", nullptr},
+                             {"filter", camera.filter},
+                             {"filter_device", camera.filter_device}});
+        if (camera.sync_offset_seconds)
+            published.back()["sync_offset_ms"] = *camera.sync_offset_seconds * 1000;
+    }
     nlohmann::json visitors = nlohmann::json::array();
     for (const auto& visitor : figures.visitors)
         visitors.push_back(visitor_json(visitor));
@@ -214,6 +230,8 @@ nlohmann::json to_json(const HostFigures& figures) {
             {"cameras", cameras},
             {"participants", participants},
             {"published", published},
+            {"skew_ms", skew_json(figures.moments)},
+            {"unpaired", figures.moments.unpaired},
             {"overlaps", overlaps},
             {"registration",
              {{"made", figures.registration.made},
@@ -273,6 +291,16 @@ std::string to_prometheus(const PortFigures& figures_of_all) {
         out.family(name, type, help);
         each_camera([&](const std::string& of, const Camera& c) { out.value(of, value(c)); });
     };
+    using LookAtPublished =
+        std::function<void(const std::string& labels, const HostFigures::Published&)>;
+    const auto each_published = [&](const LookAtPublished& look) {
+        for (const HostFigures& figures : all)
+            for (const HostFigures::Published& camera : figures.published)
+                if (!camera.is_face)
+                    look(in_session(figures, "camera=\"" + std::to_string(int(camera.id)) +
+                                                 "\",name=" + quoted(camera.name)),
+                         camera);
+    };
     const auto per_session = [&](const char* name, const char* help,
                                  const std::function<std::size_t(const HostFigures&)>& value) {
         out.family(name, "gauge", help);
@@ -312,14 +340,35 @@ std::string to_prometheus(const PortFigures& figures_of_all) {
     per_camera("sync_offset_seconds", "gauge",
                "From the moment that the newest frame belongs to, to its capture.",
                [](const Camera& c) { return c.lane.sync_offset_seconds; });
+    out.family("published_sync_offset_seconds", "gauge",
+               "The same of a camera that a participant sends.");
+    each_published([&](const std::string& of, const HostFigures::Published& c) {
+        if (c.sync_offset_seconds)
+            out.value(of, *c.sync_offset_seconds);
+    });
+    out.family("skew_seconds", "gauge",
+               "Between the first and the last exposure of one moment: median and largest.");
+    for (const HostFigures& figures : all) {
+        if (figures.moments.whole == 0)
+            continue;
+        out.value(in_session(figures, "quantile=\"0.5\""), figures.moments.skew_p50_ms / 1000);
+        out.value(in_session(figures, "quantile=\"1\""), figures.moments.skew_max_ms / 1000);
+    }
+    out.family("unpaired_pictures_total", "counter",
+               "Pictures of moments of which another running camera has none.");
+    for (const HostFigures& figures : all)
+        out.value(in_session(figures, ""), double(figures.moments.unpaired));
     per_camera("camera_stale", "gauge", "1 while the camera gives no good pictures.",
                [](const Camera& c) {
                    return c.lane.camera.condition == wire::CameraCondition::live ? 0.0 : 1.0;
                });
     per_camera("filter_on_gpu", "gauge", "1 while a GPU filters the camera's depth.",
-               [](const Camera& c) {
-                   return c.lane.filter_device.empty() || c.lane.filter_device == "cpu" ? 0.0 : 1.0;
-               });
+               [](const Camera& c) { return is_gpu(c.lane.filter_device) ? 1.0 : 0.0; });
+    out.family("published_filter_on_gpu", "gauge",
+               "The same of a camera that a participant sends.");
+    each_published([&](const std::string& of, const HostFigures::Published& c) {
+        out.value(of, is_gpu(c.filter_device) ? 1 : 0);
+    });
     out.family("camera_troubles_total", "counter", "How often a camera became stale, by kind.");
     each_camera([&](const std::string& of, const Camera& c) {
         for (int kind = 1; kind < capture::trouble_kinds; ++kind)

@@ -4,11 +4,13 @@
 
 #include <map>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "base/ids.h"
+#include "base/moment_meter.h"
 #include "base/time.h"
 #include "base/utc.h"
 #include "files/utc_text.h"
@@ -53,8 +55,12 @@ struct HostFigures {
         std::uint64_t dropped_slow = 0;  // as above
         bool is_face = false;            // of its publisher
         std::uint64_t bytes = 0;         // of pictures that the host has received
+        // As those of LaneFigures; of the newest picture that came by the host, if any.
+        std::optional<double> sync_offset_seconds = {};
+        std::string filter = {}, filter_device = {};
     };
-    std::vector<Published> published;          // cameras that participants send now
+    std::vector<Published> published;  // cameras that participants send now
+    MomentFigures moments;  // of the host's cameras, and of published ones as they come by it
     std::map<CameraId, std::string> adjusted;  // by operators, and how
     PlaceWatch::Figures places;                // whether cameras stay where they were registered
     // The origin of the cameras' places.
@@ -105,13 +111,16 @@ struct PortFigures {
 // "fps","age_ms","stages":[…],"dropped":{…},"lost_pictures",…}],"participants":[{"id","name","age_ms",
 // "renderer","refused_requests","denied_messages","refused_pictures","role","muted","direct",…}],"visitors":[{"id","name",
 // "person","role","records"}],"published":[{"id","name","publisher","whose","state",
-// "adjusted","dropped_slow","bytes"}],"overlaps":[{"a","b","apart_mm","alarm"}],
+// "adjusted","dropped_slow","bytes",
+// "sync_offset_ms","filter","filter_device"}],"skew_ms":{"p50","max"},"unpaired","overlaps":[{"a","b","apart_mm","alarm"}],
 // "registration":{"made","method","problem"},"case_problems":[…],"past_bytes","turned_away",
 // "faults","page_problem","problems":{"audit_log","room","links"},
 // "certificates":[{"of","fingerprint","expires","seconds_left","problem"}]}
 nlohmann::json to_json(const HostFigures& figures);
 // One of its visitors; who has no name there has none here.
 nlohmann::json visitor_json(const wire::Visitor& visitor);
+// {"p50","max"}; null where no two cameras can be compared.
+nlohmann::json skew_json(const MomentFigures& moments);
 // The same of the first session of a host; those of its further ones are in "sessions", and those
 // that are not open in "closed_sessions":[{"name","problem"}]. Both are missing where there are
 // none.

@@ -20,7 +20,8 @@ HostFigures full_figures() {
     camera.lane.encoders.emplace_back();
     figures.cameras.push_back(camera);
     figures.participants.emplace_back();
-    figures.published.emplace_back();
+    figures.published.emplace_back().sync_offset_seconds = 0.015;
+    figures.moments = {.skew_p50_ms = 15, .skew_max_ms = 18, .whole = 90, .unpaired = 12};
     figures.places.cameras.push_back({true, true, false, false, false, 0, 0, {}});
     figures.places.pairs.push_back({0, 0, 0, false});
     figures.visitors.emplace_back();
@@ -76,6 +77,30 @@ TEST(HostFigures, TellsWhatTheHostCannotWrite) {
     EXPECT_NE(metrics.find("host_problem{of=\"room\"} 0\n"), std::string::npos) << metrics;
     EXPECT_NE(to_table(to_json(figures)).find("\nThe audit log cannot be written.\n"),
               std::string::npos);
+}
+
+TEST(HostFigures, TellHowFarApartCamerasAreAndWhatFiltersThePublishedOnes) {
+    HostFigures figures = full_figures();
+    figures.published.front().name = "face";
+    figures.published.front().filter_device = "GPU of a test";
+    const nlohmann::json json = to_json(figures);
+    EXPECT_EQ(json["skew_ms"]["p50"], 15);
+    EXPECT_EQ(json["unpaired"], 12);
+    EXPECT_EQ(json["published"][0]["sync_offset_ms"], 15);
+    EXPECT_EQ(json["published"][0]["filter_device"], "GPU of a test");
+    EXPECT_NE(to_table(json).find("\ncameras 15 ms apart (at most 18), 12 pictures alone\n"),
+              std::string::npos);
+    const std::string metrics = to_prometheus({{figures}, {}});
+    for (const char* line :
+         {"theatron_skew_seconds{quantile=\"0.5\"} 0.015\n",
+          "theatron_unpaired_pictures_total{} 12\n",
+          "theatron_published_sync_offset_seconds{camera=\"0\",name=\"face\"} 0.015\n",
+          "theatron_published_filter_on_gpu{camera=\"0\",name=\"face\"} 1\n"})
+        EXPECT_NE(metrics.find(line), std::string::npos) << line << metrics;
+
+    figures.moments = {};
+    EXPECT_TRUE(to_json(figures)["skew_ms"].is_null());
+    EXPECT_EQ(to_table(to_json(figures)).find("ms apart"), std::string::npos);
 }
 
 TEST(HostFigures, EveryMetricIsOnThePageOfMetrics) {

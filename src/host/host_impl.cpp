@@ -462,7 +462,7 @@ void Host::Impl::forward(net::PeerId publisher, std::shared_ptr<const Bytes> mes
     const auto receivers =
         session->on_media_from(ParticipantId(std::uint32_t(publisher)), *message, steady_now());
     if (const auto header = wire::parse_media_header(*message)) {
-        received[camera_of(header->stream)] += message->size();
+        note_received(ParticipantId(std::uint32_t(publisher)), *header, message->size());
         send_media({std::move(message),
                     header->stream,
                     header->setting,
@@ -475,6 +475,25 @@ void Host::Impl::forward(net::PeerId publisher, std::shared_ptr<const Bytes> mes
     }
     carry_out();
     set_alarm();
+}
+
+void Host::Impl::note_received(ParticipantId publisher, const wire::MediaHeader& header,
+                               std::size_t size) {
+    const CameraId id = camera_of(header.stream);
+    Received& of = received[id];
+    of.bytes += size;
+    const session::CameraStreams* camera = session->streams().cameras().find(id);
+    if (!camera || camera->publisher() != publisher)
+        return;
+    if (!of.is_compared) {
+        const auto calibration = decode_calibration(camera->description().calibration);
+        of.is_compared = camera->description().kind == wire::CameraKind::room && calibration &&
+                         !is_screen(*calibration);
+    }
+    if (!*of.is_compared)
+        return;
+    of.sync_offset = header.captured - header.moment;
+    moments->note(publisher, id, header.moment, header.captured);
 }
 
 void Host::Impl::send_media(const net::Media& encoded,
@@ -512,6 +531,8 @@ HostFigures Host::Impl::figures() const {
     }
     figures.participants = participant_figures;
     figures.published = published_figures;
+    if (moments)
+        figures.moments = moments->figures();
     for (const auto& [camera, adjustment] : adjusted_figures)
         figures.adjusted[camera] = text_of(adjustment);
     if (place_watch)

@@ -101,8 +101,14 @@ struct Host::Impl {
     std::optional<TimePoint> alarm_at;    // of the server; server's thread
     // Frames dropped per camera because a receiver was too slow; server's thread.
     std::map<CameraId, std::uint64_t> dropped_slow;
-    // Bytes of participants' cameras; server's thread.
-    std::map<CameraId, std::uint64_t> received;
+    // Bytes of participants' cameras, and the time from its moment to the exposure of the newest
+    // picture; server's thread.
+    struct Received {
+        std::uint64_t bytes = 0;
+        std::optional<Duration> sync_offset;
+        std::optional<bool> is_compared;  // it is a camera of the room, no screen
+    };
+    std::map<CameraId, Received> received;
     mutable std::mutex figures_mutex;
     std::vector<HostFigures::Participant> participant_figures;
     std::vector<HostFigures::Published> published_figures;
@@ -210,6 +216,7 @@ struct Host::Impl {
     void distribute(const send::EncodedMedia& media);
     // A participant has sent a media message.
     void forward(net::PeerId publisher, std::shared_ptr<const Bytes> message);
+    void note_received(ParticipantId publisher, const wire::MediaHeader& header, std::size_t size);
     void send_media(const net::Media& encoded, const std::vector<ParticipantId>& receivers);
     void on_camera_states();
     void take_state(net::PeerId peer, const wire::State& state);

@@ -59,10 +59,13 @@ void Host::Impl::note_participants() {
     for (const wire::Camera& camera : cameras.descriptions())
         if (camera.publisher != session::host_publisher) {
             const auto& state = cameras.find(camera.id)->state;
-            published.push_back({camera.id, camera.name, camera.publisher,
-                                 condition_here(state, is_silent(camera.publisher)),
-                                 dropped_slow[camera.id], camera.kind == wire::CameraKind::face,
-                                 received[camera.id]});
+            const auto& sync_offset = received[camera.id].sync_offset;
+            published.push_back(
+                {camera.id, camera.name, camera.publisher,
+                 condition_here(state, is_silent(camera.publisher)), dropped_slow[camera.id],
+                 camera.kind == wire::CameraKind::face, received[camera.id].bytes,
+                 sync_offset ? std::optional(to_seconds(*sync_offset)) : std::nullopt,
+                 state ? state->filter : "", state ? state->filter_device : ""});
         }
     std::string problem_of_places = mixed_registrations(cameras.descriptions());
     if (problem_of_places != registration_problem && !problem_of_places.empty())

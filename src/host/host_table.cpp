@@ -75,6 +75,13 @@ std::string to_table(const nlohmann::json& figures) {
     }
     if (const std::string color = text_field(figures, "automatic_color"); !color.empty())
         table += "automatic colour is " + color + "\n";
+    if (const auto skew = figures.find("skew_ms"); skew != figures.end() && skew->is_object()) {
+        std::snprintf(line, sizeof(line),
+                      "cameras %.0f ms apart (at most %.0f), %.0f pictures alone\n",
+                      number_field(*skew, "p50"), number_field(*skew, "max"),
+                      number_field(figures, "unpaired"));
+        table += line;
+    }
     for (const auto& camera : list_field(figures, "published")) {
         // Hosts of version 0.1.0 do not say whose it is.
         const std::string whose = text_field(camera, "whose");

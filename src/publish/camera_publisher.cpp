@@ -126,6 +126,10 @@ void CameraPublisher::open_all(std::vector<std::unique_ptr<capture::Camera>> cam
                            encode_calibration(calibrations[i]), sharing.may_record,
                            is_in_room ? wire::CameraKind::room : sharing.kind});
     }
+    double fps = 1;
+    for (const auto& camera : cameras)
+        fps = std::max(fps, camera->info().frames_per_second);
+    moments_ = std::make_shared<send::SharedMoments>(fps);
     for (std::size_t i = 0; i < cameras.size(); ++i)
         open(i, std::move(cameras[i]));
 }
@@ -136,6 +140,7 @@ void CameraPublisher::open(std::size_t camera, std::unique_ptr<capture::Camera> 
     events.state = [this, camera](wire::CameraState state) { on_state(camera, std::move(state)); };
     send::CameraLane::Options options;
     options.cameras = specifications_.size();
+    options.moments = moments_;
     std::string specification = specifications_[camera];
     // A live screen keeps its size: a window may have another one when it comes back.
     const capture::CameraInfo& info = opened->info();
@@ -308,12 +313,20 @@ void CameraPublisher::on_media(std::size_t camera, const send::EncodedMedia& enc
     const Duration offset = participant_->now() - steady_now();
     wire::MediaHeader header = encoded.header;
     header.stream = is_depth(header.stream) ? depth_stream(*number) : color_stream(*number);
-    for (TimePoint* time :
-         {&header.moment, &header.captured, &header.delivered, &header.filtered, &header.encoded})
+    for (TimePoint* time : {&header.captured, &header.delivered, &header.filtered, &header.encoded})
         shift(*time, offset);
+    header.moment = told_moment(header.moment, offset);
     const auto message = std::make_shared<Bytes>(*encoded.message);
     wire::write_media_header(header, message->data());
     participant_->send_media(header, message);
+}
+
+TimePoint CameraPublisher::told_moment(TimePoint moment, Duration offset) {
+    constexpr std::size_t remembered = 64;
+    const TimePoint told = told_moments_.try_emplace(moment, moment + offset).first->second;
+    if (told_moments_.size() > remembered)
+        told_moments_.erase(told_moments_.begin());
+    return told;
 }
 
 void CameraPublisher::on_state(std::size_t camera, wire::CameraState state) {

@@ -62,6 +62,8 @@ public:
         send::LaneFigures lane;
     };
     std::vector<Figures> figures() const;
+    // Figures of the cameras' pictures, without screens.
+    MomentFigures moments() const { return moments_->figures(); }
 
     // For the options of the participant that sends them; valid as long as the publisher. Those of
     // a face are for Options::face, else for Options::publishing.
@@ -80,6 +82,7 @@ private:
     void on_encode(const std::vector<wire::StreamSetting>& settings);
     void on_encode_key(StreamId stream, SettingId setting);
     void on_media(std::size_t camera, const send::EncodedMedia& encoded);
+    TimePoint told_moment(TimePoint moment, Duration offset);
     void on_state(std::size_t camera, wire::CameraState state);
     std::size_t camera_with(CameraId number) const;
     std::optional<CameraId> number_of(std::size_t camera) const;
@@ -89,12 +92,17 @@ private:
     const bool is_face_;
     std::vector<wire::OfferedCamera> offers_;
 
-    mutable std::mutex mutex_;  // guards all up to `workers_`
+    mutable std::mutex mutex_;  // guards all up to `moments_`
     client::Participant* participant_ = nullptr;
     std::vector<std::size_t> offered_;       // the cameras of the offers, in their order
     std::vector<CameraId> numbers_;          // given by the host, by offer; may be empty
     std::vector<wire::CameraState> states_;  // newest, by camera
 
+    // Newest moments as they were told, in session time, by the time here: all pictures of a moment
+    // have the same one, although the offset between the clocks is estimated anew all the time.
+    std::map<TimePoint, TimePoint> told_moments_;
+
+    std::shared_ptr<send::SharedMoments> moments_;  // of all lanes
     send::ColorWatch color_watch_;
     send::Workers workers_;
     std::vector<std::unique_ptr<send::CameraLane>> lanes_;  // never change

@@ -138,6 +138,19 @@ TEST_F(ReceiverTest, PairsDepthAndColorOfAFrame) {
     EXPECT_TRUE(keys_wanted.empty());
 }
 
+TEST_F(ReceiverTest, TellsForHowLongTheFirstPictureIsAwaited) {
+    const auto awaited_ms = [&](FrameNumber n) { return receiver.figures(at(n)).at(0).awaited_ms; };
+    EXPECT_EQ(awaited_ms(0), 0);
+    EXPECT_NEAR(awaited_ms(60), 2000, 0.1);
+    receiver.forget_ages();  // the clock was another one
+    EXPECT_EQ(awaited_ms(61), 0);
+    EXPECT_NEAR(awaited_ms(91), 1000, 0.1);
+    Source source;
+    (void)receiver.on_media(source.depth(92), at(92));
+    (void)receiver.on_media(source.color(92), at(92));
+    EXPECT_EQ(awaited_ms(200), 0);
+}
+
 TEST_F(ReceiverTest, PutsNoPictureTogetherOfThePastAndThePresent) {
     constexpr SettingId past_depth{7}, past_color{8};
     Source live, past("trvl", past_depth);

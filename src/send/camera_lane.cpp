@@ -170,7 +170,7 @@ void CameraLane::request_key(StreamId stream, SettingId setting) {
 // On the camera's thread.
 void CameraLane::on_frame(FramePtr frame) {
     const FrameTimes& times = frame->times;
-    const auto tag = options_.moments->tag(id_, times.captured);
+    const auto tag = options_.moments->tag(id_, times.captured, !is_screen(info_.calibration));
     const TimePoint came = now();
     meter_.on_frame(came, times.captured, times.delivered, tag.offset);
     events_.frame(frame);
@@ -205,10 +205,11 @@ void CameraLane::look() {
         const std::lock_guard lock(status_mutex_);
         status_ = status;
     }
-    const std::string filter = meter_.filter();
+    const std::string filter = meter_.filter(), device = meter_.filter_device();
     if (status.condition != told_.condition || status.problem != told_.problem ||
-        filter != told_.filter) {
+        filter != told_.filter || device != told_.filter_device) {
         told_.filter = filter;
+        told_.filter_device = device;
         told_.condition = status.condition;
         told_.problem = status.problem;
         events_.state(told_);

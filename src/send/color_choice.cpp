@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "send/jpeg_budget.h"
+
 namespace theatron::send {
 namespace {
 
@@ -11,11 +13,16 @@ std::string percent(double share) {
     return std::to_string(int(std::lround(100 * share))) + " %";
 }
 
+// JPEG, with the bound of its pictures.
+std::string jpeg() {
+    return "JPEG of at most " + std::to_string(int(JpegBudget::most_mbit)) + " Mbit/s a camera: ";
+}
+
 }  // namespace
 
 ColorChoice::ColorChoice(std::string missing)
     : possible_(missing.empty()),
-      reason_("JPEG: " + (missing.empty() ? "nothing is measured yet" : missing)) {}
+      reason_(jpeg() + (missing.empty() ? "nothing is measured yet" : missing)) {}
 
 bool ColorChoice::observe(const ColorLoad& load, TimePoint now) {
     if (!possible_)
@@ -31,8 +38,8 @@ bool ColorChoice::observe(const ColorLoad& load, TimePoint now) {
         // Without a receiver a change costs nothing, and it is no trial.
         began_ = now;
         is_h264_ = now >= not_before_ && load.busy + load.h264 <= most_busy - margin;
-        reason_ = std::string(is_h264_ ? "H.264" : "JPEG") + ": the processor is " +
-                  percent(load.busy) + " busy, H.264 would take " + percent(load.h264);
+        reason_ = (is_h264_ ? "H.264: " : jpeg()) + "the processor is " + percent(load.busy) +
+                  " busy, H.264 would take " + percent(load.h264);
     } else if (is_h264_) {
         if (load.lost - lost_at_window_ >= most_lost)
             end(now, std::to_string(load.lost - lost_at_window_) +
@@ -56,7 +63,7 @@ void ColorChoice::begin(TimePoint now, double busy) {
 void ColorChoice::end(TimePoint now, const std::string& why) {
     is_h264_ = false;
     not_before_ = now + pause_;
-    reason_ = "JPEG: " + why + "; H.264 is tried again after " +
+    reason_ = jpeg() + why + "; H.264 is tried again after " +
               std::to_string(int(to_seconds(pause_))) + " s";
     pause_ = std::min(2 * pause_, longest_pause);
 }

@@ -40,7 +40,7 @@ TEST_F(Choice, IsJpegWhereThereIsNoEncoder) {
     choice.~ColorChoice();
     new (&choice) ColorChoice("There is no H.264 encoder.");
     EXPECT_EQ(pass(600, calm), 0);
-    EXPECT_EQ(choice.reason(), "JPEG: There is no H.264 encoder.");
+    EXPECT_EQ(choice.reason(), "JPEG of at most 20 Mbit/s a camera: There is no H.264 encoder.");
 }
 
 TEST_F(Choice, AShortBurstOfOtherWorkChangesNothing) {

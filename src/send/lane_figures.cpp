@@ -85,6 +85,11 @@ std::string LaneMeter::filter() const {
     return counts_.filter;
 }
 
+std::string LaneMeter::filter_device() const {
+    const std::lock_guard lock(mutex_);
+    return counts_.filter_device;
+}
+
 std::uint64_t LaneMeter::dropped(DropReason reason) const {
     const std::lock_guard lock(mutex_);
     return counts_.dropped[std::size_t(reason)];

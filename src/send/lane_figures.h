@@ -79,6 +79,7 @@ public:
     void on_filter(const std::string& spelling);
     void on_filter_device(const std::string& device);
     std::string filter() const;
+    std::string filter_device() const;
     std::uint64_t dropped(DropReason reason) const;
 
     // Fills in all but name, camera and encoders.

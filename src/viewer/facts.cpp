@@ -82,8 +82,8 @@ xr::Fact moment_fact(const Facts& facts) {
         *facts.skew_ms < together_ms
             ? say(Phrase::cameras_together)
             : say(Phrase::cameras_apart, std::to_string(std::lround(*facts.skew_ms)));
-    if (facts.unpaired > 0)
-        text = say(Phrase::cameras_unpaired, text, std::to_string(facts.unpaired));
+    if (const std::uint64_t unpaired = facts.received.moments.unpaired; unpaired > 0)
+        text = say(Phrase::cameras_unpaired, text, std::to_string(unpaired));
     return {say(Phrase::one_moment), text};
 }
 
@@ -153,7 +153,7 @@ std::string visitors_text(const std::vector<wire::Visitor>& visitors) {
 void add_pictures(const Facts& facts,
                   const std::function<std::string(const std::string&)>& filter_name,
                   std::vector<xr::Fact>& line) {
-    const auto& [status, cameras, recordings] = facts.received;
+    const auto& [status, cameras, recordings, moments] = facts.received;
     line.push_back({say(Phrase::dropped), std::to_string(facts.received.dropped())});
     if (status.delivery.level > 0)
         line.push_back({say(Phrase::sent), wire::sent_part(status.delivery, language()), true});
@@ -168,7 +168,7 @@ void add_pictures(const Facts& facts,
 std::vector<xr::Fact> line_of(const Facts& facts, const std::string& address,
                               const std::function<std::string(const std::string&)>& filter_name) {
     using Phase = client::Participant::Phase;
-    const auto& [status, cameras, recordings] = facts.received;
+    const auto& [status, cameras, recordings, moments] = facts.received;
     std::vector<xr::Fact> line;
     line.push_back({say(Phrase::host), status.host_name.empty() ? address : status.host_name});
     const xr::Fact age{say(Phrase::age_of_picture),

@@ -23,7 +23,6 @@ struct Facts {
     // The skew of the live cameras that are drawn together (same_moment.h); nullopt: fewer than
     // two.
     std::optional<double> skew_ms = {};
-    std::uint64_t unpaired = 0;  // pictures that were drawn without those of their moment
     double drawn_per_second = 0;
     bool drawing_rests = false;                        // so that frames are decoded
     std::optional<double> most_drawn_per_second = {};  // by choice; empty: as many as come

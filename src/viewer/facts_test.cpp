@@ -55,7 +55,7 @@ TEST(Overlay, SaysHowFarApartTheMomentsOfTheCamerasAre) {
     facts.skew_ms = 1.5;
     EXPECT_EQ(fact(overlay(facts), "One moment").value, "cameras together");
     facts.skew_ms = 15.2;
-    facts.unpaired = 7;
+    facts.received.moments.unpaired = 7;
     EXPECT_EQ(fact(overlay(facts), "One moment").value, "cameras 15 ms apart, 7 pictures alone");
     facts.past = "NOT LIVE: 23 s ago";
     EXPECT_EQ(fact(overlay(facts), "One moment").value, "");

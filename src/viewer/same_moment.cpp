@@ -104,8 +104,6 @@ std::vector<receive::CameraFramePtr> SameMoment::take(TimePoint now) {
             const bool waits_in_vain = !is_whole && now - arrived.at >= patience;
             if (arrived.frame->past || is_whole || waits_in_vain || !is_awaited)
                 shown[id] = i + 1;
-            if (waits_in_vain && is_awaited)
-                ++unpaired_;
         }
     }
     for (const auto& [id, count] : shown) {

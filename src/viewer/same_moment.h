@@ -33,9 +33,6 @@ public:
     // The time between the first and the last exposure of the live frames that are shown; nullopt
     // with fewer than two cameras.
     std::optional<Duration> skew(TimePoint now) const;
-    // The number of frames that were shown although the frame of a camera that they waited for did
-    // not come in time.
-    std::uint64_t unpaired() const { return unpaired_; }
 
 private:
     // A frame waits at most this long, and only for cameras that are usually this late at most, so
@@ -72,7 +69,6 @@ private:
 
     std::map<CameraId, Camera> cameras_;
     std::deque<Moment> moments_;  // oldest first
-    std::uint64_t unpaired_ = 0;
 };
 
 }  // namespace theatron::viewer

@@ -449,7 +449,6 @@ Facts Viewer::facts(TimePoint now) {
     }
     if (const auto skew = scene_.same_moment().skew(participant_.now()))
         facts.skew_ms = to_ms(*skew);
-    facts.unpaired = scene_.same_moment().unpaired();
     facts.drawn_per_second = drawn_.per_second(now);
     facts.drawing_rests = !headset_ && rest_.step() > 0;
     facts.way = way();

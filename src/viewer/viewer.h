@@ -170,7 +170,6 @@ public:
     // Number of presented pictures, and the ages of their frames.
     std::uint64_t pictures() const { return pictures_; }
     const SampleWindow& ages_ms() const { return all_ages_ms_; }
-    const SameMoment& same_moment() const { return scene_.same_moment(); }
 
 private:
     void tell_refusals(TimePoint now);

@@ -17,6 +17,7 @@ inline constexpr std::size_t max_name = 64;                // of a participant, 
 inline constexpr std::size_t max_token = 256;              // the host compares it whole
 inline constexpr std::size_t max_codec = 200;              // one codec in its spelling
 inline constexpr std::size_t max_renderer = 40;            // one renderer's name
+inline constexpr std::size_t max_filter_device = 100;      // a GPU's name
 inline constexpr std::size_t max_filter = 1000;            // a chain of filters in its spelling
 inline constexpr std::size_t max_cameras = 63;             // at once, as many as a recording holds
 inline constexpr std::size_t max_calibration_size = 4096;  // bytes of one camera's

@@ -175,6 +175,8 @@ constexpr Row rows[] = {
       "register LINK --output NEW'. Stehen sie, wo sie standen, so sagen Sie es für jede: 'nudge "
       "{3} none'."}},
 
+    {TextCode::no_picture_came,
+     {"None of its pictures has arrived yet.", "Noch keines ihrer Bilder ist angekommen."}},
     {TextCode::all_encodings_taken,
      {"The host already encodes in {0} ways; instead of {1} you get the nearest of them.",
       "Der Gastgeber kodiert schon auf {0} Arten; statt {1} erhalten Sie die nächste davon."}},

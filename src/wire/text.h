@@ -62,6 +62,7 @@ enum class TextCode : std::uint16_t {
     camera_moved_far = 217,  // {0}: mm that it moved at least, {1}: its name
     camera_covered = 218,
     camera_moved_together = 219,  // {0}: mm, {1}: degrees, {2}: another camera's name, {3}: its own
+    no_picture_came = 220,
 
     // Notes to a participant.
     all_encodings_taken = 300,  // {0}: how many there can be, {1}: the codec it asked for

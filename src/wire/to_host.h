@@ -311,12 +311,15 @@ struct CameraState {
     CameraCondition condition{};
     Text problem;
     std::string filter;  // the filters that run on its depth (docs/filters.md); empty: none
+    // "cpu" or the name of the GPU on which they run; empty: not known.
+    std::string filter_device = {};
 
     static void fields(auto& m, auto&& field) {
         field(m.camera);
         field(m.condition);
         field(m.problem);
         field(m.filter, max_filter);
+        field(m.filter_device, max_filter_device);
     }
 };
 

@@ -438,6 +438,7 @@ TEST(Control, EveryMessageRoundTrips) {
     EXPECT_EQ(settings.settings[0].codec, "rvl");
     EXPECT_EQ(settings.note, as_written("busy"));
     EXPECT_EQ(round_trip(CameraState{CameraId{1}, {}, {}, "kalman"}).filter, "kalman");
+    EXPECT_EQ(round_trip(CameraState{CameraId{1}, {}, {}, "kalman", "cpu"}).filter_device, "cpu");
     EXPECT_EQ(round_trip(CameraState{CameraId{1}, CameraCondition::failed, as_written("gone"), ""})
                   .problem,
               as_written("gone"));

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Filters of a host: chosen, changed while it runs, and told to those who watch."""
+import itertools
 import json
 import pathlib
 import shutil
@@ -31,15 +32,18 @@ class Filters(unittest.TestCase):
             self.assertEqual([camera["filter"] for camera in json.loads(out)["cameras"]], ["", "holes+kalman"])
 
     def test_without_a_gpu_the_processor_filters_and_the_host_says_so_once(self):
-        with host(self.state, self.camera, options=("--filter", "default@cuda")) as h, \
-                Process("join", h.greeting["link"], "--every", "0.1") as viewer:
-            viewer.wait_for(lambda f: f["cameras"] and f["cameras"][0]["filter"] and f["cameras"][0]["frames"] > 20)
-            camera = json.loads(run("status", h.greeting["link"], "--json")[1])["cameras"][0]
-            remarks = [line for line in h.errors if "The filters run on the processor, with the same result." in line]
-            if camera["filter_device"] == "cpu":
-                self.assertEqual(len(remarks), 1, h.errors)
-            else:
-                self.assertEqual(remarks, [])
+        says = "The filters run on the processor, with the same result."
+        for device in ("cuda", "auto"):
+            with host(self.state, self.camera, self.camera, options=("--filter", f"default@{device}")) as h, \
+                    Process("join", h.greeting["link"], "--every", "0.1") as viewer:
+                viewer.wait_for(lambda f: len(f["cameras"]) == 2 and all(c["filter"] and c["frames"] > 20 for c in f["cameras"]))
+                cameras = json.loads(run("status", h.greeting["link"], "--json")[1])["cameras"]
+                if any(c["filter_device"] != "cpu" for c in cameras):
+                    continue  # a GPU filters
+                h.wait_for_error("participant joined")
+                before = [line for line in itertools.takewhile(lambda line: "participant joined" not in line, h.errors) if says in line]
+                self.assertEqual(len(before), 1, h.errors)
+                self.assertEqual(len([line for line in h.errors if says in line]), 1, h.errors)
 
     def test_a_file_may_change_while_the_host_runs(self):
         file = self.folder / "left.json"

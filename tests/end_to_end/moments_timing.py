@@ -40,7 +40,7 @@ class Moments(unittest.TestCase):
                 self.assertEqual(window.end(), 0, window.last_words())
                 said = "".join(iter(window.lines.get, None))
         drawn = re.search(r"drew (\d+) pictures, age on screen (\d+) ms", said)
-        together = re.search(r"cameras (\d+) ms apart, (\d+) pictures without", said)
+        together = re.search(r"cameras (\d+) ms apart \(at most \d+\), (\d+) pictures alone", said)
         self.assertTrue(drawn and together, said)
         return {"drawn": int(drawn[1]), "age_ms": int(drawn[2]), "skew_ms": int(together[1]), "unpaired": int(together[2])}
 

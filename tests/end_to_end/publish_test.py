@@ -85,6 +85,10 @@ class Publishing(unittest.TestCase):
                 self.assertEqual(camera(stale, 1)["problem"], "Its pictures do not arrive any more.")
                 seen.wait_for(lambda f: camera(f, 0)["state"] == "live" and camera(f, 1)["state"] == "stale")
                 wait_until(lambda: listed() == ("face", 1, "stale"))
+                with viewer(h.greeting["link"]) as late:
+                    told = late.wait_for(lambda f: camera(f, 1) and camera(f, 1)["state"] == "stale")
+                    self.assertEqual(camera(told, 1)["problem"], "None of its pictures has arrived yet.")
+                    self.assertIsNone(camera(told, 1)["age_now_ms"])
                 cart.send(signal.SIGCONT)
                 seen.wait_for(lambda f: camera(f, 1)["state"] == "live")
                 wait_until(lambda: listed() == ("face", 1, "live"))

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/moment_meter.h"
+
+#include <algorithm>
+
+namespace theatron {
+namespace {
+
+// Differences of such times cannot overflow.
+bool is_possible(TimePoint time) {
+    constexpr std::int64_t most = std::int64_t(1) << 61;
+    return to_us(time) > -most && to_us(time) < most;
+}
+
+}  // namespace
+
+void MomentMeter::add(ParticipantId publisher, CameraId camera, TimePoint moment,
+                      TimePoint captured) {
+    if (!is_possible(moment) || !is_possible(captured))
+        return;
+    if (!publishers_.contains(publisher) && publishers_.size() >= most_publishers)
+        publishers_.erase(std::ranges::min_element(
+            publishers_, {}, [](const auto& entry) { return entry.second.newest; }));
+    Publisher& of = publishers_[publisher];
+    if (moment + long_before < of.newest)
+        of = {};
+    of.newest = std::max(of.newest, moment);
+    const bool is_late = of.open.size() == open_moments && moment < of.open.begin()->first;
+    if (is_late)
+        return;
+    of.open[moment].emplace(camera, captured);
+    Running& running = of.cameras.try_emplace(camera, moment, moment).first->second;
+    running.first = std::min(running.first, moment);
+    running.newest = std::max(running.newest, moment);
+    if (of.open.size() > open_moments)
+        close_first(of);
+}
+
+// A camera that began later, or has stopped, is not missed.
+void MomentMeter::close_first(Publisher& publisher) {
+    const auto& [moment, exposures] = *publisher.open.begin();
+    std::erase_if(publisher.cameras, [now = moment](const auto& entry) {
+        return entry.second.newest + long_before < now;
+    });
+    std::size_t expected = 0;
+    for (const auto& [camera, running] : publisher.cameras)
+        expected +=
+            exposures.contains(camera) || (running.first < moment && running.newest > moment);
+    if (expected > exposures.size()) {
+        counts_.unpaired += exposures.size();
+    } else if (expected > 1) {
+        const auto [first, last] = std::ranges::minmax_element(
+            exposures, {}, [](const auto& entry) { return entry.second; });
+        const double skew_ms = to_ms(last->second - first->second);
+        counts_.skew_max_ms = std::max(counts_.skew_max_ms, skew_ms);
+        ++counts_.whole;
+        ++skews_[std::min(std::size_t(skew_ms / bin_ms), bins - 1)];
+    }
+    publisher.open.erase(publisher.open.begin());
+}
+
+MomentFigures MomentMeter::figures() const {
+    MomentFigures figures = counts_;
+    std::uint64_t below = 0;
+    for (std::size_t i = 0; i < bins && 2 * below < counts_.whole; ++i) {
+        below += skews_[i];
+        figures.skew_p50_ms = std::min(double(i) * bin_ms, counts_.skew_max_ms);
+    }
+    return figures;
+}
+
+void MomentMeter::reset() {
+    *this = {};
+}
+
+}  // namespace theatron
