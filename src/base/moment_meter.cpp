@@ -28,12 +28,21 @@ void MomentMeter::add(ParticipantId publisher, CameraId camera, TimePoint moment
     const bool is_late = of.open.size() == open_moments && moment < of.open.begin()->first;
     if (is_late)
         return;
-    of.open[moment].emplace(camera, captured);
     Running& running = of.cameras.try_emplace(camera, moment, moment).first->second;
     running.first = std::min(running.first, moment);
     running.newest = std::max(running.newest, moment);
-    if (of.open.size() > open_moments)
+    auto open = of.open.find(moment);
+    if (open == of.open.end() && of.open.size() == open_moments) {
+        // The memory of the oldest one is used again.
         close_first(of);
+        auto oldest = of.open.extract(of.open.begin());
+        oldest.key() = moment;
+        oldest.mapped().clear();
+        open = of.open.insert(std::move(oldest)).position;
+    } else if (open == of.open.end()) {
+        open = of.open.try_emplace(moment).first;
+    }
+    open->second.emplace(camera, captured);
 }
 
 // A camera that began later, or has stopped, is not missed.
@@ -56,7 +65,6 @@ void MomentMeter::close_first(Publisher& publisher) {
         ++counts_.whole;
         ++skews_[std::min(std::size_t(skew_ms / bin_ms), bins - 1)];
     }
-    publisher.open.erase(publisher.open.begin());
 }
 
 MomentFigures MomentMeter::figures() const {
