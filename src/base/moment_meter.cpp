@@ -42,7 +42,9 @@ void MomentMeter::add(ParticipantId publisher, CameraId camera, TimePoint moment
     } else if (open == of.open.end()) {
         open = of.open.try_emplace(moment).first;
     }
-    open->second.emplace(camera, captured);
+    std::vector<Exposure>& exposures = open->second;
+    if (std::ranges::find(exposures, camera, &Exposure::camera) == exposures.end())
+        exposures.push_back({camera, captured});
 }
 
 // A camera that began later, or has stopped, is not missed.
@@ -53,14 +55,13 @@ void MomentMeter::close_first(Publisher& publisher) {
     });
     std::size_t expected = 0;
     for (const auto& [camera, running] : publisher.cameras)
-        expected +=
-            exposures.contains(camera) || (running.first < moment && running.newest > moment);
+        expected += std::ranges::find(exposures, camera, &Exposure::camera) != exposures.end() ||
+                    (running.first < moment && running.newest > moment);
     if (expected > exposures.size()) {
         counts_.unpaired += exposures.size();
     } else if (expected > 1) {
-        const auto [first, last] = std::ranges::minmax_element(
-            exposures, {}, [](const auto& entry) { return entry.second; });
-        const double skew_ms = to_ms(last->second - first->second);
+        const auto [first, last] = std::ranges::minmax(exposures, {}, &Exposure::captured);
+        const double skew_ms = to_ms(last.captured - first.captured);
         counts_.skew_max_ms = std::max(counts_.skew_max_ms, skew_ms);
         ++counts_.whole;
         ++skews_[std::min(std::size_t(skew_ms / bin_ms), bins - 1)];

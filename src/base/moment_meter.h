@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <vector>
 
 #include "base/ids.h"
 #include "base/time.h"
@@ -51,9 +52,13 @@ private:
     struct Running {
         TimePoint first, newest;  // moments
     };
+    struct Exposure {
+        CameraId camera{};
+        TimePoint captured;
+    };
     struct Publisher {
         TimePoint newest;
-        std::map<TimePoint, std::map<CameraId, TimePoint>> open;  // exposures by moment and camera
+        std::map<TimePoint, std::vector<Exposure>> open;  // by moment, one of each camera
         std::map<CameraId, Running> cameras;
     };
     void close_first(Publisher& publisher);
