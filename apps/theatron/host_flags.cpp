@@ -70,7 +70,9 @@ void add_host_options(CLI::App& command, HostFlags& flags) {
     command.add_flag("--json", flags.json, "Print one JSON line with the link instead of text");
     command.add_flag("--json-log", flags.logs_json,
                      "Write the log as JSON, an object each line, and nothing else unless --json "
-                     "or --print-links asks for it");
+                     "or --print-links asks for it. Lines that begin with 'theatron: ' stay plain "
+                     "text: why the host cannot start, what fails at its very end, and what "
+                     "THEATRON_TARGETS sets");
     command
         .add_option("--config", flags.config,
                     "A file with these options, a line each: KEY = VALUE (docs/service.md). "

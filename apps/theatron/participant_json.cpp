@@ -73,7 +73,7 @@ nlohmann::json camera_json(const client::CameraFigures& figures, wire::Role read
             {"frames", depth.frames},
             {"mbit_per_s", figures.mbit_per_second()},
             {"newest_age_ms", age(depth.age_ms)},
-            {"age_now_ms", age(depth.age_now_ms)},
+            {"age_now_ms", depth.has_come ? nlohmann::json(depth.age_now_ms) : nullptr},
             {"past", depth.past},
             {"direct", direct},
             {"newest_frame", depth.newest},
@@ -122,11 +122,11 @@ std::string age_part(const client::ParticipantFigures& figures) {
 std::string moments_part(const MomentFigures& moments) {
     if (!moments.any())
         return "";
-    char text[120];
-    std::snprintf(text, sizeof(text), "cameras %.0f ms apart (at most %.0f), %llu pictures alone",
-                  moments.skew_p50_ms, moments.skew_max_ms,
-                  static_cast<unsigned long long>(moments.unpaired));
-    return text;
+    char apart[80] = "";
+    if (moments.whole > 0)
+        std::snprintf(apart, sizeof(apart), "cameras %.0f ms apart (at most %.0f), ",
+                      moments.skew_p50_ms, moments.skew_max_ms);
+    return apart + std::to_string(moments.unpaired) + " pictures alone";
 }
 
 nlohmann::json participant_json(const client::Participant& participant) {

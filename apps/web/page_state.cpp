@@ -96,7 +96,7 @@ json camera_json(const client::CameraFigures& figures) {
             {"frames", seen ? seen->frames : 0},
             {"fps", seen ? seen->frames_per_second : 0},
             {"mbit_per_second", figures.mbit_per_second()},
-            {"age_ms", seen && seen->frames > 0 ? age_json(seen->age_now_ms) : json()},
+            {"age_ms", seen && seen->has_come ? age_json(seen->age_now_ms) : json()},
             {"age_p50_ms", age_json(depth.age_p50_ms)},
             {"age_p95_ms", age_json(depth.age_p95_ms)},
             {"age_p99_ms", age_json(depth.age_p99_ms)},

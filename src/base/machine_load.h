@@ -24,10 +24,11 @@ double busy_share(const MachineTimes& before, const MachineTimes& now);
 // Measures between two calls. Not thread safe.
 class MachineLoad {
 public:
-    // Share of all cores since the last call, 0 to 1, that this program could not have had; 0 at
-    // the first call. Threads with a lower priority do not count: what a guest makes the host
-    // encode or shake hands for runs there, and must not change what others get. They count if this
-    // program itself has a lower priority.
+    // Share of all cores since the last call, 0 to 1, in which the system and threads of the usual
+    // priority ran, those of this program among them; 0 at the first call. Threads with a lower
+    // priority do not count: what a guest makes the host encode or shake hands for runs there, and
+    // must not change what others get. They count if this program's first thread has a lower
+    // priority.
     double since_last();
 
 private:

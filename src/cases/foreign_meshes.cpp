@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <optional>
+#include <string>
 
 #include "base/error.h"
 #include "base/outside_text.h"
@@ -29,16 +30,20 @@ namespace {
 constexpr std::size_t mesh_area_bytes = std::size_t(512) << 20;
 
 // The file of this name in the folder of `mesh`, if it is there and its ending says that it holds
-// numbers: a surface cannot make a shape of just any file beside it.
+// numbers: a surface cannot make a shape of just any file beside it. Throws NotForUs for a link.
 std::optional<fs::path> buffer_beside(const fs::path& mesh, const std::string& name) {
     const fs::path file = mesh.parent_path() / name;
     const bool is_name = name.find_first_of(std::string_view("/\\\0", 3)) == name.npos;
     const std::string extension = lower_extension(name);
-    std::error_code failed;
-    if (!is_name || (extension != ".bin" && extension != ".glbin" && extension != ".glbuf") ||
-        !fs::is_regular_file(fs::symlink_status(file, failed)))
+    if (!is_name || (extension != ".bin" && extension != ".glbin" && extension != ".glbuf"))
         return std::nullopt;
-    return file;
+    std::error_code failed;
+    const fs::file_status status = fs::symlink_status(file, failed);
+    if (fs::is_symlink(status))
+        throw NotForUs(mesh, "keeps its corners in '" + clean_text(name, 60) +
+                                 "', which is a link and not followed; put the file itself there, "
+                                 "or export it as one file (.glb)");
+    return fs::is_regular_file(status) ? std::optional(file) : std::nullopt;
 }
 
 // The sentences name the extension, property, version or file of glTF.
@@ -86,10 +91,10 @@ MeshFile read_mesh_file(const fs::path& path) {
     sandbox::Child child("mesh", input.descriptor(), "the file " + quoted_path(path), limits);
     child.send(as_bytes(lower_extension(path).substr(1)));
 
-    constexpr std::size_t longest_text = 100'000;
+    constexpr std::size_t longest_text = 200'000;
     const std::byte next{1};
     MeshFile found;
-    while (found.meshes.size() < max_meshes_in_file) {
+    while (true) {
         const Reply reply = reply_of(child);
         // The child can still change the shared memory: a copy is checked, not the memory itself.
         const Bytes copy(reply.content.begin(), reply.content.end());
@@ -99,10 +104,15 @@ MeshFile read_mesh_file(const fs::path& path) {
             found.hidden = lines_of(said);
             break;
         }
+        if (found.meshes.size() == max_meshes_in_file)
+            break;  // further ones are left out
         if (reply.what == Answer::other_buffer) {
             const std::optional<fs::path> beside = buffer_beside(path, said);
-            if (!beside || found.beside.size() == max_buffers_of_file)
+            if (!beside)
                 refuse(path, reply.what, said);
+            if (found.beside.size() == max_buffers_of_file)
+                throw NotForUs(path, "needs more than " + std::to_string(max_buffers_of_file) +
+                                         " files of corners; store it as one .glb");
             require_size(*beside, max_mesh_file_bytes,
                          "simplify the surface in the program that wrote it");
             input.load(*beside, max_mesh_file_bytes);

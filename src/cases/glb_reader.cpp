@@ -19,6 +19,7 @@ using glb::Matrix;
 
 constexpr int deepest_node = 64;
 constexpr std::size_t max_nodes = 100'000;
+constexpr std::size_t hidden_names = 100;  // further ones are counted only
 
 // Extensions that may be needed without changing where a corner lies.
 bool is_harmless(const std::string& name) {
@@ -120,7 +121,7 @@ private:
             if (*mesh >= meshes.size())
                 return Answer::unreadable;
             if (hidden)
-                hidden_ += clean_text(name_of(node, meshes[*mesh]), 64) + "\n";
+                note_hidden(name_of(node, meshes[*mesh]), at);
             else if (node.contains("skin"))
                 return Answer::skin;
             else if (const Answer sent = send_mesh(node, meshes[*mesh], place);
@@ -133,6 +134,14 @@ private:
                 return sent;
         }
         return Answer::content;
+    }
+
+    void note_hidden(const std::string& name, std::size_t node) {
+        if (hidden_count_++ < hidden_names) {
+            const std::string clean = clean_text(name, 64);
+            hidden_ += clean.empty() ? "node " + std::to_string(node) : clean;
+        }
+        hidden_ += "\n";
     }
 
     static std::string name_of(const Json& node, const Json& mesh) {
@@ -247,7 +256,9 @@ private:
     glb::Accessors accessors_;
     const TakeMesh& take_;
     std::string& said_;
-    std::string hidden_;  // names of the meshes that are not shown, one a line
+    // Names of the meshes that are not shown, one a line; the lines of further ones are empty.
+    std::string hidden_;
+    std::size_t hidden_count_ = 0;
     std::vector<bool> visited_;
     bool any_ = false;
 };

@@ -3,14 +3,20 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 
+#include "cases/foreign_files.h"
 #include "cases/mesh_files.h"
+#include "testing/temporary_folder.h"
 
 namespace theatron::cases {
 namespace {
 
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 // Three corners, the first of them at 0, 0, 0, in base64.
 const std::string corners = "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA";
@@ -119,6 +125,69 @@ TEST(Gltf, HiddenNodesAreNamedAndNotShown) {
     const Found none = read(triangle(uri, R"(, "scenes": [{"nodes": [1]}])", visible("false")));
     EXPECT_EQ(none.what, Answer::hidden);
     EXPECT_TRUE(none.names.empty());
+}
+
+TEST(Gltf, HiddenNodesWithoutNamesAreNumberedAndAllAreCounted) {
+    const std::string hidden = R"({"mesh": 0, "extensions":
+                                  {"KHR_node_visibility": {"visible": false}}})";
+    std::string nodes = R"({"mesh": 0})";
+    for (int i = 0; i < 300; ++i)
+        nodes += ", " + hidden;
+    const Found found =
+        read(R"({"buffers": [{"byteLength": 36, "uri": "data:;base64,)" + corners + R"("}],
+                "bufferViews": [{"buffer": 0, "byteLength": 36}],
+                "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3,
+                               "type": "VEC3"}],
+                "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+                "nodes": [)" +
+             nodes + "]}");
+    EXPECT_EQ(found.what, Answer::end);
+    EXPECT_EQ(found.names.size(), 1u);
+    EXPECT_TRUE(found.said.starts_with("node 1\nnode 2\n")) << found.said;
+    EXPECT_EQ(std::count(found.said.begin(), found.said.end(), '\n'), 300);
+}
+
+// A surface each in as many files, b0.bin and so on, that lie beside the file.
+std::filesystem::path with_buffers(const std::filesystem::path& folder, int count) {
+    const std::optional<Bytes> bytes = glb::bytes_of_data_uri("data:;base64," + corners);
+    std::string buffers, views, accessors, meshes, nodes;
+    for (int i = 0; i < count; ++i) {
+        const std::string n = std::to_string(i), comma = i > 0 ? "," : "";
+        std::ofstream(folder / ("b" + n + ".bin"), std::ios::binary)
+            .write(reinterpret_cast<const char*>(bytes->data()), std::streamsize(bytes->size()));
+        buffers += comma + R"({"byteLength": 36, "uri": "b)" + n + R"(.bin"})";
+        views += comma + R"({"byteLength": 36, "buffer": )" + n + "}";
+        accessors += comma + R"({"componentType": 5126, "count": 3, "type": "VEC3",
+                                 "bufferView": )" +
+                     n + "}";
+        meshes += comma + R"({"primitives": [{"attributes": {"POSITION": )" + n + "}}]}";
+        nodes += comma + R"({"mesh": )" + n + "}";
+    }
+    const std::filesystem::path file = folder / "o.gltf";
+    std::ofstream(file) << R"({"buffers": [)" << buffers << R"(], "bufferViews": [)" << views
+                        << R"(], "accessors": [)" << accessors << R"(], "meshes": [)" << meshes
+                        << R"(], "nodes": [)" << nodes << "]}";
+    return file;
+}
+
+std::string reason_left_out(const std::filesystem::path& file) {
+    try {
+        return std::to_string(read_mesh_file(file).meshes.size()) + " are read";
+    } catch (const NotForUs& error) {
+        return error.reason();
+    }
+}
+
+TEST(Gltf, ABufferBesideItThatIsNotTakenSaysWhy) {
+    const testing::TemporaryFolder folder;
+    EXPECT_EQ(reason_left_out(with_buffers(folder.path(), 64)), "64 are read");
+    EXPECT_EQ(reason_left_out(with_buffers(folder.path(), 65)),
+              "needs more than 64 files of corners; store it as one .glb");
+    const std::filesystem::path file = with_buffers(folder.path(), 2);
+    std::filesystem::remove(folder.path() / "b1.bin");
+    EXPECT_THAT(reason_left_out(file), HasSubstr("'b1.bin', which must lie beside it"));
+    std::filesystem::create_symlink("b0.bin", folder.path() / "b1.bin");
+    EXPECT_THAT(reason_left_out(file), HasSubstr("'b1.bin', which is a link and not followed"));
 }
 
 }  // namespace

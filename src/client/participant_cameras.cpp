@@ -139,7 +139,11 @@ void Participant::compare_cameras() {
             compared_[camera.description.id] = camera.description.publisher;
 }
 
+// Where the host leaves frames out, it does so camera by camera: pictures that come alone are no
+// fault of a camera.
 void Participant::note_moment(const wire::MediaHeader& header) {
+    if (session_.delivery().level > 0)
+        return;
     const auto compared = compared_.find(camera_of(header.stream));
     const auto& settings = session_.settings();
     const auto setting = std::ranges::find(settings, header.stream, &wire::StreamSetting::stream);

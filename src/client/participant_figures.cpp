@@ -106,14 +106,14 @@ std::vector<receive::StreamFigures> without_ages(std::vector<receive::StreamFigu
 wire::CameraState state_here(const wire::CameraState& said, const receive::StreamFigures& seen,
                              bool is_thinned) {
     constexpr double silent_ms = 2000, silent_ms_thinned = 5000;
-    const double silent_for = seen.frames > 0 ? seen.age_now_ms : seen.awaited_ms;
+    const double silent_for = seen.has_come ? seen.age_now_ms : seen.awaited_ms;
     const bool is_silent = !seen.past && silent_for > (is_thinned ? silent_ms_thinned : silent_ms);
     if (said.condition != wire::CameraCondition::live || !is_silent)
         return said;
     wire::CameraState state = said;
     state.condition = wire::CameraCondition::stale;
-    state.problem = {seen.frames > 0 ? wire::TextCode::no_pictures_come
-                                     : wire::TextCode::no_picture_came};
+    state.problem = {seen.has_come ? wire::TextCode::no_pictures_come
+                                   : wire::TextCode::no_picture_came};
     return state;
 }
 

@@ -11,7 +11,7 @@ using Condition = wire::CameraCondition;
 Condition condition(double age_now_ms, std::uint64_t frames = 10, bool is_thinned = false,
                     Condition said = Condition::live) {
     receive::StreamFigures depth;
-    depth.frames = frames;
+    depth.has_come = frames > 0;
     depth.age_now_ms = age_now_ms;
     return state_here({CameraId{0}, said, {}, ""}, depth, is_thinned).condition;
 }
@@ -42,7 +42,7 @@ TEST(CameraState, IsStaleHereWhereNoPictureCameSinceTheyWereAskedFor) {
 
 TEST(CameraState, SaysWhyItIsStale) {
     receive::StreamFigures depth;
-    depth.frames = 1;
+    depth.has_come = true;
     depth.age_now_ms = 9000;
     const wire::CameraState state =
         state_here({CameraId{3}, Condition::live, {}, "median"}, depth, false);

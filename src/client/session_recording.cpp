@@ -303,6 +303,8 @@ private:
     // The pictures of these cameras are missing until they are back.
     void on_interrupted(const std::vector<CameraId>& cameras) {
         const std::lock_guard lock(mutex_);
+        if (stopped_)
+            return;
         for (const CameraId camera : cameras)
             if (const auto found = described_.find(camera); found != described_.end())
                 intake_.on_interruption(found->second.camera.id);

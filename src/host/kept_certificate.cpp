@@ -10,6 +10,8 @@ namespace theatron::host {
 namespace {
 
 constexpr files::UtcSeconds day = 24 * 3600;
+// Whether this name's browsers were told --hsts, now or earlier, is in the browsers.
+constexpr const char* browsers_warn = "browsers warn, and let nobody go on where --hsts was used";
 
 }  // namespace
 
@@ -38,13 +40,16 @@ bool KeptCertificate::follow(const std::function<void(const net::Certificate&)>&
             return false;
         const net::Validity validity = net::validity_of(*waiting_);
         if (now < validity.begins) {
-            refuse(not_yet_text(validity));
+            unused_ = not_yet_text(validity);
+            return false;
+        }
+        if (now > validity.ends) {
+            unused_ = what_ + " has expired, at " + files::utc_text(validity.ends) +
+                      "; set this machine's clock if it is wrong, else renew it.";
             return false;
         }
         // A certificate that cannot be used is tried once.
         net::Certificate fresh = *std::exchange(waiting_, std::nullopt);
-        if (now > validity.ends)
-            throw Error(what_ + " has expired; renew it.");
         use(fresh);
         unused_.clear();
         const bool is_other = fresh.fingerprint != current_.fingerprint;
@@ -53,14 +58,9 @@ bool KeptCertificate::follow(const std::function<void(const net::Certificate&)>&
         return is_other;
     } catch (const Error& error) {
         waiting_.reset();
-        refuse(error.what());
+        unused_ = error.what();
         return false;
     }
-}
-
-void KeptCertificate::refuse(const std::string& why) {
-    unused_ = why + " Until then the certificate that expires at " +
-              files::utc_text(validity_.ends) + " stays in use.";
 }
 
 // Without the time, so that it is told once.
@@ -73,7 +73,7 @@ std::string KeptCertificate::end_text(files::UtcSeconds now) const {
     const std::string end = files::utc_text(validity_.ends);
     const files::UtcSeconds days = (validity_.ends - now) / day;
     if (now > validity_.ends)
-        return what_ + " expired at " + end + ", so browsers warn; " + advice_;
+        return what_ + " expired at " + end + ", so " + browsers_warn + "; " + advice_;
     return what_ + " expires at " + end + ", in " +
            (days == 0   ? "less than a day; "
             : days == 1 ? "1 day; "
@@ -83,16 +83,19 @@ std::string KeptCertificate::end_text(files::UtcSeconds now) const {
 
 std::string KeptCertificate::problem(files::UtcSeconds now, const std::string& name) const {
     if (!unused_.empty())
-        return unused_;
+        return unused_ + " Until then the certificate that " +
+               (now > validity_.ends ? "expired" : "expires") + " at " +
+               files::utc_text(validity_.ends) + " stays in use.";
     if (now < validity_.begins)
-        return not_yet_text(validity_) + " Until then browsers warn.";
+        return not_yet_text(validity_) + " Until then " + browsers_warn + ".";
     const files::UtcSeconds notice =
         std::min(longest_notice, (validity_.ends - validity_.begins) / 3);
     if (now > validity_.ends - notice)
         return end_text(now);
     if (files_ && !name.empty() && !net::is_for(current_, name))
-        return what_ + " is not one for '" + name +
-               "', the name in the links, so browsers warn; ask for one with that name, or "
+        return what_ + " is not one for '" + name + "', the name in the links, so " +
+               browsers_warn +
+               "; ask for one with that name, or "
                "change the name with --public-name.";
     return "";
 }

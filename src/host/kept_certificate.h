@@ -30,9 +30,9 @@ public:
     const net::Validity& validity() const { return validity_; }
 
     // Call it about twice a second. If the files hold another usable certificate, and `use` does
-    // not throw Error for it, it is the current one. Otherwise, and if it has expired, the old one
-    // stays, and problem() says why; until it is valid, too. True if the certificate is another
-    // one now.
+    // not throw Error for it, it is the current one. Otherwise the old one stays, and problem()
+    // says why; so it does while the new one has expired or is not valid yet by the clock, which
+    // may be wrong. True if the certificate is another one now.
     bool follow(const std::function<void(const net::Certificate&)>& use, files::UtcSeconds now);
 
     // A sentence on files that cannot be used, dates that are wrong, an end that is near, or a
@@ -40,14 +40,13 @@ public:
     std::string problem(files::UtcSeconds now, const std::string& name) const;
 
 private:
-    void refuse(const std::string& why);
     std::string end_text(files::UtcSeconds now) const;
     std::string not_yet_text(const net::Validity& validity) const;
 
     std::optional<net::CertificateFiles> files_;
     net::Certificate current_;
     net::Validity validity_;
-    std::optional<net::Certificate> waiting_;  // of changed files, until it is valid
+    std::optional<net::Certificate> waiting_;  // of changed files, while its dates are wrong
     std::string what_;                         // "The certificate 'or-3.pem'"
     std::string advice_;
     std::string unused_;  // why changed files are not used

@@ -90,7 +90,8 @@ TEST_F(KeptCertificateTest, WarnsThreeWeeksBeforeItsEnd) {
     EXPECT_EQ(kept.problem(end - 22 * day, "theatron"), "");
     EXPECT_THAT(kept.problem(end - 20 * day, "theatron"), HasSubstr(", in 20 days;"));
     EXPECT_THAT(kept.problem(end - 3600, "theatron"), HasSubstr("less than a day"));
-    EXPECT_THAT(kept.problem(end + 1, "theatron"), HasSubstr("expired at"));
+    EXPECT_THAT(kept.problem(end + 1, "theatron"),
+                AllOf(HasSubstr("expired at"), HasSubstr("let nobody go on where --hsts")));
 }
 
 TEST_F(KeptCertificateTest, OneThatIsNotValidYetIsShownIfThereIsNoOther) {
@@ -123,8 +124,26 @@ TEST_F(KeptCertificateTest, OneThatHasExpiredStaysOut) {
     const files::UtcSeconds end = net::validity_of(second).ends;
     (void)kept.follow(any, end + 1);
     EXPECT_FALSE(kept.follow(any, end + 1));
-    EXPECT_THAT(kept.problem(now, "theatron"), HasSubstr("has expired"));
-    EXPECT_FALSE(kept.follow(any, now)) << "it is looked at once";
+    const std::string told = kept.problem(end + 1, "theatron");
+    EXPECT_THAT(told, HasSubstr("has expired, at " + files::utc_text(end)));
+    for (files::UtcSeconds later = end + 2; later < end + 5; ++later) {
+        EXPECT_FALSE(kept.follow(any, later));
+        EXPECT_EQ(kept.problem(later, "theatron"), told) << "a host tells it once";
+    }
+    EXPECT_EQ(kept.current().fingerprint, first.fingerprint);
+    EXPECT_TRUE(kept.follow(any, now)) << "the clock was wrong";
+    EXPECT_EQ(kept.current().fingerprint, second.fingerprint);
+    EXPECT_EQ(kept.problem(now, "theatron"), "");
+}
+
+TEST_F(KeptCertificateTest, SaysThatTheOneInUseHasExpiredToo) {
+    KeptCertificate kept(files());
+    write(second, first);
+    EXPECT_FALSE(settle(kept));
+    const std::string end = files::utc_text(kept.validity().ends);
+    EXPECT_THAT(kept.problem(now, "theatron"), HasSubstr("that expires at " + end + " stays"));
+    EXPECT_THAT(kept.problem(kept.validity().ends + 1, "theatron"),
+                HasSubstr("that expired at " + end + " stays"));
 }
 
 TEST_F(KeptCertificateTest, TheHostsOwnOneIsNotForANameButHasAnEnd) {

@@ -62,10 +62,10 @@ struct Client::Impl {
     TimePoint began, next_tick;
     std::deque<std::function<void()>> posted;
 
-    // The last messages leave, too.
+    // The control messages that wait leave, too, whatever the browser has not sent yet.
     ~Impl() {
         if (!is_finished)
-            (void)contain("net", [this] { write(); });
+            (void)contain("net", [this] { write_control(); });
         close();
     }
 
@@ -158,6 +158,12 @@ struct Client::Impl {
                                              std::uint32_t(outgoing.size()));
             waiting += outgoing.size();
         }
+    }
+
+    void write_control() {
+        while (is_open && outbox.control_waits() && outbox.next(outgoing, handler.now()))
+            emscripten_websocket_send_binary(socket, outgoing.data(),
+                                             std::uint32_t(outgoing.size()));
     }
 
     // An event of its own, as soon as the browser likes.

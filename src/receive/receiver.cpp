@@ -396,17 +396,33 @@ void Receiver::ask_for_key(StreamId id, Stream& stream, TimePoint now) {
 std::vector<StreamFigures> Receiver::figures(TimePoint now) {
     std::vector<StreamFigures> result;
     for (auto& [id, s] : streams_) {
-        const double age_now = s.frames > 0 ? to_ms(now - s.newest_captured) : 0;
-        if (!s.setting || s.frames > 0)
+        const double age_now = s.newest_captured ? to_ms(now - *s.newest_captured) : 0;
+        if (!s.setting || s.newest_captured)
             s.awaited_since.reset();
         else if (!s.awaited_since)
             s.awaited_since = now;
         const double awaited = s.awaited_since ? to_ms(now - *s.awaited_since) : 0;
         sort_ages(s);
-        result.push_back({id, s.codec, s.frame_rate.per_second(now), s.bit_rate.per_second(now),
-                          s.frames, s.bytes, s.dropped, s.newest, s.age_ms, age_now, s.exact,
-                          s.age_p50_ms, s.age_p95_ms, s.age_p99_ms, s.age_max_ms, s.past,
-                          s.decode_ms, s.decoder_failures, awaited});
+        result.push_back({id,
+                          s.codec,
+                          s.frame_rate.per_second(now),
+                          s.bit_rate.per_second(now),
+                          s.frames,
+                          s.bytes,
+                          s.dropped,
+                          s.newest,
+                          s.age_ms,
+                          age_now,
+                          s.exact,
+                          s.age_p50_ms,
+                          s.age_p95_ms,
+                          s.age_p99_ms,
+                          s.age_max_ms,
+                          s.past,
+                          s.decode_ms,
+                          s.decoder_failures,
+                          awaited,
+                          s.newest_captured.has_value()});
     }
     return result;
 }

@@ -63,8 +63,9 @@ struct StreamFigures {
     bool past = false;     // as in wire::StreamSetting; no ages but age_now_ms are of such frames
     double decode_ms = 0;  // from a frame's arrival to its image, of the last ones
     std::uint64_t decoder_failures = 0;  // frames that a decoder took and gave up later
-    // For how long a frame has been asked for of which none has come; 0 where one came.
+    // For how long frames have been asked for of which none has come; 0 where one came.
     double awaited_ms = 0;
+    bool has_come = false;  // a frame, also before reset_figures()
 };
 
 // The largest message of a stream whose pictures have `pixels`; a larger one is refused before
@@ -140,7 +141,7 @@ private:
         std::deque<Submitted> submitted;  // to `color`, which has not finished them
 
         bool counting = false;                   // a frame has come since the figures were reset
-        std::optional<TimePoint> awaited_since;  // while `frames` is 0
+        std::optional<TimePoint> awaited_since;  // while no frame has come
         FrameNumber newest = 0;
         std::uint64_t frames = 0, bytes = 0, dropped = 0;
         RateWindow frame_rate, bit_rate;
@@ -150,7 +151,7 @@ private:
         std::uint64_t sorted_at = 0;
         double age_ms = 0, decode_ms = 0;
         std::uint64_t decoder_failures = 0;
-        TimePoint newest_captured;
+        std::optional<TimePoint> newest_captured;
         Exactness exact = Exactness::nowhere;
         bool asked_for_key = false;
         TimePoint asked_at;

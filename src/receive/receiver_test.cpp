@@ -149,6 +149,12 @@ TEST_F(ReceiverTest, TellsForHowLongTheFirstPictureIsAwaited) {
     (void)receiver.on_media(source.depth(92), at(92));
     (void)receiver.on_media(source.color(92), at(92));
     EXPECT_EQ(awaited_ms(200), 0);
+    receiver.reset_figures();
+    const StreamFigures figures = receiver.figures(at(300)).at(0);
+    EXPECT_EQ(figures.frames, 0u);
+    EXPECT_EQ(figures.awaited_ms, 0) << "one has come before";
+    EXPECT_TRUE(figures.has_come);
+    EXPECT_GT(figures.age_now_ms, 6000);
 }
 
 TEST_F(ReceiverTest, PutsNoPictureTogetherOfThePastAndThePresent) {

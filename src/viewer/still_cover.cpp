@@ -31,7 +31,7 @@ ShownCamera shown_camera(const client::CameraFigures& camera, TimePoint now) {
     ShownCamera shown;
     shown.is_exempt = !seen || seen->past || camera.played != client::CameraFigures::Played::no;
     // Until the session's clock is known the figures have ages of 0.
-    if (seen && seen->frames > 0)
+    if (seen && seen->has_come)
         shown.newest = now - seconds_to_duration(seen->age_now_ms / 1000);
     return shown;
 }

@@ -47,7 +47,7 @@ TEST(StillCover, WhatIsMarkedAsNotLiveIsNotCovered) {
 
 client::CameraFigures figures(double age_ms) {
     client::CameraFigures camera;
-    camera.depth.frames = 10;
+    camera.depth.has_come = true;
     camera.depth.codec = "strata";
     camera.depth.age_now_ms = age_ms;
     return camera;
@@ -60,7 +60,7 @@ TEST(StillCover, FiguresTellAgesRecordingsAndThePast) {
     EXPECT_FALSE(cover(figures(1500)));
     EXPECT_EQ(cover(figures(2500)), std::optional<Duration>(2500ms));
     client::CameraFigures camera = figures(2500);
-    camera.depth.frames = 0;
+    camera.depth.has_come = false;
     EXPECT_FALSE(cover(camera)) << "before its first picture";
     camera = figures(2500);
     camera.played = client::CameraFigures::Played::paused;

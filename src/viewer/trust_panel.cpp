@@ -22,7 +22,7 @@ bool is_played(const client::CameraFigures& camera) {
 
 // The older one of depth and colour counts.
 double age_ms(const client::CameraFigures& camera) {
-    return std::max(camera.depth.age_now_ms, camera.color.frames > 0 ? camera.color.age_now_ms : 0);
+    return std::max(camera.depth.age_now_ms, camera.color.has_come ? camera.color.age_now_ms : 0);
 }
 
 std::string rates(const client::CameraFigures& camera) {
@@ -35,7 +35,7 @@ std::string rates(const client::CameraFigures& camera) {
 }  // namespace
 
 std::string exactness_text(const client::CameraFigures& camera) {
-    if (camera.depth.frames == 0)
+    if (!camera.depth.has_come)
         return "";
     switch (camera.depth.exact) {
         case receive::Exactness::everywhere:
@@ -55,7 +55,7 @@ xr::Panel trust_panel(const client::ParticipantFigures& figures,
     for (const client::CameraFigures& camera : figures.cameras) {
         const wire::CameraState& state = camera.camera.state;
         xr::PanelRow row{camera.camera.description.name, "", {}};
-        if (camera.depth.frames == 0) {
+        if (!camera.depth.has_come) {
             row.text = say(Phrase::row_waits, row.text);
         } else {
             row.text += ": " + (is_played(camera)
@@ -85,7 +85,7 @@ xr::Panel trust_panel(const client::ParticipantFigures& figures,
 std::string not_live_text(const client::ParticipantFigures& figures) {
     std::string text;
     for (const client::CameraFigures& camera : figures.cameras)
-        if (!is_live(camera) && camera.depth.frames > 0)
+        if (!is_live(camera) && camera.depth.has_come)
             text += say(text.empty() ? Phrase::camera_is : Phrase::camera_is_also,
                         camera.camera.description.name, seen_age(age_ms(camera), false));
     return text;

@@ -15,6 +15,7 @@ client::CameraFigures camera(const std::string& name) {
     one.camera.description.name = name;
     one.camera.state.filter = "flying,temporal=4";
     one.depth.frames = 100;
+    one.depth.has_come = one.color.has_come = true;
     one.depth.frames_per_second = 29.7;
     one.depth.mbit_per_second = 10;
     one.depth.age_now_ms = 84.6;
@@ -48,7 +49,7 @@ TEST(TrustPanel, TheOlderOneOfDepthAndColourCounts) {
     client::CameraFigures one = camera("left");
     one.color.age_now_ms = 700;
     EXPECT_EQ(row_of(one).text, "left: 700 ms");
-    one.color.frames = 0;
+    one.color.has_come = false;
     EXPECT_EQ(row_of(one).text, "left: 85 ms");
 }
 
@@ -72,7 +73,7 @@ TEST(TrustPanel, ACameraThatIsNotLiveIsNamedPlainly) {
     EXPECT_EQ(not_live_text({{}, {camera("left"), stale}}), "Camera right is NOT LIVE: 12 s old");
     EXPECT_EQ(not_live_text({{}, {camera("left")}}), "");
     // One that has never sent a picture shows nothing that could be taken for live.
-    stale.depth.frames = 0;
+    stale.depth.has_come = false;
     EXPECT_EQ(not_live_text({{}, {stale}}), "");
     EXPECT_EQ(row_of(stale).text, "right: no picture yet");
 }

@@ -164,8 +164,8 @@ def compare_played(program, counts, options):
             for name, path, *shown in make(pathlib.Path(folder)):
                 color, depth, code, said = values.played_by_theatron(camera % path, program)
                 found = None if depth is None else played_problem(kind, path, shown[0] if shown else (), color, depth)
-                # The exit code 3 says that something was not given.
-                what = "refused" if depth is None else "wrong" if found and code != 3 else "right"
+                # Also where the exit code 3 says that something was not given: what was given must be what FFmpeg shows.
+                what = "refused" if depth is None else "wrong" if found else "right"
                 by_ffmpeg = kind == "camera folders" or values.played_by_ffmpeg(path, "0:v:0") is not None
                 row = counts[kind]
                 row.update(["inputs", what] + ["ffmpeg", "others", what + " of others"] * by_ffmpeg)

@@ -214,7 +214,7 @@ function run({ client, voice, face, screen, module, flat }) {
     }
     $("show_help").addEventListener("click", help);
     $("leave").addEventListener("click", () => client.leave());
-    // A page that is closed leaves, too: to a recorder its cameras have ended and not broken off.
+    // A page that is closed leaves, too: nobody is told that its connection broke.
     addEventListener("pagehide", () => page.state.phase !== "left" && client.leave());
     canvas.addEventListener("webglcontextlost", () => {
         if (page.state.phase !== "left")
