@@ -10,7 +10,7 @@ namespace theatron::host {
 namespace {
 
 constexpr files::UtcSeconds day = 24 * 3600;
-// Whether this name's browsers were told --hsts, now or earlier, is in the browsers.
+// The browsers alone know whether a host of this name was ever started with --hsts.
 constexpr const char* browsers_warn = "browsers warn, and let nobody go on where --hsts was used";
 
 }  // namespace
