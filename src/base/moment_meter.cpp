@@ -28,7 +28,7 @@ void MomentMeter::add(ParticipantId publisher, CameraId camera, TimePoint moment
     const bool is_late = of.open.size() == open_moments && moment < of.open.begin()->first;
     if (is_late)
         return;
-    Running& running = of.cameras.try_emplace(camera, moment, moment).first->second;
+    Running& running = of.cameras.try_emplace(camera, Running{moment, moment}).first->second;
     running.first = std::min(running.first, moment);
     running.newest = std::max(running.newest, moment);
     auto open = of.open.find(moment);
