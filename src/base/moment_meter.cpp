@@ -14,13 +14,19 @@ bool is_possible(TimePoint time) {
 
 }  // namespace
 
+bool MomentMeter::contains(const std::vector<Exposure>& exposures, CameraId camera) {
+    return std::any_of(exposures.begin(), exposures.end(),
+                       [camera](const Exposure& one) { return one.camera == camera; });
+}
+
 void MomentMeter::add(ParticipantId publisher, CameraId camera, TimePoint moment,
                       TimePoint captured) {
     if (!is_possible(moment) || !is_possible(captured))
         return;
     if (!publishers_.contains(publisher) && publishers_.size() >= most_publishers)
-        publishers_.erase(std::ranges::min_element(
-            publishers_, {}, [](const auto& entry) { return entry.second.newest; }));
+        publishers_.erase(std::min_element(
+            publishers_.begin(), publishers_.end(),
+            [](const auto& a, const auto& b) { return a.second.newest < b.second.newest; }));
     Publisher& of = publishers_[publisher];
     if (moment + long_before < of.newest)
         of = {};
@@ -43,7 +49,7 @@ void MomentMeter::add(ParticipantId publisher, CameraId camera, TimePoint moment
         open = of.open.try_emplace(moment).first;
     }
     std::vector<Exposure>& exposures = open->second;
-    if (std::ranges::find(exposures, camera, &Exposure::camera) == exposures.end())
+    if (!contains(exposures, camera))
         exposures.push_back({camera, captured});
 }
 
@@ -55,13 +61,15 @@ void MomentMeter::close_first(Publisher& publisher) {
     });
     std::size_t expected = 0;
     for (const auto& [camera, running] : publisher.cameras)
-        expected += std::ranges::find(exposures, camera, &Exposure::camera) != exposures.end() ||
-                    (running.first < moment && running.newest > moment);
+        expected +=
+            contains(exposures, camera) || (running.first < moment && running.newest > moment);
     if (expected > exposures.size()) {
         counts_.unpaired += exposures.size();
     } else if (expected > 1) {
-        const auto [first, last] = std::ranges::minmax(exposures, {}, &Exposure::captured);
-        const double skew_ms = to_ms(last.captured - first.captured);
+        const auto [first, last] = std::minmax_element(
+            exposures.begin(), exposures.end(),
+            [](const Exposure& a, const Exposure& b) { return a.captured < b.captured; });
+        const double skew_ms = to_ms(last->captured - first->captured);
         counts_.skew_max_ms = std::max(counts_.skew_max_ms, skew_ms);
         ++counts_.whole;
         ++skews_[std::min(std::size_t(skew_ms / bin_ms), bins - 1)];

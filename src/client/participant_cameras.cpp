@@ -146,7 +146,9 @@ void Participant::note_moment(const wire::MediaHeader& header) {
         return;
     const auto compared = compared_.find(camera_of(header.stream));
     const auto& settings = session_.settings();
-    const auto setting = std::ranges::find(settings, header.stream, &wire::StreamSetting::stream);
+    const auto setting =
+        std::find_if(settings.begin(), settings.end(),
+                     [&](const wire::StreamSetting& one) { return one.stream == header.stream; });
     if (compared == compared_.end() || (setting != settings.end() && setting->past))
         return;
     moments_.add(compared->second, compared->first, header.moment, header.captured);

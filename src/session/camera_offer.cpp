@@ -75,7 +75,7 @@ wire::Text problem_of_offer(ParticipantId id, const Admission::Participant& publ
                             const std::vector<wire::Camera>& cameras) {
     if (cameras.empty())
         return {TextCode::no_camera_offered};
-    const bool is_own = std::ranges::all_of(cameras, [](const wire::Camera& camera) {
+    const bool is_own = std::all_of(cameras.begin(), cameras.end(), [](const wire::Camera& camera) {
         return own_picture_limits(camera.kind) != nullptr;
     });
     if (!is_own && !publisher.has(wire::Feature::publish))
