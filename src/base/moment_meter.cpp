@@ -12,12 +12,13 @@ bool is_possible(TimePoint time) {
     return to_us(time) > -most && to_us(time) < most;
 }
 
-}  // namespace
-
-bool MomentMeter::contains(const std::vector<Exposure>& exposures, CameraId camera) {
+template <class Exposures>
+bool contains(const Exposures& exposures, CameraId camera) {
     return std::any_of(exposures.begin(), exposures.end(),
-                       [camera](const Exposure& one) { return one.camera == camera; });
+                       [camera](const auto& one) { return one.camera == camera; });
 }
+
+}  // namespace
 
 void MomentMeter::add(ParticipantId publisher, CameraId camera, TimePoint moment,
                       TimePoint captured) {

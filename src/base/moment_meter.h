@@ -61,7 +61,6 @@ private:
         std::map<TimePoint, std::vector<Exposure>> open;  // by moment, one of each camera
         std::map<CameraId, Running> cameras;
     };
-    static bool contains(const std::vector<Exposure>& exposures, CameraId camera);
     void close_first(Publisher& publisher);
 
     std::map<ParticipantId, Publisher> publishers_;
