@@ -20,6 +20,7 @@ Facts healthy() {
     facts.received.status.host_name = "OR 3";
     client::CameraFigures camera;
     camera.depth.frames = 100;
+    camera.depth.has_come = true;
     camera.depth.frames_per_second = 30;
     camera.depth.codec = "strata";
     camera.depth.exact = receive::Exactness::everywhere;
