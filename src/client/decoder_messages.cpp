@@ -28,6 +28,7 @@ void figure_fields(auto& m, auto&& field) {
     field(m.decode_ms);
     field(m.decoder_failures);
     field(m.awaited_ms);
+    field(m.has_come);
 }
 
 template <class T>

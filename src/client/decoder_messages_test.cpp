@@ -60,6 +60,7 @@ TEST(DecoderMessages, CamerasSettingsAndFiguresArrive) {
     figures.decode_ms = 3.5;
     figures.decoder_failures = 4;
     figures.awaited_ms = 900;
+    figures.has_come = true;
     const auto told = decode_from_worker(encode(FromWorker(WorkerFigures{2, {figures}})));
     ASSERT_TRUE(told);
     const auto& first = std::get<WorkerFigures>(*told).figures.at(0);
@@ -70,6 +71,7 @@ TEST(DecoderMessages, CamerasSettingsAndFiguresArrive) {
     EXPECT_EQ(first.decode_ms, 3.5);
     EXPECT_EQ(first.decoder_failures, 4u);
     EXPECT_EQ(first.awaited_ms, 900);
+    EXPECT_EQ(first.has_come, true);
 }
 
 TEST(DecoderMessages, EveryShorterMessageIsRefused) {

@@ -217,7 +217,7 @@ std::vector<receive::StreamFigures> Decoders::figures() {
             const std::lock_guard lock(worker->mutex);
             worker->figures_wanted = true;
             for (receive::StreamFigures f : worker->figures) {
-                if (f.frames > 0)
+                if (f.has_come)
                     f.age_now_ms += to_ms(now - worker->figures_at);
                 all.push_back(std::move(f));
             }
@@ -238,6 +238,8 @@ void Decoders::reset_figures() {
                 receive::StreamFigures anew;
                 anew.stream = f.stream;
                 anew.codec = f.codec;
+                anew.age_now_ms = f.age_now_ms;
+                anew.has_come = f.has_come;
                 f = anew;
             }
         }

@@ -112,7 +112,7 @@ std::vector<receive::StreamFigures> PooledDecoders::figures() {
         post(i, WorkerFiguresWanted{session_offset(), std::exchange(worker.reset_wanted, false),
                                     std::exchange(worker.forget_wanted, false)});
         for (receive::StreamFigures f : worker.figures) {
-            if (f.frames > 0)
+            if (f.has_come)
                 f.age_now_ms += to_ms(events_.now() - worker.figures_at);
             all.push_back(std::move(f));
         }
@@ -129,6 +129,8 @@ void PooledDecoders::reset_figures() {
             receive::StreamFigures anew;
             anew.stream = f.stream;
             anew.codec = f.codec;
+            anew.age_now_ms = f.age_now_ms;
+            anew.has_come = f.has_come;
             f = anew;
         }
     }
