@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "join_pictures.h"
 
-#include <algorithm>
-#include <cctype>
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/small_letters.h"
 #include "base/steady_clock.h"
 #include "files/file_bytes.h"
 #include "files/png_file.h"
@@ -37,9 +36,7 @@ Size parse_size(const std::string& text) {
 void check_picture_file(const std::string& file) {
     if (file.empty())
         return;
-    std::string ending = std::filesystem::path(file).extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(),
-                   [](unsigned char c) { return char(std::tolower(c)); });
+    const std::string ending = in_small_letters(std::filesystem::path(file).extension().string());
     for (const char* other : {".jpg", ".jpeg", ".bmp", ".gif", ".tif", ".tiff", ".webp", ".ppm"})
         if (ending == other)
             throw Error("Pictures are written as PNG; name '" + file + "' with the ending .png.");

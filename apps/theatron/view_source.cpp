@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "view_source.h"
 
-#include <algorithm>
 #include <string_view>
 
 #include "base/error.h"
 #include "base/outside_text.h"
+#include "base/small_letters.h"
 #include "cases/manifest.h"
 #include "record/recording_file.h"
 
@@ -20,10 +20,7 @@ std::string shown(const fs::path& path) {
 
 // The beginning of a file of the family that MKV belongs to.
 bool is_matroska(const fs::path& file) {
-    std::string ending = file.extension().string();
-    std::ranges::transform(ending, ending.begin(),
-                           [](unsigned char c) { return char(std::tolower(c)); });
-    return ending == ".mkv";
+    return in_small_letters(file.extension().string()) == ".mkv";
 }
 
 std::vector<std::string> cameras_of(const fs::path& file) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/outside_text.h"
+#include "base/small_letters.h"
 #include "base/trimmed.h"
 #include "base/utf8.h"
 
@@ -44,10 +45,7 @@ std::string mistake_of_word(std::string_view word, std::string_view follows) {
         return "there are no sections in brackets; lines are KEY = VALUE";
     if (is_key(shown) && follows.starts_with(':'))
         return "'" + shown + "' is followed by ':'; lines are KEY = VALUE";
-    std::string small = shown;
-    for (char& c : small)
-        if (c >= 'A' && c <= 'Z')
-            c = char(c - 'A' + 'a');
+    const std::string small = in_small_letters(shown);
     if (small != shown && is_key(small) && trimmed(follows).empty())
         return "'" + shown + "' is no key; keys have small letters alone";
     return "'" + shown + "' is no key; lines are KEY = VALUE";

@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/small_letters.h"
 #include "capture/time_pairing.h"
 
 namespace theatron::capture {
@@ -51,9 +52,7 @@ std::vector<fs::path> pictures(const fs::path& folder,
     std::vector<fs::path> found;
     std::error_code problem;
     for (const auto& entry : fs::directory_iterator(folder, problem)) {
-        std::string ending = entry.path().extension().string();
-        std::transform(ending.begin(), ending.end(), ending.begin(),
-                       [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
+        const std::string ending = in_small_letters(entry.path().extension().string());
         if (std::find(endings.begin(), endings.end(), ending) != endings.end())
             found.push_back(entry.path());
     }

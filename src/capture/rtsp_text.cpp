@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "capture/rtsp_text.h"
+#include "base/small_letters.h"
 #include "base/trimmed.h"
 #include "ffmpeg/ffmpeg.h"
 
@@ -9,7 +10,6 @@ extern "C" {
 }
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cstdint>
 #include <utility>
@@ -21,15 +21,8 @@ namespace {
 constexpr std::string_view scheme = "rtsp://";
 constexpr int max_sequence = 1'000'000'000;
 
-bool same_word(std::string_view one, std::string_view other) {
-    return std::equal(one.begin(), one.end(), other.begin(), other.end(), [](char a, char b) {
-        return std::tolower(static_cast<unsigned char>(a)) ==
-               std::tolower(static_cast<unsigned char>(b));
-    });
-}
-
 bool begins_with_word(std::string_view text, std::string_view word) {
-    return text.size() >= word.size() && same_word(text.substr(0, word.size()), word);
+    return text.size() >= word.size() && equal_without_case(text.substr(0, word.size()), word);
 }
 
 // Takes the text up to `end` off `rest`.
@@ -82,7 +75,7 @@ std::string parameter(std::string_view list, std::string_view name) {
         } else {
             value = trimmed(cut(list, ','));
         }
-        if (same_word(key, name))
+        if (equal_without_case(key, name))
             return std::string(value);
     }
     return "";
@@ -108,34 +101,34 @@ bool is_harmless(std::string_view text) {
 
 bool is_known_video(std::string_view encoding) {
     for (const std::string_view name : {"H264/90000", "H265/90000", "JPEG/90000", "MP4V-ES/90000"})
-        if (same_word(encoding, name))
+        if (equal_without_case(encoding, name))
             return true;
     return false;
 }
 
 void read_header(std::string_view name, std::string_view value, RtspResponse& response,
                  bool& is_bad) {
-    if (same_word(name, "Content-Length")) {
+    if (equal_without_case(name, "Content-Length")) {
         const auto bytes = number(value, 0, int(max_rtsp_description));
         is_bad = is_bad || !bytes;
         response.body_bytes = std::size_t(bytes.value_or(0));
-    } else if (same_word(name, "CSeq")) {
+    } else if (equal_without_case(name, "CSeq")) {
         response.sequence = number(value, 0, max_sequence).value_or(0);
-    } else if (same_word(name, "Location")) {
+    } else if (equal_without_case(name, "Location")) {
         response.location = value;
-    } else if (same_word(name, "Session")) {
+    } else if (equal_without_case(name, "Session")) {
         response.session = trimmed(cut(value, ';'));
         if (const auto seconds = number(parameter(value, "timeout"), 1, 3600))
             response.session_timeout_s = *seconds;
-    } else if (same_word(name, "Content-Base")) {
+    } else if (equal_without_case(name, "Content-Base")) {
         response.base = value;
-    } else if (same_word(name, "WWW-Authenticate")) {
+    } else if (equal_without_case(name, "WWW-Authenticate")) {
         if (response.challenge.empty() || begins_with_word(value, "Digest"))
             response.challenge = value;
-    } else if (same_word(name, "Transport")) {
+    } else if (equal_without_case(name, "Transport")) {
         while (!value.empty()) {
             std::string_view part = trimmed(cut(value, ';'));
-            if (same_word(cut(part, '='), "interleaved"))
+            if (equal_without_case(cut(part, '='), "interleaved"))
                 response.channel = number(cut(part, '-'), 0, 255);
         }
     }
@@ -215,7 +208,8 @@ std::string answer_to_rtsp_request(std::string_view head) {
         return "";
     while (!head.empty()) {
         std::string_view line = trimmed(cut(head, '\n'));
-        if (const std::string_view name = trimmed(cut(line, ':')); !same_word(name, "CSeq"))
+        if (const std::string_view name = trimmed(cut(line, ':'));
+            !equal_without_case(name, "CSeq"))
             continue;
         const auto sequence = number(trimmed(line), 0, max_sequence);
         return sequence ? "RTSP/1.0 200 OK\r\nCSeq: " + std::to_string(*sequence) +
@@ -305,7 +299,7 @@ std::string rtsp_authorization(const RtspUrl& url, std::string_view challenge,
     for (const std::string* text : {&realm, &nonce, &opaque})
         if (!is_harmless(*text))
             return "";
-    if (!algorithm.empty() && !same_word(algorithm, "MD5"))
+    if (!algorithm.empty() && !equal_without_case(algorithm, "MD5"))
         return "";
     const std::string person = md5(url.user + ":" + realm + ":" + url.password);
     const std::string what = md5(std::string(method) + ":" + std::string(address));

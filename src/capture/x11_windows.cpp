@@ -9,7 +9,6 @@
 #include <xcb/xcb.h>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cstdio>
 #include <cstdlib>
@@ -18,6 +17,7 @@
 #include <string_view>
 
 #include "base/error.h"
+#include "base/small_letters.h"
 #include "capture/x11_reply.h"
 
 namespace theatron::capture {
@@ -120,12 +120,6 @@ private:
     Size size_;
 };
 
-std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return char(std::tolower(c)); });
-    return text;
-}
-
 std::string hex(const char* bytes, int count) {
     std::string text;
     for (int i = 0; i < count; ++i) {
@@ -195,7 +189,8 @@ X11Window find_window(const std::string& text) {
     }
     std::vector<X11Window> fitting;
     for (const X11Window& one : list_windows())
-        if (lower(one.title + "\n" + one.program).find(lower(text)) != std::string::npos)
+        if (in_small_letters(one.title + "\n" + one.program).find(in_small_letters(text)) !=
+            std::string::npos)
             fitting.push_back(one);
     if (fitting.empty())
         throw Error("There is no visible window '" + text +

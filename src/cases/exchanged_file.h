@@ -7,23 +7,22 @@
 #include <filesystem>
 #include <vector>
 
+#include "base/descriptor.h"
+
 namespace theatron::cases {
 
 class ExchangedFile {
 public:
     ExchangedFile();  // empty; throws Error
-    ~ExchangedFile();
-    ExchangedFile(const ExchangedFile&) = delete;
-    ExchangedFile& operator=(const ExchangedFile&) = delete;
 
-    int descriptor() const { return memory_; }
+    int descriptor() const { return memory_.get(); }
 
     // Takes the bytes of the file in the place of those before. Follows no link. Throws Error, also
     // where the file has more than `most` bytes.
     void load(const std::filesystem::path& path, std::size_t most);
 
 private:
-    int memory_;
+    Descriptor memory_;
     std::vector<char> buffer_;
 };
 

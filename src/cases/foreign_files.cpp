@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "base/descriptor.h"
 #include "base/error.h"
 #include "base/outside_text.h"
 #include "cases/dicom_elements.h"
@@ -25,20 +26,6 @@ constexpr std::size_t picture_area_bytes =
     64 + 3 * std::size_t(medical::max_picture_side) * medical::max_picture_side;
 constexpr std::size_t slice_area_bytes =
     max_slice_head + 2 * std::size_t(medical::max_volume_side) * medical::max_volume_side;
-
-class Descriptor {
-public:
-    explicit Descriptor(int number) : number_(number) {}
-    ~Descriptor() {
-        if (number_ >= 0)
-            close(number_);
-    }
-    Descriptor(const Descriptor&) = delete;
-    int get() const { return number_; }
-
-private:
-    int number_;
-};
 
 }  // namespace
 

@@ -2,6 +2,7 @@
 #include "cases/foreign_reply.h"
 
 #include "base/error.h"
+#include "base/small_letters.h"
 #include "cases/foreign_files.h"
 #include "cases/quoted_path.h"
 
@@ -10,10 +11,7 @@ namespace theatron::cases {
 namespace fs = std::filesystem;
 
 std::string lower_extension(const fs::path& file) {
-    std::string extension = file.extension().string();
-    for (char& c : extension)
-        c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
-    return extension;
+    return in_small_letters(file.extension().string());
 }
 
 namespace {

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/outside_text.h"
 #include "cases/foreign_files.h"
+#include "cases/foreign_reply.h"
 #include "cases/import_parts.h"
 #include "cases/manifest.h"
 #include "cases/quoted_path.h"
@@ -28,13 +29,6 @@ struct Frame {
     Axes axes = Axes::lps;
 };
 
-std::string extension_of(const fs::path& file) {
-    std::string extension = file.extension().string();
-    for (char& c : extension)
-        c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
-    return extension;
-}
-
 // 3D Slicer writes the axes into a comment: "SPACE=RAS" or "SPACE=LPS".
 bool says_ras(const fs::path& file) {
     char head[4096] = {};
@@ -45,7 +39,7 @@ bool says_ras(const fs::path& file) {
 Frame frame_of(const fs::path& file, const std::optional<Case>& manifest,
                const ImportOptions& options) {
     Frame frame;
-    if (const std::string end = extension_of(file); end == ".glb" || end == ".gltf")
+    if (const std::string end = lower_extension(file); end == ".glb" || end == ".gltf")
         frame = {Unit::m, Axes::y_up};
     else if (says_ras(file))
         frame.axes = Axes::ras;

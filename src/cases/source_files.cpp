@@ -5,6 +5,7 @@
 #include <span>
 
 #include "base/error.h"
+#include "base/small_letters.h"
 #include "cases/case_folder.h"
 #include "cases/foreign_files.h"
 #include "cases/import_case.h"
@@ -21,10 +22,7 @@ namespace fs = std::filesystem;
 constexpr int deepest_folder = 8;
 
 bool ends_with(const fs::path& file, std::string_view end) {
-    std::string name = file.filename().string();
-    for (char& c : name)
-        c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
-    return name.ends_with(end);
+    return in_small_letters(file.filename().string()).ends_with(end);
 }
 
 // macOS puts such files beside others on discs of other systems and into archives: their names end

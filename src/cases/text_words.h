@@ -7,19 +7,13 @@
 #include <string_view>
 
 #include "base/bytes.h"
+#include "base/small_letters.h"
 
 namespace theatron::cases {
 
 // Without regard to case; `lower` is in small letters.
 inline bool is_word(std::string_view word, std::string_view lower) {
-    if (word.size() != lower.size())
-        return false;
-    for (std::size_t i = 0; i < word.size(); ++i) {
-        const char c = word[i];
-        if ((c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c) != lower[i])
-            return false;
-    }
-    return true;
+    return equal_without_case(word, lower);
 }
 
 // The whole word as a number; a comma may stand for the point.

@@ -216,11 +216,8 @@ std::vector<receive::StreamFigures> Decoders::figures() {
         {
             const std::lock_guard lock(worker->mutex);
             worker->figures_wanted = true;
-            for (receive::StreamFigures f : worker->figures) {
-                if (f.has_come)
-                    f.age_now_ms += to_ms(now - worker->figures_at);
-                all.push_back(std::move(f));
-            }
+            const auto aged = aged_by(now - worker->figures_at, worker->figures);
+            all.insert(all.end(), aged.begin(), aged.end());
         }
         worker->changed.notify_all();
     }
@@ -234,14 +231,7 @@ void Decoders::reset_figures() {
         {
             const std::lock_guard lock(worker->mutex);
             worker->figures_wanted = worker->reset_wanted = true;
-            for (receive::StreamFigures& f : worker->figures) {
-                receive::StreamFigures anew;
-                anew.stream = f.stream;
-                anew.codec = f.codec;
-                anew.age_now_ms = f.age_now_ms;
-                anew.has_come = f.has_come;
-                f = anew;
-            }
+            worker->figures = counted_anew(worker->figures);
         }
         worker->changed.notify_all();
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "client/host_person.h"
 
+#include "base/small_letters.h"
 #include "net/content_digest.h"
 #include "wire/protocol.h"
 
@@ -29,9 +30,7 @@ Bytes keyed_digest(ByteView key, ByteView text) {
 }  // namespace
 
 std::string host_identity(const net::Link& link) {
-    std::string name = link.host;
-    for (char& c : name)
-        c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
+    const std::string name = in_small_letters(link.host);
     // Addresses, and names that each network gives by itself, lead to many hosts.
     const auto dot = name.rfind('.');
     const bool is_of_internet = dot != name.npos && dot + 1 < name.size() &&

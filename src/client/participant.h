@@ -339,6 +339,7 @@ private:
     void withdraw();
     void end_offered(Offer offer, const wire::ShareEnded& message);
     void forget_numbers(Offer offer);
+    void take_back(std::vector<CameraId> cameras);
     void on_published();
     void on_share_ended();
     void refuse_cameras(Offer offer, const wire::Text& why);

@@ -103,6 +103,28 @@ std::vector<receive::StreamFigures> without_ages(std::vector<receive::StreamFigu
     return figures;
 }
 
+std::vector<receive::StreamFigures> counted_anew(
+    const std::vector<receive::StreamFigures>& figures) {
+    std::vector<receive::StreamFigures> all;
+    for (const receive::StreamFigures& told : figures) {
+        receive::StreamFigures anew;
+        anew.stream = told.stream;
+        anew.codec = told.codec;
+        anew.age_now_ms = told.age_now_ms;
+        anew.has_come = told.has_come;
+        all.push_back(anew);
+    }
+    return all;
+}
+
+std::vector<receive::StreamFigures> aged_by(Duration later,
+                                            std::vector<receive::StreamFigures> figures) {
+    for (receive::StreamFigures& stream : figures)
+        if (stream.has_come)
+            stream.age_now_ms += to_ms(later);
+    return figures;
+}
+
 wire::CameraState state_here(const wire::CameraState& said, const receive::StreamFigures& seen,
                              bool is_thinned) {
     constexpr double silent_ms = 2000, silent_ms_thinned = 5000;

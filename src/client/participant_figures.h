@@ -65,6 +65,14 @@ std::string recorded_text(const ParticipantFigures& figures);
 // the figures with ages of 0.
 std::vector<receive::StreamFigures> without_ages(std::vector<receive::StreamFigures> figures);
 
+// The figures after a reset, until a decoder tells new ones: without counts, with what is known of
+// the newest frame's age.
+std::vector<receive::StreamFigures> counted_anew(const std::vector<receive::StreamFigures>& figures);
+
+// The figures `later` after they were told: the newest frames are older by it.
+std::vector<receive::StreamFigures> aged_by(Duration later,
+                                            std::vector<receive::StreamFigures> figures);
+
 // The state of a camera as it shows here: one that is said to be live is stale while its pictures
 // do not arrive, because its publisher or the host has stopped or the link is cut; also where none
 // has come since they were asked for. `is_thinned`: the host leaves out frames for this

@@ -63,5 +63,34 @@ TEST(Figures, HaveNoAgesWhileTheSessionsClockIsUnknown) {
         EXPECT_EQ(age, 0);
 }
 
+TEST(StreamFigures, CountedAnewTheyKeepOnlyWhatIsKnownOfTheNewestFrame) {
+    receive::StreamFigures told;
+    told.stream = StreamId(3);
+    told.codec = "strata";
+    told.frames = 7;
+    told.dropped = 2;
+    told.age_now_ms = 40;
+    told.age_p95_ms = 90;
+    told.has_come = true;
+    const receive::StreamFigures anew = counted_anew({told}).front();
+    EXPECT_EQ(anew.stream, told.stream);
+    EXPECT_EQ(anew.codec, "strata");
+    EXPECT_TRUE(anew.has_come);
+    EXPECT_EQ(anew.age_now_ms, 40);
+    EXPECT_EQ(anew.frames, 0u);
+    EXPECT_EQ(anew.dropped, 0u);
+    EXPECT_EQ(anew.age_p95_ms, 0);
+}
+
+TEST(StreamFigures, OnlyFramesThatHaveComeGrowOlder) {
+    receive::StreamFigures come, awaited;
+    come.has_come = true;
+    come.age_now_ms = 10;
+    const std::vector<receive::StreamFigures> later =
+        aged_by(std::chrono::milliseconds(25), {come, awaited});
+    EXPECT_EQ(later[0].age_now_ms, 35);
+    EXPECT_EQ(later[1].age_now_ms, 0);
+}
+
 }  // namespace
 }  // namespace theatron::client

@@ -63,9 +63,7 @@ void Participant::offer_cameras(Offer what) {
             return;
         offer.cameras = shared_->offers[std::size_t(what)];
     }
-    if (!numbers(what).empty())
-        shared_->client->send_control(
-            wire::encode(wire::Unpublish{std::exchange(numbers(what), {})}));
+    take_back(std::exchange(numbers(what), {}));
     if (offer.cameras.empty())
         return;
     if (what == Offer::cameras && !session_.may_publish())
@@ -85,9 +83,12 @@ void Participant::offer_all() {
 
 void Participant::withdraw() {
     for (const Offer offer : all_offers)
-        if (!numbers(offer).empty())
-            shared_->client->send_control(
-                wire::encode(wire::Unpublish{std::exchange(numbers(offer), {})}));
+        take_back(std::exchange(numbers(offer), {}));
+}
+
+void Participant::take_back(std::vector<CameraId> cameras) {
+    if (!cameras.empty())
+        shared_->client->send_control(wire::encode(wire::Unpublish{std::move(cameras)}));
 }
 
 void Participant::forget_numbers(Offer offer) {
@@ -115,21 +116,15 @@ void Participant::on_published() {
     if (!answer.problem.empty())
         refuse_cameras(offer, answer.problem);
     // A newer offer has been sent: these cameras are withdrawn, since nobody knows them here.
-    if (std::find(offered_.begin(), offered_.end(), offer) != offered_.end()) {
-        if (!answer.cameras.empty())
-            shared_->client->send_control(wire::encode(wire::Unpublish{answer.cameras}));
-        return;
-    }
+    if (std::find(offered_.begin(), offered_.end(), offer) != offered_.end())
+        return take_back(answer.cameras);
     bool is_wanted = false;
     {
         const std::lock_guard lock(shared_->mutex);
         is_wanted = !shared_->offers[std::size_t(offer)].empty();
     }
-    if (!is_wanted) {
-        if (!answer.cameras.empty())
-            shared_->client->send_control(wire::encode(wire::Unpublish{answer.cameras}));
-        return;
-    }
+    if (!is_wanted)
+        return take_back(answer.cameras);
     numbers(offer) = answer.cameras;
     if (offer == Offer::cameras)
         listen_for_receivers();

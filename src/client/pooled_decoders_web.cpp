@@ -111,11 +111,8 @@ std::vector<receive::StreamFigures> PooledDecoders::figures() {
         Worker& worker = workers_[i];
         post(i, WorkerFiguresWanted{session_offset(), std::exchange(worker.reset_wanted, false),
                                     std::exchange(worker.forget_wanted, false)});
-        for (receive::StreamFigures f : worker.figures) {
-            if (f.has_come)
-                f.age_now_ms += to_ms(events_.now() - worker.figures_at);
-            all.push_back(std::move(f));
-        }
+        const auto aged = aged_by(events_.now() - worker.figures_at, worker.figures);
+        all.insert(all.end(), aged.begin(), aged.end());
     }
     std::sort(all.begin(), all.end(),
               [](const auto& a, const auto& b) { return a.stream < b.stream; });
@@ -125,14 +122,7 @@ std::vector<receive::StreamFigures> PooledDecoders::figures() {
 void PooledDecoders::reset_figures() {
     for (Worker& worker : workers_) {
         worker.reset_wanted = true;
-        for (receive::StreamFigures& f : worker.figures) {
-            receive::StreamFigures anew;
-            anew.stream = f.stream;
-            anew.codec = f.codec;
-            anew.age_now_ms = f.age_now_ms;
-            anew.has_come = f.has_come;
-            f = anew;
-        }
+        worker.figures = counted_anew(worker.figures);
     }
 }
 

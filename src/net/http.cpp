@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "base/error.h"
+#include "base/small_letters.h"
 
 namespace theatron::net {
 namespace {
@@ -27,16 +28,6 @@ std::string decoded(std::string_view text) {
             result += text[i] == '+' ? ' ' : text[i];
         }
     }
-    return result;
-}
-
-char lower(char c) {
-    return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
-}
-
-std::string lower(std::string_view text) {
-    std::string result(text);
-    std::transform(result.begin(), result.end(), result.begin(), [](char c) { return lower(c); });
     return result;
 }
 
@@ -99,7 +90,7 @@ bool is_own_origin(std::string_view origin, std::string_view host) {
 
 PublicName parse_public_name(std::string_view text, std::uint16_t usual_port) {
     const std::size_t colon = std::min(text.find(':'), text.size());
-    PublicName result{lower(text.substr(0, colon)), usual_port};
+    PublicName result{in_small_letters(std::string(text.substr(0, colon))), usual_port};
     bool is_right = !result.name.empty() && result.name.front() != '.' &&
                     has_only(result.name, "abcdefghijklmnopqrstuvwxyz0123456789.-");
     if (colon < text.size()) {
@@ -132,7 +123,7 @@ bool is_named(std::string_view host, std::string_view public_name) {
     const std::size_t colon = std::min(host.find(':'), host.size());
     if (!has_only(host.substr(std::min(colon + 1, host.size())), digits))
         return false;
-    std::string name = lower(host.substr(0, colon));
+    std::string name = in_small_letters(std::string(host.substr(0, colon)));
     if (name.ends_with('.'))
         name.pop_back();
     const bool is_address =

@@ -10,6 +10,7 @@
 #include <cstdlib>
 
 #include "base/error.h"
+#include "base/small_letters.h"
 #include "net/link.h"
 
 namespace theatron::net {
@@ -19,13 +20,6 @@ namespace ip = boost::asio::ip;
 
 constexpr std::uint16_t usual_port = 3128;
 constexpr const char* how = "; it is written http://PROXY:PORT or http://NAME:PASSWORD@PROXY:PORT.";
-
-std::string in_small_letters(std::string_view text) {
-    std::string small(text);
-    std::ranges::transform(small, small.begin(),
-                           [](unsigned char c) { return char(std::tolower(c)); });
-    return small;
-}
 
 std::string_view without_blanks(std::string_view text) {
     const auto first = text.find_first_not_of(" \t");

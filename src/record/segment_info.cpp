@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <random>
 
+#include "base/small_letters.h"
+
 namespace theatron::record {
 namespace {
 
@@ -64,9 +66,7 @@ std::filesystem::path segment_path(const std::filesystem::path& first, std::uint
 }
 
 std::string name_problem(const std::filesystem::path& first) {
-    std::string ending = first.extension().string();
-    std::ranges::transform(ending, ending.begin(),
-                           [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
+    const std::string ending = in_small_letters(first.extension().string());
     for (const char* other :
          {".mp4", ".m4v", ".mov", ".avi", ".webm", ".wmv", ".mpg", ".mpeg", ".ts", ".flv", ".ogv"})
         if (ending == other)

@@ -19,6 +19,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/descriptor.h"
 #include "base/error.h"
 #include "base/log.h"
 #include "sandbox/protocol.h"
@@ -27,28 +28,15 @@
 namespace theatron::sandbox {
 namespace {
 
-class Descriptor {
-public:
-    explicit Descriptor(int number) : number_(number) {
-        if (number < 0)
-            throw Error(std::string("Cannot start a reader: ") + std::strerror(errno) + ".");
-    }
-    ~Descriptor() {
-        if (number_ >= 0)
-            close(number_);
-    }
-    Descriptor(Descriptor&& other) noexcept : number_(other.release()) {}
-
-    int get() const { return number_; }
-    int release() { return std::exchange(number_, -1); }
-
-private:
-    int number_;
-};
+Descriptor opened(int number) {
+    if (number < 0)
+        throw Error(std::string("Cannot start a reader: ") + std::strerror(errno) + ".");
+    return Descriptor(number);
+}
 
 // Shared memory with a sealed size: shrinking it would crash the other process on access.
 Descriptor make_area(std::size_t bytes) {
-    Descriptor area(memfd_create("theatron", MFD_CLOEXEC | MFD_ALLOW_SEALING));
+    Descriptor area = opened(memfd_create("theatron", MFD_CLOEXEC | MFD_ALLOW_SEALING));
     if (ftruncate(area.get(), off_t(bytes)) != 0 ||
         fcntl(area.get(), F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL) != 0)
         throw Error("Cannot make the memory that is shared with a reader.");

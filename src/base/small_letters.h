@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Small letters of ASCII text, whatever the locale is. All other bytes stay, those of UTF-8 too.
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+
+namespace theatron {
+
+constexpr char small_letter(char c) {
+    return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
+}
+
+inline std::string in_small_letters(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(), small_letter);
+    return text;
+}
+
+// Whether two texts are equal without regard to capital letters.
+inline bool equal_without_case(std::string_view a, std::string_view b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](char x, char y) { return small_letter(x) == small_letter(y); });
+}
+
+}  // namespace theatron
