@@ -41,7 +41,7 @@ package: setup
 container: package
 	@tools/container.sh
 
-demo: program
+demo: setup
 	@tools/demo.sh $(SECONDS_OF_DEMO)
 
 test: setup

@@ -112,14 +112,16 @@ function(theatron_module name)
   endif()
 endfunction()
 
-# theatron_program_library(NAME DEPENDS module... [LINK library...])
+# theatron_program_library(NAME DEPENDS module... [LINK library...] [WITHOUT file...])
 #
-# theatron_NAME from the .cpp files of a program's folder, without main.cpp and tests. Includes are
+# theatron_NAME from the .cpp files of a program's folder, without main.cpp, *_main.cpp, tests, and the files WITHOUT. Includes are
 # those of its own folder and "MODULE/…" of DEPENDS, which tools/check_includes.py compares.
 function(theatron_program_library name)
-  cmake_parse_arguments(M "" "" "DEPENDS;LINK" ${ARGN})
+  cmake_parse_arguments(M "" "" "DEPENDS;LINK;WITHOUT" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS *.cpp)
-  list(FILTER sources EXCLUDE REGEX "(_test|/main)\\.cpp$")
+  list(FILTER sources EXCLUDE REGEX "(_test|/main|_main)\\.cpp$")
+  list(TRANSFORM M_WITHOUT PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+  list(REMOVE_ITEM sources ${M_WITHOUT} "")
   add_library(theatron_${name} STATIC ${sources})
   theatron_compile_together(theatron_${name} ${sources})
   target_include_directories(theatron_${name} PUBLIC ${CMAKE_CURRENT_SOURCE_DIR} ${CMAKE_SOURCE_DIR}/apps)

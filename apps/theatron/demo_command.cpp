@@ -126,6 +126,11 @@ void show_pictures(const DemoFlags& flags, const std::filesystem::path& folder,
         throw Error("The demo ended before the first picture; give it more time with --seconds.");
 }
 
+// `make demo` compiles the other commands while the demo is shown.
+bool is_compiled_later(const std::string& program) {
+    return program.find('/') != program.npos && !std::filesystem::exists(program);
+}
+
 // Null where none can be opened, for whatever reason: the demo then writes pictures.
 std::unique_ptr<xr::DesktopWindow> open_window(const DemoFlags& flags) {
     if (flags.no_window || !has_display())
@@ -161,8 +166,9 @@ void run(const DemoFlags& flags) {
     const Meeting meeting(link);
 
     output::print(
-        std::string("\nThe demo room is open. Join it from another terminal, or open the link in "
-                    "a browser") +
+        std::string("\nThe demo room is open. Join it from another terminal") +
+        (is_compiled_later(flags.program) ? " once the other commands are compiled" : "") +
+        ", or open the link in a browser" +
         (host::has_page(options.page) ? "" : " once the browser client is built") + ":\n\n  " +
         flags.program + " join '" + host.link() +
         "'\n\nTwo scripted people are in it, who point, hold a brick and hand it over.\n");

@@ -1,22 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // theatron: the command-line program.
-#include <csignal>
-#include <cstdio>
-#include <cstdlib>
-#include <filesystem>
 #include <iostream>
-#include <iterator>
 #include <vector>
 
 #include "base/error.h"
-#include "base/log.h"
-#include "base/output.h"
-#include "base/standard_streams.h"
-#include "capture/mkv_reader.h"
-#include "cases/foreign_files.h"
 #include "cli/instruction_set.h"
-#include "cli/output_end.h"
+#include "cli/program_frame.h"
 #include "commands.h"
+#include "foreign_readers.h"
 #include "host_config.h"
 #include "licences.h"
 #include "link_argument.h"
@@ -26,22 +17,7 @@
 
 namespace {
 
-// Output may still be in a buffer or a queue, and writing it can fail.
-int with_output_written(int code) {
-    std::cout.flush();
-    const bool is_flushed = std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout;
-    if (theatron::cli::finish_output() && is_flushed)
-        return code;
-    theatron::output::print(
-        "theatron: The output could not be written: its disk is full or its reader gone.\n",
-        theatron::output::Stream::error);
-    (void)theatron::cli::finish_output();
-    return code != 0 ? code : 1;
-}
-
 int run(int argc, char** argv) {
-    // At the file-size limit, writing then fails with an error instead of ending the process.
-    std::signal(SIGXFSZ, SIG_IGN);
     theatron::cli::hold_to_instruction_set();
     CLI::App app(
         "Theatron: open telepresence for the operating room.\n\n"
@@ -97,7 +73,7 @@ int run(int argc, char** argv) {
 
     if (argc == 1) {
         std::cout << app.help();
-        return with_output_written(0);
+        return 0;
     }
     const auto commands = app.get_subcommands({});
     std::vector<std::string> names;
@@ -130,38 +106,9 @@ int run(int argc, char** argv) {
     return 0;
 }
 
-// Says why the program fails, where it does.
-int run_and_tell(int argc, char** argv) {
-    try {
-        return run(argc, argv);
-    } catch (const theatron::Error& e) {
-        theatron::output::print(std::string("theatron: ") + e.what() + "\n",
-                                theatron::output::Stream::error);
-    } catch (const std::filesystem::filesystem_error& e) {
-        theatron::output::print(
-            "theatron: Cannot use '" + e.path1().string() + "': " + e.code().message() + ".\n",
-            theatron::output::Stream::error);
-    } catch (const std::exception& e) {
-        theatron::output::print(
-            std::string("theatron: something unexpected went wrong: ") + e.what() + "\n",
-            theatron::output::Stream::error);
-    }
-    return 1;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-    theatron::reserve_standard_streams();
-    std::vector<theatron::sandbox::Reader> readers(std::begin(theatron::capture::foreign_readers),
-                                                   std::end(theatron::capture::foreign_readers));
-    readers.insert(readers.end(), std::begin(theatron::cases::foreign_readers),
-                   std::end(theatron::cases::foreign_readers));
-    theatron::sandbox::run_as_child(argc, argv, readers);
-    theatron::cli::outlive_readers();
-    theatron::log::flush_before_abort();
-    const int code = with_output_written(run_and_tell(argc, argv));
-    // Without what exit() runs: threads that nobody waits for may still be in a library or the
-    // system.
-    std::_Exit(code);
+    theatron::cli::run_program(argc, argv, theatron::app::foreign_readers(),
+                               [&] { return run(argc, argv); });
 }
