@@ -7,7 +7,7 @@
 # the size of what it compiles at once, so a source that is added elsewhere must not change how a loop is compiled.
 set(THEATRON_FAST_MODULES image geometry codec filter video render medical)
 
-# What these do is decided once a message, a click or a file, and the compiler takes an eighth longer with more than -O2.
+# Each decides something once a message, a click or a file. The compiler takes an eighth longer with more than -O2.
 set(THEATRON_LOGIC_MODULES cases client export files host net or_screen publish receive record sandbox send session
   study viewer wire xr)
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What surrounds the work of every program of the command line.
+// The frame of every program of the command line: what its main() does before and after its work.
 #pragma once
 
 #include <functional>

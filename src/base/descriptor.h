@@ -21,7 +21,8 @@ public:
     int get() const { return number_; }
     // The caller closes it from now on.
     int release() { return std::exchange(number_, -1); }
-    // False: the system reports an error, which is in errno. What was written may be lost then.
+    // False: the system reports an error, which is in errno. Bytes that were written may be lost
+    // then.
     bool close() {
         const int number = release();
         return number < 0 || ::close(number) == 0;

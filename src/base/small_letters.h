@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small letters of ASCII text, whatever the locale is. All other bytes stay, those of UTF-8 too.
+// Small letters of ASCII text in any locale. All other bytes stay, those of UTF-8 too.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ inline std::string in_small_letters(std::string text) {
     return text;
 }
 
-// Whether two texts are equal without regard to capital letters.
+// True where the texts differ in capital letters alone, or not at all.
 inline bool equal_without_case(std::string_view a, std::string_view b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                       [](char x, char y) { return small_letter(x) == small_letter(y); });

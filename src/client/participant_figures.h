@@ -67,7 +67,8 @@ std::vector<receive::StreamFigures> without_ages(std::vector<receive::StreamFigu
 
 // The figures after a reset, until a decoder tells new ones: without counts, with what is known of
 // the newest frame's age.
-std::vector<receive::StreamFigures> counted_anew(const std::vector<receive::StreamFigures>& figures);
+std::vector<receive::StreamFigures> counted_anew(
+    const std::vector<receive::StreamFigures>& figures);
 
 // The figures `later` after they were told: the newest frames are older by it.
 std::vector<receive::StreamFigures> aged_by(Duration later,
