@@ -7,10 +7,6 @@
 # the size of what it compiles at once, so a source that is added elsewhere must not change how a loop is compiled.
 set(THEATRON_FAST_MODULES image geometry codec filter video render medical)
 
-# Each decides something once a message, a click or a file. The compiler takes an eighth longer with more than -O2.
-set(THEATRON_LOGIC_MODULES cases client export files host net or_screen publish receive record sandbox send session
-  study viewer wire xr)
-
 # Inline functions of headers take most of the time of these.
 set(THEATRON_LONG_TESTS registration_test synthetic_test)
 
@@ -144,9 +140,6 @@ function(theatron_compile_together target)
       # The fuzzer's coverage is of the modules only.
       target_compile_options(${target} PRIVATE -fno-sanitize=fuzzer-no-link)
     endif()
-  endif()
-  if(module IN_LIST THEATRON_LOGIC_MODULES AND NOT THEATRON_SANITIZE)
-    target_compile_options(${target} PRIVATE $<$<AND:$<CONFIG:Release>,$<COMPILE_LANGUAGE:CXX>>:-O2>)
   endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
   # A name of one source shadows no name of another, and no class of a header is of one source only. GCC 12 takes

@@ -12,9 +12,10 @@ constexpr char small_letter(char c) {
     return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
 }
 
-inline std::string in_small_letters(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), small_letter);
-    return text;
+inline std::string in_small_letters(std::string_view text) {
+    std::string small(text);
+    std::transform(small.begin(), small.end(), small.begin(), small_letter);
+    return small;
 }
 
 // True where the texts differ in capital letters alone, or not at all.

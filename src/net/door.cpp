@@ -375,10 +375,11 @@ private:
         head.content_length(body.size());
         answer_head_ = (std::ostringstream() << head.base()).str();
         const bool is_head = parser_.get().method() == http::verb::head;
-        asio::async_write(*stream_,
-                          std::array{asio::buffer(answer_head_),
-                                     is_head ? asio::const_buffer() : asio::buffer(body)},
-                          std::move(end));
+        asio::async_write(
+            *stream_,
+            std::array<asio::const_buffer, 2>{asio::buffer(answer_head_),
+                                              is_head ? asio::const_buffer() : asio::buffer(body)},
+            std::move(end));
     }
 
     void upgrade() {

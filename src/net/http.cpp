@@ -90,7 +90,7 @@ bool is_own_origin(std::string_view origin, std::string_view host) {
 
 PublicName parse_public_name(std::string_view text, std::uint16_t usual_port) {
     const std::size_t colon = std::min(text.find(':'), text.size());
-    PublicName result{in_small_letters(std::string(text.substr(0, colon))), usual_port};
+    PublicName result{in_small_letters(text.substr(0, colon)), usual_port};
     bool is_right = !result.name.empty() && result.name.front() != '.' &&
                     has_only(result.name, "abcdefghijklmnopqrstuvwxyz0123456789.-");
     if (colon < text.size()) {
@@ -123,7 +123,7 @@ bool is_named(std::string_view host, std::string_view public_name) {
     const std::size_t colon = std::min(host.find(':'), host.size());
     if (!has_only(host.substr(std::min(colon + 1, host.size())), digits))
         return false;
-    std::string name = in_small_letters(std::string(host.substr(0, colon)));
+    std::string name = in_small_letters(host.substr(0, colon));
     if (name.ends_with('.'))
         name.pop_back();
     const bool is_address =
