@@ -27,12 +27,11 @@ setup:
 	@tools/setup.sh
 
 program: setup
-	@cmake --preset release > /dev/null
-	@cmake --build --preset release --target theatron
+	@tools/build.sh release theatron
 
 build: program
-	@cmake --build --preset release --target manual theatron_bench
-	@if command -v em++ > /dev/null; then cmake --preset web > /dev/null && cmake --build --preset web --target page; \
+	@tools/build.sh release manual theatron_bench
+	@if command -v em++ > /dev/null; then tools/build.sh web page; \
 	else echo "build: em++ is missing, so the host has no browser client"; fi
 
 package: setup
@@ -51,7 +50,7 @@ test-all: setup
 	@tools/test.sh --all
 
 test-timing: build
-	@cmake --build --preset release
+	@tools/build.sh release
 	@ctest --preset timing
 
 test-tsan: setup
@@ -62,7 +61,7 @@ tidy: setup
 	tools/tidy.sh $(if $(ALL),--all,$(or $(SINCE),$$base))
 
 soak: build
-	@cmake --build --preset release --target link_shaper slow_disk capture_test
+	@tools/build.sh release link_shaper slow_disk capture_test
 	@COUNT=1000 build/release/src/capture/capture_test --gtest_brief=1 --gtest_filter='DamagedRecording.*'
 	@python3 tests/soak/soak.py --minutes $(or $(MINUTES),10) $(if $(SEED),--seed $(SEED))
 

@@ -4,38 +4,35 @@
 # Usage: demo.sh [OPTION of theatron demo...]
 set -euo pipefail
 cd "$(dirname "$0")/.."
-programs=build/release/apps/theatron
+demo=build/release/apps/theatron/theatron_demo
 log=build/rest.log
+rest="the other commands"
 builder=
-
-# is_built PRESET TARGET
-is_built() { ninja -C "build/$1" -n "$2" 2> /dev/null | grep -q 'no work to do'; }
 
 end_builder() {
     [ -n "$builder" ] || return 0
     if kill -0 "$builder" 2> /dev/null; then
         kill -- -"$builder" 2> /dev/null || true
-        echo "demo: commands and browser client are not complete yet; make build completes them"
+        echo "demo: $rest are not complete yet; make build completes them"
     elif ! wait "$builder"; then
-        echo "demo: commands or browser client could not be built; $log says why"
+        echo "demo: $rest could not be built; $log says why"
     fi
 }
 trap end_builder EXIT
 
-cmake --preset release > /dev/null
-if ! is_built release theatron_demo; then
-    echo "demo: the demo is compiled first, for some minutes; the counter below tells how far it is"
-fi
-cmake --build --preset release --target theatron_demo
+[ -e "$demo" ] || echo "demo: the demo is compiled first, which takes some minutes; the counter tells how far it is"
+tools/build.sh release theatron_demo
 
-command -v em++ > /dev/null || echo "demo: em++ is missing, so the demo has no browser client"
-if ! { is_built release theatron && [ -e demo/case ] && { ! command -v em++ > /dev/null || is_built web page; }; }; then
-    echo "demo: the other commands and the browser client are built while you look; links open in a browser in some minutes"
-    # A process group of its own: Ctrl-C ends the demo, and the demo's end the building.
-    setsid nice -n 15 sh -c "
-        cmake --build --preset release --target theatron || exit 1
-        [ -e demo/case ] || $programs/theatron case synth demo/case --dicom demo/ct || exit 1
-        ! command -v em++ || { cmake --preset web && cmake --build --preset web --target page; }" > "$log" 2>&1 &
-    builder=$!
+build="tools/build.sh release theatron"
+if command -v em++ > /dev/null; then
+    build="$build; commands=\$?; tools/build.sh web page && exit \$commands"
+    rest="the other commands and the browser client"
+else
+    echo "demo: em++ is missing, so the demo has no browser client"
 fi
-"$programs/theatron_demo" demo "$@"
+[ -e build/release/apps/theatron/theatron ] && [ -e build/release/apps/theatron/web/index.html ] ||
+    echo "demo: $rest are built while you look, which takes some minutes more"
+# A process group of its own: Ctrl-C ends the demo, and the demo's end the building.
+setsid nice -n 15 bash -c "$build" > "$log" 2>&1 &
+builder=$!
+"$demo" demo "$@"

@@ -27,10 +27,6 @@ step() {
     return "$code"
 }
 
-build() {
-    cmake --preset "$1" > /dev/null && cmake --build --preset "$@"
-}
-
 # Compiles three modules anew for it.
 world_with_sanitizers() {
     cmake --build --preset dev --target world_test && env SEEDS=20 MINUTES=20 build/dev/tests/world/world_test
@@ -45,9 +41,9 @@ may_be_left_out() {
 
 step "Format and licence lines" tools/check_sources.py
 step "Directions of dependencies" tools/check_includes.py
-step "Build: release" build release
-step "Build: assertions, ASan, UBSan, fuzz targets" build dev --target unit_tests fuzzers
-step "Build: web modules with em++" build web
+step "Build: release" tools/build.sh release
+step "Build: assertions, ASan, UBSan, fuzz targets" tools/build.sh dev unit_tests fuzzers
+step "Build: web modules with em++" tools/build.sh web
 # Long scenarios: the release build runs them, and here their parts are in other tests. The modules registration, cases
 # and voice leave out others, by a filter in their CMakeLists.txt, which this one does not replace.
 long='RecordedBackground.*:WatchedCamera.AnHour*'

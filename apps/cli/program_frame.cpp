@@ -13,6 +13,7 @@
 #include "base/log.h"
 #include "base/output.h"
 #include "base/standard_streams.h"
+#include "cli/instruction_set.h"
 #include "cli/output_end.h"
 
 namespace theatron::cli {
@@ -24,6 +25,7 @@ void print_problem(const std::string& problem) {
 
 int run_and_tell(const std::function<int()>& work) {
     try {
+        hold_to_instruction_set();
         return work();
     } catch (const Error& e) {
         print_problem(e.what());

@@ -9,7 +9,8 @@
 
 namespace theatron::cli {
 
-// Serves as one of `readers` where this process was started as that. Else runs `work`, prints an
+// Serves as one of `readers` where this process was started as that. Else holds
+// vector kernels to the instruction set that the environment names, runs `work`, prints an
 // exception of it as one sentence, waits until the output is written, and ends the process with
 // the code of `work`, or with 1. Call it at the beginning of main().
 [[noreturn]] void run_program(int argc, char** argv, const std::vector<sandbox::Reader>& readers,

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "base/error.h"
-#include "cli/instruction_set.h"
 #include "cli/program_frame.h"
 #include "commands.h"
 #include "foreign_readers.h"
@@ -18,7 +17,6 @@
 namespace {
 
 int run(int argc, char** argv) {
-    theatron::cli::hold_to_instruction_set();
     CLI::App app(
         "Theatron: open telepresence for the operating room.\n\n"
         "A host streams its RGB-D cameras; others join with the link that it prints:\n"

@@ -17,7 +17,6 @@ namespace {
 int run(int argc, char** argv) {
     // Yardsticks call it; this program is linked with FFmpeg for further functions anyway.
     theatron::ffmpeg::load_if_there();
-    theatron::cli::hold_to_instruction_set();
     CLI::App app("Measure codecs, filters, renderers and the whole way of a frame",
                  "theatron bench");
     app.footer(std::string(theatron::cli::instruction_set_variable) +
