@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // theatron: the command-line program.
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <iterator>
+#include <string>
 #include <vector>
 
 #include "base/error.h"
@@ -132,8 +134,15 @@ int run(int argc, char** argv) {
 
 // Says why the program fails, where it does.
 int run_and_tell(int argc, char** argv) {
+    int code = 1;
     try {
         return run(argc, argv);
+    } catch (const theatron::app::ConfigError& e) {
+        const std::vector<std::string> words(argv, argv + argc);
+        if (std::find(words.begin(), words.end(), "--check-config") == words.end())
+            code = theatron::app::config_exit_code;
+        theatron::output::print(std::string("theatron: ") + e.what() + "\n",
+                                theatron::output::Stream::error);
     } catch (const theatron::Error& e) {
         theatron::output::print(std::string("theatron: ") + e.what() + "\n",
                                 theatron::output::Stream::error);
@@ -146,7 +155,7 @@ int run_and_tell(int argc, char** argv) {
             std::string("theatron: something unexpected went wrong: ") + e.what() + "\n",
             theatron::output::Stream::error);
     }
-    return 1;
+    return code;
 }
 
 }  // namespace
