@@ -51,5 +51,5 @@ install(FILES ${packaging}/theatron.tmpfiles DESTINATION lib/tmpfiles.d RENAME t
 install(FILES ${packaging}/theatron.rules DESTINATION lib/udev/rules.d RENAME 60-theatron.rules COMPONENT server)
 install(FILES ${packaging}/theatron-host.apparmor DESTINATION ${CMAKE_INSTALL_SYSCONFDIR}/apparmor.d RENAME theatron-host
   COMPONENT server)
-install(FILES ${packaging}/operating-room.conf ${packaging}/cameras.conf
+install(FILES ${packaging}/operating-room.conf ${packaging}/cameras.conf ${packaging}/low-port.conf
   DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/theatron-server/examples COMPONENT server)

@@ -13,6 +13,7 @@
 #include "cases/import_case.h"
 #include "cases/new_folder.h"
 #include "cases/synth_case.h"
+#include "cli/choice_check.h"
 #include "cli/progress.h"
 #include "cli/stop_signal.h"
 #include "commands.h"
@@ -142,12 +143,12 @@ void add_import(CLI::App& group) {
     command
         ->add_option("--unit", arguments->unit,
                      "Unit of surfaces: mm, cm or m; usually m in glTF, else mm")
-        ->check(CLI::IsMember({"mm", "cm", "m"}));
+        ->check(cli::one_of({"mm", "cm", "m"}));
     command
         ->add_option("--axes", arguments->axes,
                      "Axes of surfaces: lps, ras or y_up; usually y_up in glTF, else lps or what "
                      "the file says")
-        ->check(CLI::IsMember({"lps", "ras", "y_up"}));
+        ->check(cli::one_of({"lps", "ras", "y_up"}));
     command
         ->add_option("--max-triangles", options.max_triangles,
                      "Surfaces with more triangles are simplified")
@@ -235,7 +236,7 @@ void add_show(CLI::App& group) {
     command->add_option("--png", arguments->png, "The picture's file")->required();
     command
         ->add_option("--plane", arguments->plane, "The parts, or a slice: axial, coronal, sagittal")
-        ->check(CLI::IsMember({"parts", "axial", "coronal", "sagittal"}))
+        ->check(cli::one_of({"parts", "axial", "coronal", "sagittal"}))
         ->capture_default_str();
     command
         ->add_option_function<std::string>(
@@ -247,7 +248,7 @@ void add_show(CLI::App& group) {
             },
             "The side from which the parts are seen: corner, front, back, left, right, above, "
             "below")
-        ->check(CLI::IsMember({"corner", "front", "back", "left", "right", "above", "below"}))
+        ->check(cli::one_of({"corner", "front", "back", "left", "right", "above", "below"}))
         ->default_str("corner");
     command->add_option("--at", arguments->at_mm,
                         "Place of the slice: z, y or x in millimetres; usually the middle");

@@ -3,6 +3,9 @@
 #include <netdb.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstring>
+#include <fstream>
 #include <thread>
 
 #include "base/error.h"
@@ -151,18 +154,28 @@ void make_request(const CertificateFlags& flags) {
                   (flags.key.empty() ? "" : " --key '" + flags.key + "'") + "\n");
 }
 
+// A certificate is no secret, and its file may belong to anybody: the key tells whose it is.
+std::string read_answer(const std::string& file) {
+    std::error_code error;
+    if (!fs::is_regular_file(file, error))
+        throw Error("There is no file " + shown_file(file) + " with a certificate.");
+    std::ifstream in(file, std::ios::binary);
+    if (!in)
+        throw Error("Cannot read " + shown_file(file) + ": " + std::strerror(errno) + ".");
+    std::string text(max_certificate_bytes + 1, '\0');
+    in.read(text.data(), std::streamsize(text.size()));
+    text.resize(std::size_t(in.gcount()));
+    if (text.size() > max_certificate_bytes)
+        throw Error("The file " + shown_file(file) + " is too long for certificates.");
+    return text;
+}
+
 std::vector<std::string> read_certificates(const std::vector<std::string>& given) {
     std::vector<std::string> all;
     for (const std::string& file : given) {
-        // A certificate is no secret, and may belong to anybody: the key tells whose it is.
-        const auto text =
-            fs::is_regular_file(file)
-                ? files::read_private_file(file, Privacy::readable, max_certificate_bytes)
-                : std::nullopt;
-        if (!text)
-            throw Error("There is no file " + shown_file(file) + " with a certificate.");
+        const std::string text = read_answer(file);
         try {
-            const auto found = net::certificates_in(*text);
+            const auto found = net::certificates_in(text);
             all.insert(all.end(), found.begin(), found.end());
         } catch (const Error& error) {
             throw Error("The file " + shown_file(file) + " cannot be used: " + error.what() + ".");

@@ -13,6 +13,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "base/options.h"
 #include "base/outside_text.h"
 #include "capture/camera_kind.h"
 #include "capture/camera_places.h"
@@ -23,6 +24,7 @@
 #include "host_flags.h"
 #include "net/certificate.h"
 #include "net/http.h"
+#include "net/listen_address.h"
 #include "net/proxies.h"
 #include "region_text.h"
 
@@ -71,6 +73,21 @@ void check_path(const ConfigLine& line) {
         throw Error("there is no " + shown);
 }
 
+// A camera that is read from a file or a folder. A recording that is missing keeps a host from
+// starting; the others may come later.
+void check_camera(const std::string& text) {
+    capture::check_camera_kind(text);
+    const Options options = Options::parse(text);
+    const std::set<std::string> of_files = {"folder", "mkv", "recording", "video"};
+    if (!of_files.contains(options.kind()) || options.value().find("://") != std::string::npos)
+        return;
+    const std::string shown = "'" + clean_text(options.value(), shown_of_config) + "'";
+    if (!std::filesystem::path(options.value()).is_absolute())
+        throw Error(shown + " is no absolute path, which begins with /");
+    if (options.kind() == "recording" && access(options.value().c_str(), R_OK) != 0)
+        throw Error("Cannot open " + shown + ": " + std::strerror(errno) + ".");
+}
+
 // "FILTER" or "CAMERA=FILTER". A file and the parameters of a filter may have '=' in them, too.
 void check_filter(const std::string& text) {
     const std::size_t equals = text.find('=');
@@ -82,7 +99,7 @@ void check_filter(const std::string& text) {
 void check_values(const ConfigLine& line, const HostFlags& flags) {
     check_path(line);
     if (line.key == "listen")
-        (void)net::parse_endpoint(flags.listen);
+        (void)net::listen_address(net::parse_endpoint(flags.listen));
     if (line.key == "public-name")
         (void)net::parse_public_name(flags.port.public_name, https_port);
     if (line.key == "behind-proxy")
@@ -99,7 +116,7 @@ void check_values(const ConfigLine& line, const HostFlags& flags) {
     if (line.key == "key" && is_file)
         (void)files::read_named_file(line.value, files::Privacy::secret);
     if (line.key == "camera")
-        capture::check_camera_kind(line.value);
+        check_camera(line.value);
     if (line.key == "places")
         (void)capture::load_places(flags.first.places);
     if (line.key == "region")
@@ -302,12 +319,16 @@ struct ConfigFile {
     bool is_public = false;
 };
 
-// Throws Error.
+// Throws ConfigError.
 ConfigFile read_config(const std::string& file, const std::string& shown) {
     // A pipe is not waited for.
     const int in = open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
     if (in < 0)
-        throw Error("Cannot open the configuration '" + shown + "': " + std::strerror(errno) + ".");
+        throw ConfigError("Cannot open the configuration '" + shown + "': " + std::strerror(errno) +
+                          (errno == EACCES
+                               ? "; the host's user must be able to read it: chgrp theatron and "
+                                 "chmod 640."
+                               : "."));
     struct stat facts {};
     const bool is_file = fstat(in, &facts) == 0 && S_ISREG(facts.st_mode);
     ConfigFile config{std::string(max_config_bytes + 1, '\0'), (facts.st_mode & S_IROTH) != 0};
@@ -324,14 +345,14 @@ ConfigFile read_config(const std::string& file, const std::string& shown) {
     }
     close(in);
     if (!is_read)
-        throw Error("The configuration '" + shown + "' is no file that can be read.");
+        throw ConfigError("The configuration '" + shown + "' is no file that can be read.");
     if (facts.st_uid != geteuid() && facts.st_uid != 0)
-        throw Error("The configuration '" + shown + "' belongs to another user (number " +
-                    std::to_string(facts.st_uid) +
-                    "), who could change it; make it root's with chown.");
+        throw ConfigError("The configuration '" + shown + "' belongs to another user (number " +
+                          std::to_string(facts.st_uid) +
+                          "), who could change it; make it root's with chown.");
     if (facts.st_mode & (S_IWGRP | S_IWOTH))
-        throw Error("Others may write to the configuration '" + shown +
-                    "'; take that away with: chmod go-w '" + shown + "'.");
+        throw ConfigError("Others may write to the configuration '" + shown +
+                          "'; take that away with: chmod go-w '" + shown + "'.");
     config.text.resize(size);
     return config;
 }
@@ -357,7 +378,8 @@ std::vector<std::string> with_config(const std::vector<std::string>& arguments) 
     const ConfigFile content = read_config(file, shown);
     const HostConfig config = host_config(content.text, arguments, content.is_public);
     if (!config.mistakes.empty())
-        throw Error("The configuration cannot be used:\n" + mistakes_text(shown, config.mistakes));
+        throw ConfigError("The configuration cannot be used:\n" +
+                          mistakes_text(shown, config.mistakes));
     std::vector<std::string> words = arguments;
     words.insert(words.end(), config.words.begin(), config.words.end());
     return words;

@@ -77,8 +77,12 @@ TEST(HostConfig, MistakesAreToldWithLineAndKey) {
               "f:1: config: there is no such option; 'theatron host --help' lists them.");
     EXPECT_EQ(mistakes("\nhsts = maybe"), "f:2: hsts: 'maybe' is neither yes nor no.");
     EXPECT_THAT(mistakes("look-back = 61"), HasSubstr("f:1: look-back: "));
-    EXPECT_THAT(mistakes("admit = nobody"), HasSubstr("f:1: admit: "));
+    EXPECT_EQ(mistakes("admit = nobody"), "f:1: admit: 'nobody' is neither all nor ask.");
     EXPECT_THAT(mistakes("listen = here"), HasSubstr("f:1: listen: "));
+    EXPECT_EQ(mistakes("listen = or-3.hospital.example:4400"),
+              "f:1: listen: 'or-3.hospital.example' is no address of this machine; write an IP "
+              "address such as 0.0.0.0 or 127.0.0.1.");
+    EXPECT_EQ(mistakes("listen = [::]:4400"), "");
     EXPECT_THAT(mistakes("behind-proxy = x"), HasSubstr("f:1: behind-proxy: "));
     EXPECT_THAT(mistakes("identifiers-for = observer"), HasSubstr("f:1: identifiers-for: "));
     EXPECT_THAT(mistakes("token = short"), HasSubstr("f:1: token: "));
@@ -88,6 +92,13 @@ TEST(HostConfig, MistakesAreToldWithLineAndKey) {
               "f:1: cases: there is no '/nonexistent/cases'.");
     EXPECT_EQ(mistakes("audit = none"), "");
     EXPECT_THAT(mistakes("camera = nokind:9"), HasSubstr("f:1: camera: There is no camera"));
+    EXPECT_EQ(mistakes("camera = recording:/nonexistent/a.mkv"),
+              "f:1: camera: Cannot open '/nonexistent/a.mkv': No such file or directory.");
+    for (const char* kind : {"folder", "mkv", "recording", "video"})
+        EXPECT_EQ(mistakes("camera = " + std::string(kind) + ":a,loop=1"),
+                  "f:1: camera: 'a' is no absolute path, which begins with /.");
+    // These may come later.
+    EXPECT_EQ(mistakes("camera = mkv:/nonexistent/a.mkv\ncamera = folder:/nonexistent/a"), "");
     EXPECT_THAT(mistakes("region = nonsense"), HasSubstr("f:1: region: The region 'nonsense'"));
     EXPECT_THAT(mistakes("filter = nonsense"), HasSubstr("f:1: filter: "));
     EXPECT_THAT(mistakes("filter = 0=nonsense"), HasSubstr("f:1: filter: "));

@@ -18,6 +18,7 @@
 #include "base/steady_clock.h"
 #include "camera_lines.h"
 #include "case_lines.h"
+#include "cli/choice_check.h"
 #include "cli/number_check.h"
 #include "cli/seconds_option.h"
 #include "cli/stop_signal.h"
@@ -401,7 +402,7 @@ void add_join_command(CLI::App& app) {
                      "those of --publish from a free port that the host tells them; off: through "
                      "the host only")
         ->capture_default_str()
-        ->check(CLI::IsMember({"on", "off"}));
+        ->check(cli::one_of({"on", "off"}));
     command->add_flag("--may-record", flags->may_record,
                       "Agree that other participants record your cameras and screens; without it "
                       "the host sends them to no recorder");
@@ -449,13 +450,13 @@ void add_join_command(CLI::App& app) {
                      "Take echo of the loudspeaker, noise and differences of loudness out of your "
                      "microphone: on, off, or auto, which is on for devices and off for files")
         ->capture_default_str()
-        ->check(CLI::IsMember({"auto", "on", "off"}));
+        ->check(cli::one_of({"auto", "on", "off"}));
     command
         ->add_option("--spatial-voices", flags->spatial_voices,
                      "Hear people from where they stand, as with headphones (HRTF): on, off, or "
                      "auto, which is on for devices and off for files. A file is stereo then")
         ->capture_default_str()
-        ->check(CLI::IsMember({"auto", "on", "off"}));
+        ->check(cli::one_of({"auto", "on", "off"}));
     command->add_option("--webcam", flags->webcam,
                         "Show your face, small on your avatar: a video device (/dev/video0), a "
                         "video file, or test for a generated picture. In the window F4, elsewhere "
@@ -484,7 +485,7 @@ void add_join_command(CLI::App& app) {
                      "Milliseconds of voice in a packet, 10 or 20; 10 arrives sooner and needs "
                      "more of the link")
         ->capture_default_str()
-        ->check(CLI::IsMember({10, 20}));
+        ->check(cli::one_of({"10", "20"}));
     command->add_flag(
         "--or-screen", flags->or_screen,
         "For a monitor in the operating room, full screen and without keyboard: who "

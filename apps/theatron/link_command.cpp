@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/steady_clock.h"
+#include "cli/choice_check.h"
 #include "cli/number_check.h"
 #include "commands.h"
 #include "files/json_text.h"
@@ -176,7 +177,7 @@ void add_link_command(CLI::App& app) {
     CLI::Option* role =
         command->add_option("--role", flags->role, "operator, expert, observer or publisher")
             ->capture_default_str()
-            ->check(CLI::IsMember({"operator", "expert", "observer", "publisher"}));
+            ->check(cli::one_of({"operator", "expert", "observer", "publisher"}));
     CLI::Option* hours =
         command
             ->add_option(

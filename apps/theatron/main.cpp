@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // theatron: the command-line program.
+#include <algorithm>
 #include <iostream>
+#include <string>
 #include <vector>
 
 #include "base/error.h"
+#include "base/output.h"
 #include "cli/program_frame.h"
 #include "commands.h"
 #include "foreign_readers.h"
@@ -104,9 +107,25 @@ int run(int argc, char** argv) {
     return 0;
 }
 
+// A service manager does not start a program again whose configuration is wrong.
+int run_with_code_of_configuration(int argc, char** argv) {
+    try {
+        return run(argc, argv);
+    } catch (const theatron::app::ConfigError& e) {
+        theatron::output::print(std::string("theatron: ") + e.what() +
+                                "
+                                ",
+                                theatron::output::Stream::error);
+        const std::vector<std::string> words(argv, argv + argc);
+        const bool is_check =
+            std::find(words.begin(), words.end(), "--check-config") != words.end();
+        return is_check ? 1 : theatron::app::config_exit_code;
+    }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
     theatron::cli::run_program(argc, argv, theatron::app::foreign_readers(),
-                               [&] { return run(argc, argv); });
+                               [&] { return run_with_code_of_configuration(argc, argv); });
 }

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "cli/choice_check.h"
+
 namespace theatron::app {
 namespace {
 
@@ -15,7 +17,7 @@ protected:
     Manual() {
         CLI::App* host = app.add_subcommand("host", "Stream cameras. To those who join");
         host->add_option("--admit", admit, "Who: [everybody] or 'some' of v1.5; or none")
-            ->check(CLI::IsMember({"all", "ask"}))
+            ->check(cli::one_of({"all", "ask"}))
             ->capture_default_str();
         host->add_option("--camera", cameras, "A camera");
         host->add_option("--secret", secret)->group("");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "picture_options.h"
 
+#include "cli/choice_check.h"
 #include "cli/seconds_option.h"
 #include "viewer/renderer_text.h"
 
@@ -17,7 +18,7 @@ void add_picture_options(CLI::App& command, JoinFlags& flags) {
     command
         .add_option("--language", flags.language,
                     "Language of the texts in the window, and of news: en, or de for German")
-        ->check(CLI::IsMember({"en", "de"}))
+        ->check(cli::one_of({"en", "de"}))
         ->capture_default_str();
     command.add_option("--offscreen", flags.offscreen,
                        "Without a window: draw the last picture into this PNG file");
@@ -42,13 +43,13 @@ void add_picture_options(CLI::App& command, JoinFlags& flags) {
                     "on: floor, walls and the cameras' names around the clouds, where the cameras' "
                     "places in the room are known; off: the clouds alone")
         ->capture_default_str()
-        ->check(CLI::IsMember({"on", "off"}));
+        ->check(cli::one_of({"on", "off"}));
     command
         .add_option("--quality", flags.quality,
                     "How carefully that room is lit: low, high, or auto, which is low where no "
                     "graphics card draws. The clouds are the same in both")
         ->default_str("that of your last window, else auto")
-        ->check(CLI::IsMember({"auto", "low", "high"}));
+        ->check(cli::one_of({"auto", "low", "high"}));
     command
         .add_option("--save-to", flags.save_to,
                     "The folder into which F9 and F10 in the window save pictures and points")

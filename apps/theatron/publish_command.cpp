@@ -9,6 +9,7 @@
 #include "base/steady_clock.h"
 #include "base/utc.h"
 #include "cli/camera_option.h"
+#include "cli/choice_check.h"
 #include "cli/seconds_option.h"
 #include "cli/stop_signal.h"
 #include "client/participant_figures.h"
@@ -171,7 +172,7 @@ void add_publish_command(CLI::App& app) {
                      "on: participants that can reach this machine get the pictures from it, at "
                      "a free port that the host tells them; off: from the host only")
         ->capture_default_str()
-        ->check(CLI::IsMember({"on", "off"}));
+        ->check(cli::one_of({"on", "off"}));
     command->add_option("--name", flags->name, "Name shown in the session")->capture_default_str();
     cli::add_seconds_option(*command, flags->seconds, "End by itself after this time");
     cli::add_seconds_option(*command, flags->every,

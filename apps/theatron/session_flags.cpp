@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/outside_text.h"
 #include "cli/camera_option.h"
+#include "cli/choice_check.h"
 #include "cli/number_check.h"
 #include "cli/seconds_option.h"
 #include "host/session_folder.h"
@@ -121,7 +122,7 @@ void add_session_options(CLI::App& command, SessionFlags& flags) {
                     "all: everyone with a valid link is let in; ask: experts and observers wait "
                     "until an operator admits them")
         ->capture_default_str()
-        ->check(CLI::IsMember({"all", "ask"}));
+        ->check(cli::one_of({"all", "ask"}));
     command
         .add_option("--look-back", flags.look_back_s,
                     "How many seconds participants may look back at the cameras of the room, 0 to "
@@ -137,7 +138,7 @@ void add_session_options(CLI::App& command, SessionFlags& flags) {
                     "on: pictures of a participant's cameras go from it to those who can reach "
                     "it; off: all pictures go through this host")
         ->capture_default_str()
-        ->check(CLI::IsMember({"on", "off"}));
+        ->check(cli::one_of({"on", "off"}));
 }
 
 host::SessionOptions session_options(const SessionFlags& flags) {

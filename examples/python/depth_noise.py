@@ -39,7 +39,9 @@ def main(recording, camera=0):
 
 
 if __name__ == "__main__":
+    if len(sys.argv) not in (2, 3):
+        sys.exit(__doc__)
     try:
         main(*sys.argv[1:])
-    except theatron.Error as problem:
+    except (theatron.Error, ValueError) as problem:
         sys.exit(str(problem))

@@ -15,8 +15,13 @@ MOST_POINTS = 20_000  # more take matplotlib long
 
 
 def main(recording, seconds, picture):
-    frame = next(theatron.Recording(recording).frames(start=float(seconds)))
+    opened = theatron.Recording(recording)
+    frame = next(opened.frames(start=float(seconds)), None)
+    if frame is None:
+        raise theatron.Error(f"There is no frame from {seconds} s on; the recording has {opened.seconds:.2f} s.")
     points, colors = frame.cloud()
+    if len(points) == 0:
+        raise theatron.Error(f"The frame at {frame.seconds:.2f} s has no measurement.")
     step = max(1, len(points) // MOST_POINTS)
     x, y, z = points[::step].T
     axes = plt.figure(figsize=(8, 6)).add_subplot(projection="3d")
@@ -29,7 +34,9 @@ def main(recording, seconds, picture):
 
 
 if __name__ == "__main__":
+    if len(sys.argv) != 4:
+        sys.exit(__doc__)
     try:
         main(*sys.argv[1:])
-    except theatron.Error as problem:
+    except (theatron.Error, OSError, ValueError) as problem:
         sys.exit(str(problem))

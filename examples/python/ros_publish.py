@@ -54,7 +54,12 @@ def main(recording, camera=0):
 
 
 if __name__ == "__main__":
+    arguments = rospy.myargv()[1:]  # without those of ROS
+    if len(arguments) not in (1, 2):
+        sys.exit(__doc__)
     try:
-        main(*rospy.myargv()[1:])
-    except theatron.Error as problem:
+        main(*arguments)
+    except rospy.ROSInterruptException:  # Ctrl-C
+        pass
+    except (theatron.Error, ValueError) as problem:
         sys.exit(str(problem))

@@ -39,6 +39,8 @@ def main(link, name="ZED"):
 
 
 if __name__ == "__main__":
+    if len(sys.argv) not in (2, 3):
+        sys.exit(__doc__)
     try:
         main(*sys.argv[1:])
     except KeyboardInterrupt:

@@ -45,6 +45,12 @@ std::string mistake_of_word(std::string_view word, std::string_view follows) {
         return "there are no sections in brackets; lines are KEY = VALUE";
     if (is_key(shown) && follows.starts_with(':'))
         return "'" + shown + "' is followed by ':'; lines are KEY = VALUE";
+    if (shown.starts_with(";") || shown.starts_with("//"))
+        return "a comment begins with #";
+    std::string hyphens = shown;
+    std::replace(hyphens.begin(), hyphens.end(), '_', '-');
+    if (hyphens != shown && is_key(hyphens) && trimmed(follows).empty())
+        return "'" + shown + "' is no key; write '" + hyphens + "', with hyphens";
     const std::string small = in_small_letters(shown);
     if (small != shown && is_key(small) && trimmed(follows).empty())
         return "'" + shown + "' is no key; keys have small letters alone";
@@ -86,6 +92,11 @@ ConfigText parse_config(std::string_view text) {
     ConfigText config;
     if (text.size() > max_config_bytes) {
         config.mistakes.push_back({0, "", "it is larger than 64 KiB"});
+        return config;
+    }
+    if (text.find('\0') != text.npos || text.starts_with("\xff\xfe") ||
+        text.starts_with("\xfe\xff")) {
+        config.mistakes.push_back({0, "", "it is UTF-16, or no text; save it as UTF-8"});
         return config;
     }
     if (text.starts_with(byte_order_mark))

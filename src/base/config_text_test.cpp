@@ -44,7 +44,10 @@ TEST(ConfigText, EachMistakeIsToldWithLineAndKey) {
         "listen: 4400\n"
         "Session = OR 3\n"
         "session = Universit\xe4t\n"
-        "session = Universit\xc3\xa4t\n");
+        "session = Universit\xc3\xa4t\n"
+        "link_hours = 3\n"
+        "; the room\n"
+        "//the room\n");
     EXPECT_THAT(config.lines, ElementsAre(ConfigLine{9, "admit", "ask"},
                                           ConfigLine{13, "session", "Universit\xc3\xa4t"}));
     EXPECT_EQ(mistakes_text("or.conf", config.mistakes),
@@ -58,7 +61,21 @@ TEST(ConfigText, EachMistakeIsToldWithLineAndKey) {
               "or.conf:8: listen: the value has control characters.\n"
               "or.conf:10: 'listen' is followed by ':'; lines are KEY = VALUE.\n"
               "or.conf:11: 'Session' is no key; keys have small letters alone.\n"
-              "or.conf:12: session: the value is not UTF-8; save the file in that encoding.");
+              "or.conf:12: session: the value is not UTF-8; save the file in that encoding.\n"
+              "or.conf:14: 'link_hours' is no key; write 'link-hours', with hyphens.\n"
+              "or.conf:15: a comment begins with #.\n"
+              "or.conf:16: a comment begins with #.");
+}
+
+TEST(ConfigText, AFileInUtf16IsToldOnce) {
+    using namespace std::string_view_literals;
+    for (const std::string_view text :
+         {"\xff\xfes\0=\0"sv, "\xfe\xff\0s\0="sv, "a\0d\0m\0i\0t\0"sv, "admit = ask\0"sv}) {
+        const ConfigText config = parse_config(text);
+        EXPECT_THAT(config.lines, IsEmpty());
+        EXPECT_EQ(mistakes_text("or.conf", config.mistakes),
+                  "or.conf: it is UTF-16, or no text; save it as UTF-8.");
+    }
 }
 
 // A host's log is read by others.

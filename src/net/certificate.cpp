@@ -3,6 +3,7 @@
 
 #include <openssl/bio.h>
 #include <openssl/crypto.h>
+#include <openssl/err.h>
 #include <openssl/evp.h>
 #include <openssl/pem.h>
 #include <openssl/rand.h>
@@ -45,6 +46,42 @@ bool complete(Certificate& c) {
         return false;
     c.fingerprint = certificate_fingerprint(x509.get());
     return true;
+}
+
+// One of the certificates behind the first one was made for this key.
+bool belongs_to_later(const std::string& certificates_pem, EVP_PKEY* key) {
+    const Bio in = reader_of(certificates_pem);
+    bool is_first = true, found = false;
+    while (const X509Ptr x509{PEM_read_bio_X509(in.get(), nullptr, nullptr, nullptr)}) {
+        found = found || (!is_first && X509_check_private_key(x509.get(), key) == 1);
+        is_first = false;
+    }
+    ERR_clear_error();
+    return found;
+}
+
+// The sentence about a pair that is not complete(), for the files that hold it.
+std::string mistake_of_pair(const Certificate& pair, const std::filesystem::path& certificate_file,
+                            const std::filesystem::path& key_file) {
+    const std::string certificate = "'" + certificate_file.string() + "'";
+    const std::string key = "'" + key_file.string() + "'";
+    if (!first_of(pair.certificate_pem))
+        return certificate +
+               " holds no certificate in PEM, which begins with -----BEGIN CERTIFICATE-----; "
+               "'theatron certificate install' also takes DER and PKCS #7.";
+    const Key private_key = key_of(pair.private_key_pem);
+    if (!private_key && pair.private_key_pem.find("ENCRYPTED") != std::string::npos)
+        return "The key " + key + " has a passphrase; write it without one: openssl pkey -in " +
+               key + " -out NEW_FILE.";
+    if (!private_key)
+        return key + " holds no key in PEM, which begins with -----BEGIN and ends with KEY-----.";
+    if (belongs_to_later(pair.certificate_pem, private_key.get()))
+        return certificate + " begins with another certificate than that of the key " + key +
+               "; the host's own stands first, and those of its issuers follow ('theatron "
+               "certificate install' puts them in order).";
+    return "The certificate in " + certificate + " was made for another key than " + key +
+           "; name the key of its request, or ask for a new certificate with 'theatron "
+           "certificate request'.";
 }
 
 files::UtcSeconds utc_of(const ASN1_TIME* time) {
@@ -157,14 +194,14 @@ Certificate read_certificate(const std::filesystem::path& certificate,
     if (key.empty()) {
         const X509Ptr x509 = first_of(c.certificate_pem);
         if (!x509)
-            throw Error("'" + certificate.string() + "' is no certificate in PEM.");
+            throw Error("'" + certificate.string() +
+                        "' holds no certificate in PEM, which begins with -----BEGIN "
+                        "CERTIFICATE-----.");
         c.fingerprint = certificate_fingerprint(x509.get());
     } else {
         c.private_key_pem = read(key, Privacy::secret);
         if (!complete(c))
-            throw Error("'" + certificate.string() + "' and '" + key.string() +
-                        "' are no certificate with its key, both in PEM; the key must have no "
-                        "passphrase.");
+            throw Error(mistake_of_pair(c, certificate, key));
     }
     return c;
 }

@@ -119,11 +119,19 @@ TEST_F(OwnCertificate, IsReadWithThoseOfItsIssuers) {
 TEST_F(OwnCertificate, WhoseFilesAreMissingDamagedOrOfDifferentKeysIsRefusedByName) {
     EXPECT_THAT(problem("other"), HasSubstr("other"));
     EXPECT_THAT(problem("crt", "other"), HasSubstr("other"));
-    EXPECT_THAT(problem("key", "crt"), HasSubstr("PEM"));
+    EXPECT_THAT(problem("key", "crt"), HasSubstr("key' holds no certificate in PEM"));
     write("key", make_certificate().private_key_pem);
-    EXPECT_THAT(problem(), HasSubstr("no certificate with its key"));
+    EXPECT_THAT(problem(), HasSubstr("crt' was made for another key than '"));
     write("key", "");
-    EXPECT_THAT(problem(), HasSubstr("no certificate with its key"));
+    EXPECT_THAT(problem(), HasSubstr("key' holds no key in PEM"));
+    write("key",
+          "-----BEGIN ENCRYPTED PRIVATE KEY-----\nMII=\n-----END ENCRYPTED PRIVATE KEY-----\n");
+    EXPECT_THAT(problem(), HasSubstr("key' has a passphrase"));
+}
+
+TEST_F(OwnCertificate, BehindThatOfAnIssuerIsRefusedWithTheRightOrder) {
+    write("crt", make_certificate().certificate_pem + made.certificate_pem);
+    EXPECT_THAT(problem(), HasSubstr("crt' begins with another certificate than that of the key"));
 }
 
 TEST_F(OwnCertificate, HasATimeAndAName) {

@@ -20,6 +20,7 @@
 #include "base/log.h"
 #include "base/steady_clock.h"
 #include "base/thread_name.h"
+#include "net/listen_address.h"
 #include "net/places.h"
 
 namespace theatron::net {
@@ -81,12 +82,7 @@ std::shared_ptr<asio::ssl::context> make_tls(const Certificate& certificate) {
 
 void listen(tcp::acceptor& acceptor, const Endpoint& endpoint) {
     beast::error_code error;
-    const auto address = asio::ip::make_address(endpoint.address, error);
-    if (error)
-        throw Error(
-            "'" + endpoint.address +
-            "' is no address of this machine; write an IP address such as 0.0.0.0 or 127.0.0.1.");
-    const tcp::endpoint where(address, endpoint.port);
+    const tcp::endpoint where(listen_address(endpoint), endpoint.port);
     acceptor.open(where.protocol(), error);
     if (!error)
         acceptor.set_option(asio::socket_base::reuse_address(true), error);
@@ -98,12 +94,8 @@ void listen(tcp::acceptor& acceptor, const Endpoint& endpoint) {
         acceptor.bind(where, error);
     if (!error)
         acceptor.listen(asio::socket_base::max_listen_connections, error);
-    if (error == asio::error::address_in_use)
-        throw Error("Port " + std::to_string(endpoint.port) + " on " + endpoint.address +
-                    " is in use; stop the other program or choose another port with --listen.");
     if (error)
-        throw Error("Cannot listen on " + host_and_port(endpoint.address, endpoint.port) + ": " +
-                    error.message() + ".");
+        throw Error(listening_problem(endpoint, error));
 }
 
 }  // namespace

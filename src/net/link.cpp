@@ -126,7 +126,8 @@ Endpoint parse_endpoint(std::string_view text) {
     std::string host;
     if (!split_host_port(text, host, endpoint.port))
         throw Error("'" + std::string(text) +
-                    "' is no address to listen on; write ADDRESS:PORT, for example 0.0.0.0:4400.");
+                    "' is no address to listen on; write ADDRESS:PORT, for example 0.0.0.0:4400 or "
+                    "[::]:4400.");
     if (!host.empty())
         endpoint.address = host;
     return endpoint;

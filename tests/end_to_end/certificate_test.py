@@ -116,10 +116,18 @@ class Certificates(unittest.TestCase):
         self.assertRegex(self.refused(self.authority.answer(wrong)), "for 'or-4.example' and not for 'localhost'")
         self.assertIn("holds no certificate", self.refused(self.config))
         self.assertIn("There is no file", self.refused(self.folder / "nothing"))
+        self.assertIn("holds no certificate", self.refused(request))
         # Without an issuer it can be used, and what browsers may lack is told.
         code, _, errors = self.certificate_command("install", self.authority.answer(self.request()["request"]))
         self.assertEqual(code, 0)
         self.assertIn("does not know 'CN=Issuer'", errors)
+
+    def test_the_answer_may_belong_to_anybody(self):
+        answer = pathlib.Path(self.authority.answer(self.request()["request"]))
+        answer.chmod(0o666)
+        if os.geteuid() == 0:
+            os.chown(answer, 65534, 65534)
+        self.install(answer, self.authority.issuer)
 
     def test_a_host_whose_certificate_has_wrong_dates_starts_and_says_so(self):
         # The clock of the authority or of this machine is wrong, or nobody renewed it.

@@ -61,6 +61,26 @@ class Examples(PythonCase):
             done = example(name, self.folder / "nowhere.mkv", *arguments, check=False)
             self.assertEqual((done.returncode, done.stderr.count("\n")), (1, 1), done.stderr)
 
+    def test_without_their_arguments_they_say_how_they_are_used(self):
+        for source in sorted(EXAMPLES.glob("*.py")):
+            if source.name == "mean_depth.py":  # the ten lines
+                continue
+            for arguments in ((), ("a", "b", "c", "d")):
+                done = example(source.name, *arguments, check=False)
+                self.assertEqual(done.returncode, 1, source.name)
+                self.assertRegex(done.stderr, rf"^\w[^\n]*\n\n    {source.name} [A-Z]")
+
+    def test_times_without_frames_and_places_that_cannot_be_written_are_sentences(self):
+        file = self.record()
+        for name, *arguments in (("plot_cloud.py", 99, self.folder / "a.png"), ("open3d_cloud.py", 99, self.folder / "a.txt"),
+                                 ("plot_cloud.py", "soon", self.folder / "a.png"), ("open3d_cloud.py", "soon", self.folder / "a.txt"),
+                                 ("plot_cloud.py", 0, self.folder / "nowhere" / "a.png"),
+                                 ("open3d_cloud.py", 0, self.folder / "nowhere" / "a.txt"), ("depth_noise.py", "left"), ("ros_publish.py", "left")):
+            if name == "plot_cloud.py" and not importlib.util.find_spec("matplotlib"):
+                continue
+            done = example(name, file, *arguments, check=False)
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (1, 1), (name, arguments, done.stderr))
+
     def test_they_are_short(self):
         self.assertLessEqual(len((EXAMPLES / "mean_depth.py").read_text().splitlines()), 10)
         for source in EXAMPLES.glob("*.py"):

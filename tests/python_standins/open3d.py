@@ -23,4 +23,14 @@ def _vector(array):
 
 geometry = types.SimpleNamespace(PointCloud=PointCloud)
 utility = types.SimpleNamespace(Vector3dVector=_vector)
-io = types.SimpleNamespace(write_point_cloud=lambda file, cloud: np.savetxt(file, np.hstack([cloud.points, cloud.colors])))
+
+
+def _write(file, cloud):
+    try:
+        np.savetxt(file, np.hstack([cloud.points, cloud.colors]))
+    except OSError:
+        return False  # as Open3D, which raises nothing
+    return True
+
+
+io = types.SimpleNamespace(write_point_cloud=_write)

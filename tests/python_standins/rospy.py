@@ -7,6 +7,10 @@ import sys
 _now = 0.0
 
 
+class ROSInterruptException(Exception):
+    pass
+
+
 class Duration(float):
     @staticmethod
     def from_sec(seconds):
