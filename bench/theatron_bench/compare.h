@@ -5,6 +5,7 @@
 // Pure data: compare_measure.h fills Compared, compare_output.h and compare_page.h write it.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,6 +39,33 @@ struct CompareOwnView {
     double psnr_db = 0, ssim = 0;
 };
 
+// Tells if the expert is shown a surface.
+enum class Seen : std::uint8_t {
+    nothing_there,  // no surface in this pixel
+    rightly,        // it is shown
+    wrongly,        // something else is shown in its place, without a mark
+    hidden          // nothing is shown, or no camera of a video call sees it
+};
+
+// Each pixel of the exact close-up.
+struct CompareSights {
+    Image<Seen> seen;
+    Image<float> detail_mm;  // of a pixel of the finest camera that sees the surface; 0: none does
+};
+
+// The same, summed over the surfaces of a region. The first three are 100 together.
+struct CompareShares {
+    double rightly_percent = 0, wrongly_percent = 0, hidden_percent = 0;
+    double finely_percent = 0;  // rightly, and by a camera with pixels of 1 mm or less there
+    double detail_mm = 0;       // median over what is shown rightly; 0: nothing is
+};
+
+struct CompareWound {
+    CompareShares near, whole;  // close to the wound, and over the whole close-up
+    // The causes of what is not shown rightly close to the wound; none of a video call or a pair.
+    std::optional<CompareCauses> lost;
+};
+
 // The same few decimetres around the operation, from the first place of the expert or as a part of
 // a camera's picture.
 struct CompareCloseUp {
@@ -56,10 +84,14 @@ struct CompareMethod {
     std::string ran;        // for people who know codecs
     std::string reason;     // why there are no figures at all; empty if there are some
     bool is_video = false;  // shows cameras' pictures and nothing from another place
+    bool is_pair = false;   // two other ways at once; its pictures are theirs
     int cameras = 0;
     double mbit_per_camera = 0;    // at 30 pictures a second, without the first picture
     double rate_setting_mbit = 0;  // the rate that its encoder was set to; 0: it was set to none
-    double sender_ms = 0, receiver_ms = 0;  // processor time of one camera's picture
+    // Processor time of one camera's picture, and of a picture of all cameras.
+    double sender_ms = 0, receiver_ms = 0, sender_of_all_ms = 0, receiver_of_all_ms = 0;
+    double drawing_ms = 0;  // on the clock: upload and drawing of a picture of all cameras
+    std::string drawn_on;   // by what; empty: not measured
     std::vector<LinkFigures> links;
     std::optional<CompareOwnView> own_view;
     std::optional<CompareLikeness> expert;    // over all places
@@ -68,6 +100,8 @@ struct CompareMethod {
     // From each place of the expert; one picture if it is the same from all, none without any.
     std::vector<ColorImage> pictures;
     std::optional<CompareCloseUp> close_up;
+    std::optional<CompareSights> sights;  // in the close-up
+    std::optional<CompareWound> wound;
 
     bool is_measured() const { return reason.empty(); }
     double mbit_of_all() const { return mbit_per_camera * cameras; }
@@ -84,7 +118,9 @@ struct Compared {
     std::vector<std::string> places;  // of the expert, in words
     std::vector<ColorImage> truth;    // from each of them
     ColorImage close_up_truth;
-    double close_up_width_m = 0;  // of what close-ups show
+    double close_up_width_m = 0;     // of what close-ups show
+    double near_wound_m = 0;         // across the region close to the wound
+    Image<std::uint8_t> near_wound;  // not 0 in the pixels of this region in the close-up
     std::vector<CompareMethod> methods;
 
     const CompareMethod* find(const std::string& id) const {
@@ -105,6 +141,7 @@ inline constexpr const char *video_call_id = "video_call", *full_hd_call_id = "v
                             *zoomed_call_id = "video_call_zoomed",
                             *two_camera_call_id = "video_call_two_cameras", *paper_id = "paper",
                             *pcl_id = "pcl", *theatron_id = "theatron",
-                            *theatron_near_id = "theatron_near";
+                            *theatron_near_id = "theatron_near",
+                            *theatron_and_call_id = "theatron_and_zoomed_call";
 
 }  // namespace theatron::bench

@@ -36,13 +36,10 @@ Step step_of(const CauseCamera& camera, Vec3 point_room, int jump_mm) {
                                                                                    : Step::filters;
 }
 
-}  // namespace
-
-CompareCauses causes_of(const CauseInput& input, const std::vector<CauseCamera>& cameras) {
+// The step that loses each judged surface, if one does.
+Image<std::uint8_t> lost_by(const CauseInput& input, const std::vector<CauseCamera>& cameras) {
     const Size size = input.exact_mm.size;
-    std::array<Image<std::uint8_t>, step_count> lost;
-    for (Image<std::uint8_t>& mask : lost)
-        mask.resize(size);
+    Image<std::uint8_t> steps(size);
     const render::CameraView& view = input.view;
     for (int y = 0; y < size.height; ++y)
         for (int x = 0; x < size.width; ++x) {
@@ -58,8 +55,41 @@ CompareCauses causes_of(const CauseInput& input, const std::vector<CauseCamera>&
             if (step != Step::camera)
                 for (const CauseCamera& c : cameras)
                     step = std::max(step, step_of(c, point, input.jump_mm));
-            lost[step].view().row(y)[x] = 1;
+            steps.view().row(y)[x] = step;
         }
+    return steps;
+}
+
+}  // namespace
+
+CompareCauses causes_of(const CauseInput& input, const std::vector<CauseCamera>& cameras,
+                        const CompareSights& sights) {
+    const Image<std::uint8_t> steps = lost_by(input, cameras);
+    std::array<double, step_count> lost{};
+    double all = 0;
+    for (int y = 0; y < steps.size.height; ++y)
+        for (int x = 0; x < steps.size.width; ++x) {
+            const Seen seen = sights.seen.view().row(y)[x];
+            if (!input.where.row(y)[x] || seen == Seen::nothing_there)
+                continue;
+            ++all;
+            if (seen != Seen::rightly)
+                ++lost[steps.view().row(y)[x]];
+        }
+    const double percent = all > 0 ? 100 / all : 0;
+    return {lost[Step::camera] * percent, lost[Step::sensor] * percent,
+            lost[Step::filters] * percent, lost[Step::drawing] * percent};
+}
+
+CompareCauses causes_of(const CauseInput& input, const std::vector<CauseCamera>& cameras) {
+    const Image<std::uint8_t> steps = lost_by(input, cameras);
+    std::array<Image<std::uint8_t>, step_count> lost;
+    for (Image<std::uint8_t>& mask : lost)
+        mask.resize(steps.size);
+    for (int y = 0; y < steps.size.height; ++y)
+        for (int x = 0; x < steps.size.width; ++x)
+            if (input.where.row(y)[x] && input.exact_mm.row(y)[x] > 0)
+                lost[steps.view().row(y)[x]].view().row(y)[x] = 1;
     render::Holes all(input.jump_mm);
     all.add(input.drawn_mm, input.exact_mm, input.where);
     std::array<double, step_count> percent{};

@@ -30,6 +30,11 @@ struct CauseInput {
     int jump_mm = 150;
 };
 
+// Shares of the judged surfaces that are not shown rightly. `input`: of the picture of `sights`;
+// its drawn_mm is not used.
+CompareCauses causes_of(const CauseInput& input, const std::vector<CauseCamera>& cameras,
+                        const CompareSights& sights);
+
 // Shares of the judged pixels. Pixels beside outlines do not count, as in render::Holes.
 CompareCauses causes_of(const CauseInput& input, const std::vector<CauseCamera>& cameras);
 

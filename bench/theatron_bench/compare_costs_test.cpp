@@ -19,8 +19,20 @@ TEST(CompareCosts, TheFirstPictureDoesNotCountAndCamerasAreAveraged) {
     EXPECT_EQ(method.cameras, 2);
     EXPECT_DOUBLE_EQ(method.mbit_per_camera, 4000 * 8 * 30 / 1e6);
     EXPECT_DOUBLE_EQ(method.mbit_of_all(), 2 * 4000 * 8 * 30 / 1e6);
-    EXPECT_DOUBLE_EQ(method.sender_ms, 8);    // of 4, 6, 8, 10: the upper one
-    EXPECT_DOUBLE_EQ(method.receiver_ms, 5);  // of 1, 3, 5, 7
+    EXPECT_DOUBLE_EQ(method.sender_ms, 8);          // of 4, 6, 8, 10: the upper one
+    EXPECT_DOUBLE_EQ(method.receiver_ms, 5);        // of 1, 3, 5, 7
+    EXPECT_DOUBLE_EQ(method.sender_of_all_ms, 16);  // of 4 + 8, 6 + 10
+    EXPECT_DOUBLE_EQ(method.receiver_of_all_ms, 10);
+}
+
+TEST(CompareCosts, WorkAtOnceIsSharedOutAsEachCameraNeededAlone) {
+    std::vector<std::vector<PictureCost>> cameras = {{{100}, {300}}, {{50}, {70}}};
+    share_out(cameras, {{0, 40, 9}, {0, 20, 0}}, {{{7, 3, 2}, {7, 0, 0}}, {{7, 1, 1}, {7, 0, 0}}});
+    EXPECT_DOUBLE_EQ(cameras[0][0].sender_ms, 30);
+    EXPECT_DOUBLE_EQ(cameras[1][0].sender_ms, 10);
+    EXPECT_DOUBLE_EQ(cameras[0][0].receiver_ms, 6);
+    EXPECT_DOUBLE_EQ(cameras[1][1].sender_ms, 10);
+    EXPECT_EQ(cameras[0][1].bytes, 300u);
 }
 
 TEST(CompareCosts, ASinglePictureCounts) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "compare_sights.h"
 #include "render/picture_quality.h"
 
 namespace theatron::bench {
@@ -64,6 +65,18 @@ CompareCloseUp judged_close_up(const ViewBenchPlace& exact, render::Picture draw
     return {std::move(drawn.color), likeness.result(), see_through, instruments};
 }
 
+ExactSurfaces surfaces_of(const ViewBenchPlace& place) {
+    return {place.view, place.exact_mm.view()};
+}
+
+void judge_wound(CompareMethod& method, const CompareViews& exact) {
+    Image<std::uint8_t> whole(exact.close_up.exact_mm.size);
+    std::fill(whole.pixels.begin(), whole.pixels.end(), std::uint8_t(1));
+    method.wound = {shares_of(*method.sights, exact.near_wound.view()),
+                    shares_of(*method.sights, std::as_const(whole).view()),
+                    {}};
+}
+
 }  // namespace
 
 CompareOwnView own_view_of(const ColorImage& exact, const ColorImage& arrived) {
@@ -77,7 +90,7 @@ CompareOwnView own_view_of(const ColorImage& exact, const ColorImage& arrived) {
 }
 
 void judge(CompareMethod& method, const CompareViews& exact, DrawnViews drawn,
-           const std::vector<CauseCamera>& cameras) {
+           const std::vector<CauseCamera>& cameras, Image<float> details) {
     LikenessSum all;
     for (std::size_t i = 0; i < drawn.places.size(); ++i) {
         LikenessSum one;
@@ -87,7 +100,25 @@ void judge(CompareMethod& method, const CompareViews& exact, DrawnViews drawn,
         method.pictures.push_back(std::move(drawn.places[i].color));
     }
     method.expert = all.result();
-    method.close_up = judged_close_up(exact.close_up, std::move(drawn.close_up), cameras);
+    const ViewBenchPlace& place = exact.close_up;
+    const DepthView drawn_mm = drawn.close_up.depth_mm.view();
+    method.sights = sights_of_drawn(surfaces_of(place), drawn_mm, std::move(details));
+    judge_wound(method, exact);
+    method.wound->lost = causes_of({place.view, drawn_mm, place.exact_mm.view(), place.seen.view(),
+                                    exact.near_wound.view(), shown_within_mm},
+                                   cameras, *method.sights);
+    method.close_up = judged_close_up(place, std::move(drawn.close_up), cameras);
+}
+
+void judge_video(CompareMethod& method, const CompareViews& exact, Image<float> details) {
+    method.sights = sights_of_video(surfaces_of(exact.close_up), std::move(details));
+    judge_wound(method, exact);
+}
+
+void judge_pair(CompareMethod& method, const CompareViews& exact, const CompareMethod& one,
+                const CompareMethod& other) {
+    method.sights = sights_of_both(*one.sights, *other.sights);
+    judge_wound(method, exact);
 }
 
 }  // namespace theatron::bench

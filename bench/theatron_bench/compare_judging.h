@@ -20,8 +20,15 @@ struct DrawnViews {
     render::Picture close_up;
 };
 
-// Fills pictures, likeness and causes of `method`.
+// Fills all that is known of the pictures of `method`. details: finest_details() of the close-up.
 void judge(CompareMethod& method, const CompareViews& exact, DrawnViews drawn,
-           const std::vector<CauseCamera>& cameras);
+           const std::vector<CauseCamera>& cameras, Image<float> details);
+
+// The same of a video call, whose pictures are its cameras'.
+void judge_video(CompareMethod& method, const CompareViews& exact, Image<float> details);
+
+// The same of two ways whose pictures stand beside each other; both are judged.
+void judge_pair(CompareMethod& method, const CompareViews& exact, const CompareMethod& one,
+                const CompareMethod& other);
 
 }  // namespace theatron::bench

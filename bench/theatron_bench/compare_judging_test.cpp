@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace theatron::bench {
 namespace {
@@ -36,6 +37,11 @@ ViewBenchPlace half_seen() {
     return place;
 }
 
+// Its right half is close to the wound.
+CompareViews half_seen_views() {
+    return {{half_seen()}, half_seen(), half_mask(false, true)};
+}
+
 render::Picture drawn(const DepthImage& depth_mm) {
     render::Picture picture;
     picture.color = ColorImage(judged_size);
@@ -45,7 +51,8 @@ render::Picture drawn(const DepthImage& depth_mm) {
 
 CompareMethod judged(const DepthImage& place_mm, const DepthImage& close_up_mm) {
     CompareMethod method;
-    judge(method, {{half_seen()}, half_seen()}, {{drawn(place_mm)}, drawn(close_up_mm)}, {});
+    judge(method, half_seen_views(), {{drawn(place_mm)}, drawn(close_up_mm)}, {},
+          Image<float>(judged_size));
     return method;
 }
 
@@ -80,6 +87,35 @@ TEST(CompareJudging, SomethingBehindIsSeenThrough) {
     EXPECT_EQ(method.close_up->likeness->see_through_percent, 50);
     ASSERT_TRUE(method.close_up->see_through);
     EXPECT_EQ(method.close_up->see_through->no_camera, 50);
+}
+
+TEST(CompareJudging, TheWoundHasItsSharesAndTheirCauses) {
+    DepthImage behind = judged_wall();
+    for (int y = 0; y < judged_size.height; ++y)
+        std::fill_n(behind.view().row(y), judged_size.width * 3 / 4,
+                    std::uint16_t(judged_wall_mm + 30));
+    const CompareMethod method = judged(judged_wall(), behind);
+    ASSERT_TRUE(method.wound && method.wound->lost);
+    EXPECT_EQ(method.wound->near.wrongly_percent, 50);
+    EXPECT_EQ(method.wound->near.rightly_percent, 50);
+    EXPECT_EQ(method.wound->whole.wrongly_percent, 75);
+    EXPECT_EQ(method.wound->lost->no_camera, 50);
+    EXPECT_EQ(method.wound->lost->sum(), 50);
+}
+
+TEST(CompareJudging, AVideoCallAndAPairHaveSharesWithoutCauses) {
+    CompareMethod call, pair;
+    Image<float> details(judged_size);
+    std::fill(details.pixels.begin(), details.pixels.end(), 0.5F);
+    judge_video(call, half_seen_views(), std::move(details));
+    ASSERT_TRUE(call.wound);
+    EXPECT_EQ(call.wound->near.rightly_percent, 100);
+    EXPECT_FALSE(call.wound->lost);
+    const CompareMethod dark = judged(judged_wall(), DepthImage(judged_size));
+    EXPECT_EQ(dark.wound->near.hidden_percent, 100);
+    judge_pair(pair, half_seen_views(), dark, call);
+    ASSERT_TRUE(pair.wound);
+    EXPECT_EQ(pair.wound->near.finely_percent, 100);
 }
 
 TEST(CompareJudging, ThePictureItselfIsAlike) {

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "compare_page_parts.h"
 #include "compare_verdict.h"
 #include "svg_drawing.h"
 #include "table1_inputs.h"
@@ -31,6 +32,33 @@ std::string drawn_by(const std::string& renderer) {
                : "pictures drawn by the processor, without a graphics card (" + renderer + ").";
 }
 
+// The wound and what drawing costs.
+std::string wound_table(const Compared& c) {
+    std::string text =
+        "\n" + pad_right("", 32) +
+        column("of the " + whole_text(c.near_wound_m * 100) + " cm around the wound", 52) +
+        column("all cameras' picture, ms", 30) + "\n" + pad_right("", 32) +
+        column("rightly %", 10) + column("wrongly %", 10) + column("not shown %", 12) +
+        column("1 mm %", 8) + column("mm/pixel", 12) + column("sender", 10) +
+        column("receiver", 10) + column("drawing", 10) + "\n";
+    for (const CompareMethod& m : c.methods) {
+        if (!m.is_measured())
+            continue;
+        text += pad_right(m.name, 32);
+        const CompareShares shares = m.wound ? m.wound->near : CompareShares();
+        const auto figure = [&](double value, std::size_t width) {
+            return column(m.wound ? formatted("%.1f", value) : "none", width);
+        };
+        text += figure(shares.rightly_percent, 10) + figure(shares.wrongly_percent, 10) +
+                figure(shares.hidden_percent, 12) + figure(shares.finely_percent, 8) +
+                column(shares.detail_mm > 0 ? formatted("%.1f", shares.detail_mm) : "none", 12) +
+                column(formatted("%.1f", m.sender_of_all_ms), 10) +
+                column(formatted("%.1f", m.receiver_of_all_ms), 10) +
+                column(m.drawn_on.empty() ? "none" : formatted("%.1f", m.drawing_ms), 10) + "\n";
+    }
+    return text;
+}
+
 nlohmann::json size_json(Size size) {
     return {{"width", size.width}, {"height", size.height}};
 }
@@ -55,6 +83,21 @@ nlohmann::json causes_json(const CompareCauses& causes) {
             {"drawing_percent", causes.drawing}};
 }
 
+nlohmann::json shares_json(const CompareShares& shares) {
+    return {{"rightly_percent", shares.rightly_percent},
+            {"wrongly_percent", shares.wrongly_percent},
+            {"hidden_percent", shares.hidden_percent},
+            {"finely_percent", shares.finely_percent},
+            {"detail_mm",
+             shares.detail_mm > 0 ? nlohmann::json(shares.detail_mm) : nlohmann::json(nullptr)}};
+}
+
+nlohmann::json wound_json(const CompareWound& wound) {
+    return {{"near", shares_json(wound.near)},
+            {"whole", shares_json(wound.whole)},
+            {"lost", wound.lost ? causes_json(*wound.lost) : nlohmann::json(nullptr)}};
+}
+
 nlohmann::json close_up_json(const CompareCloseUp& close_up) {
     nlohmann::json result = likeness_json(*close_up.likeness);
     if (close_up.see_through)
@@ -72,7 +115,8 @@ nlohmann::json method_json(const CompareMethod& method) {
                              {"reason", text_or_null(method.reason)},
                              {"expert_reason", text_or_null(method.expert_reason)}};
     for (const char* key : {"cameras", "mbit_of_all", "mbit_per_camera", "sender_ms", "receiver_ms",
-                            "links", "own_view", "expert", "close_up"})
+                            "sender_of_all_ms", "receiver_of_all_ms", "drawing_ms", "drawn_on",
+                            "links", "own_view", "expert", "close_up", "wound"})
         result[key] = nullptr;
     if (method.is_measured()) {
         result["cameras"] = method.cameras;
@@ -80,6 +124,8 @@ nlohmann::json method_json(const CompareMethod& method) {
         result["mbit_per_camera"] = method.mbit_per_camera;
         result["sender_ms"] = method.sender_ms;
         result["receiver_ms"] = method.receiver_ms;
+        result["sender_of_all_ms"] = method.sender_of_all_ms;
+        result["receiver_of_all_ms"] = method.receiver_of_all_ms;
         result["links"] = nlohmann::json::array();
         for (const LinkFigures& f : method.links)
             result["links"].push_back(
@@ -88,6 +134,12 @@ nlohmann::json method_json(const CompareMethod& method) {
                  {"pictures_per_s", f.pictures_per_s},
                  {"delay_ms", {{"mean", f.delay_ms}, {"p95", f.delay_p95_ms}}}});
     }
+    if (!method.drawn_on.empty()) {
+        result["drawing_ms"] = method.drawing_ms;
+        result["drawn_on"] = method.drawn_on;
+    }
+    if (method.wound)
+        result["wound"] = wound_json(*method.wound);
     if (method.own_view)
         result["own_view"] = {{"psnr_db", method.own_view->psnr_db},
                               {"ssim", method.own_view->ssim}};
@@ -136,8 +188,11 @@ std::vector<std::string> compare_limits() {
 std::vector<std::string> compare_notes() {
     return {
         "Age is from the moment of the picture until it is decoded. Each camera has a processor "
-        "core of its own in this. Drawing is not in the processor times, because it is the "
-        "graphics card's work.",
+        "core of its own in this. Drawing is in neither: it has a row of its own.",
+        "A pixel counts as the part of the wound that it covers across the line of sight. What the "
+        "codec loses of it is not in this figure.",
+        "Whether colours are right is not in what is shown rightly, where the surface alone "
+        "counts; the likeness says it.",
         "Data is that of the pictures after the first one, which no other precedes and which is "
         "larger.",
         "Each video call is one encoder at one rate. Products for video calls add and leave out "
@@ -153,18 +208,18 @@ std::string compare_text(const Compared& c) {
     std::string text;
     for (const std::string& remark : compare_remarks(c))
         text += remark + "\n";
-    text += "\n" + pad_right("", 28) + column("cameras", 8) + column("Mbit/s", 9) +
+    text += "\n" + pad_right("", 32) + column("cameras", 8) + column("Mbit/s", 9) +
             column("Mbit/s", 9) + column("sender", 9) + column("receiver", 10);
     for (const CompareLink& link : c.links)
         text += column(link_text(link), 23);
-    text += column("from the expert's place", 60) + "\n" + pad_right("", 28) + column("", 8) +
+    text += column("from the expert's place", 60) + "\n" + pad_right("", 32) + column("", 8) +
             column("in all", 9) + column("a camera", 9) + column("ms", 9) + column("ms", 10);
     for (std::size_t i = 0; i < c.links.size(); ++i)
         text += column("pictures/s   delay ms", 23);
     text += column("PSNR dB", 12) + column("SSIM", 8) + column("holes %", 9) + column("dark %", 8) +
             column("unseen %", 10) + column("through %", 11) + "\n";
     for (const CompareMethod& m : c.methods) {
-        text += pad_right(m.name, 28);
+        text += pad_right(m.name, 32);
         if (!m.is_measured()) {
             text += "not measured: " + m.reason + "\n";
             continue;
@@ -188,6 +243,7 @@ std::string compare_text(const Compared& c) {
             text += "  none";
         text += "\n";
     }
+    text += wound_table(c);
     if (const std::vector<std::string> verdict = compare_verdict(c); !verdict.empty()) {
         text += "\nWhat may be judged from it:\n";
         for (const std::string& sentence : verdict)
@@ -222,6 +278,8 @@ nlohmann::json compare_json(const Compared& c) {
             {"color", size_json(c.color)},
             {"picture", size_json(c.picture)},
             {"places", c.places},
+            {"near_wound_m", c.near_wound_m},
+            {"close_up_width_m", c.close_up_width_m},
             {"methods", methods}};
 }
 

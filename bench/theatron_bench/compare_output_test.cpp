@@ -15,15 +15,20 @@ using ::testing::HasSubstr;
 
 TEST(CompareText, EachMethodHasItsFiguresOrItsReason) {
     const std::string text = compare_text(given_comparison());
-    EXPECT_THAT(text, HasSubstr("\nVideo call                         1      2.0      2.0      9.3"
-                                "       2.1        30.0         35  none\n"));
     EXPECT_THAT(text,
-                HasSubstr("\nA point cloud codec         not measured: This build has no PCL.\n"));
-    EXPECT_THAT(text, HasSubstr("\nTheatron                           2     31.0     15.5      6.2"
-                                "       3.0        19.0         99        20.9   0.772      3.3"
-                                "    17.4      15.2        4.3\n"));
+                HasSubstr("\nVideo call                             1      2.0      2.0      9.3"
+                          "       2.1        30.0         35  none\n"));
+    EXPECT_THAT(
+        text,
+        HasSubstr("\nA point cloud codec             not measured: This build has no PCL.\n"));
+    EXPECT_THAT(text,
+                HasSubstr("\nTheatron                               2     31.0     15.5      6.2"
+                          "       3.0        19.0         99        20.9   0.772      3.3"
+                          "    17.4      15.2        4.3\n"));
     EXPECT_THAT(text, HasSubstr("It has no other picture."));
-    EXPECT_THAT(text, HasSubstr("\nWhat may be judged from it:\n  At the wound Theatron's"));
+    EXPECT_THAT(text, HasSubstr("\nWhat may be judged from it:\n  Of what an expert"));
+    EXPECT_THAT(text, HasSubstr("\nTheatron                              62.0       2.0        36.0"
+                                "     0.0         3.4      12.4       6.1     250.5\n"));
     for (const auto& sentences : {compare_limits(), compare_notes()})
         for (const std::string& sentence : sentences)
             EXPECT_THAT(text, HasSubstr(sentence));
@@ -51,6 +56,16 @@ TEST(CompareJson, WhatIsNotThereIsNull) {
     EXPECT_EQ(methods[2]["close_up"]["instruments_missing"]["drawing_percent"], 2);
     EXPECT_DOUBLE_EQ(methods[2]["mbit_of_all"], 2 * 15.48);
     EXPECT_EQ(methods[2]["own_view"], nullptr);
+    EXPECT_EQ(methods[2]["wound"]["near"]["rightly_percent"], 62);
+    EXPECT_EQ(methods[2]["wound"]["whole"]["wrongly_percent"], 20);
+    EXPECT_EQ(methods[2]["wound"]["lost"]["sensor_percent"], 4);
+    EXPECT_EQ(methods[0]["wound"]["lost"], nullptr);
+    EXPECT_EQ(methods[1]["wound"], nullptr);
+    EXPECT_EQ(methods[2]["sender_of_all_ms"], 12.4);
+    EXPECT_EQ(methods[2]["drawing_ms"], 250.5);
+    EXPECT_EQ(methods[2]["drawn_on"], "llvmpipe");
+    EXPECT_EQ(methods[1]["drawing_ms"], nullptr);
+    EXPECT_EQ(json["near_wound_m"], 0.2);
     EXPECT_EQ(json["picture"]["width"], 16);
     EXPECT_EQ(json["here"]["gl_renderer"], "llvmpipe");
 }

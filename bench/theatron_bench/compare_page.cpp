@@ -40,6 +40,18 @@ std::string line_text(const CompareLink& link) {
     return "a line of " + formatted("%g", link.mbit) + " Mbit/s";
 }
 
+std::string near_wound_text(const Compared& c) {
+    return whole_text(c.near_wound_m * 100) + " cm";
+}
+
+std::string shares_text(const Compared& c, const CompareShares& near) {
+    return "Of the " + near_wound_text(c) + " around the wound " +
+           tenths_text(near.rightly_percent) + " % are shown rightly, " +
+           tenths_text(near.wrongly_percent) + " % wrongly, " + tenths_text(near.hidden_percent) +
+           " % not" +
+           (near.detail_mm > 0 ? "; a pixel is " + tenths_text(near.detail_mm) + " mm." : ".");
+}
+
 namespace {
 
 std::string list_item(const std::string& text) {
@@ -59,24 +71,40 @@ std::string arrival_text(const LinkFigures& f) {
            " ms old on arrival";
 }
 
-std::string ways_text(std::size_t count) {
-    constexpr std::array<const char*, 9> numbers = {"No way",     "One way",    "Two ways",
-                                                    "Three ways", "Four ways",  "Five ways",
-                                                    "Six ways",   "Seven ways", "Eight ways"};
-    return count < numbers.size() ? numbers[count] : std::to_string(count) + " ways";
+std::string number_text(std::size_t count) {
+    constexpr std::array<const char*, 13> numbers = {"none", "one",    "two",   "three", "four",
+                                                     "five", "six",    "seven", "eight", "nine",
+                                                     "ten",  "eleven", "twelve"};
+    return count < numbers.size() ? numbers[count] : std::to_string(count);
+}
+
+std::string capital(std::string text) {
+    if (text.front() >= 'a' && text.front() <= 'z')
+        text.front() = char(text.front() - 'a' + 'A');
+    return text;
+}
+
+// How many ways the page lists, and how many of them have figures.
+std::string ways_text(const Compared& c) {
+    const std::size_t all = c.methods.size();
+    const auto measured =
+        std::size_t(std::count_if(c.methods.begin(), c.methods.end(),
+                                  [](const CompareMethod& m) { return m.is_measured(); }));
+    const std::string count = capital(number_text(all)) + (all == 1 ? " way" : " ways") +
+                              " to show an operation to an expert elsewhere " +
+                              (all == 1 ? "is" : "are") + " listed here";
+    return measured == all ? count + " and measured"
+                           : count + ", and " + number_text(measured) + " of them " +
+                                 (measured == 1 ? "was" : "were") + " measured on this computer";
 }
 
 // The comparison, its result and its limit, a sentence each.
 std::string lead(const Compared& c) {
     const CompareMethod *call = c.find_measured(video_call_id),
                         *ours = c.find_measured(theatron_id);
-    const auto measured = std::count_if(c.methods.begin(), c.methods.end(),
-                                        [](const CompareMethod& m) { return m.is_measured(); });
-    std::string text = ways_text(std::size_t(measured)) +
-                       " to show an operation to an expert elsewhere " +
-                       (measured < 2 ? "was" : "were") +
-                       " compared, in the same second of the same operation and over the same "
-                       "lines. The table says how many cameras each had.";
+    std::string text = ways_text(c) +
+                       ", in the same second of the same operation and over the same lines. The "
+                       "table says how many cameras each had.";
     if (ours && call) {
         text +=
             " With Theatron the expert can look from any place, which a video call does not "
@@ -93,6 +121,12 @@ std::string lead(const Compared& c) {
     return text +
            " The operation is generated and no surgeon has judged the pictures, so nothing here "
            "shows that an expert helps better.";
+}
+
+std::string lower_first(std::string text) {
+    if (text.front() >= 'A' && text.front() <= 'Z')
+        text.front() = char(text.front() - 'A' + 'a');
+    return text;
 }
 
 // As it is read in the table, so that differences of figures agree with them.
@@ -114,16 +148,6 @@ std::vector<std::string> gaps(const CompareMethod& ours) {
         "Of the surfaces that a camera sees, " + tenths_text(all.holes_percent) +
             " % are missing. This is what sensors and method lose. The dark part also has what no "
             "camera sees, which depends on how many cameras there are and where they hang."};
-    if (ours.close_up && ours.close_up->likeness) {
-        const CompareLikeness& near = *ours.close_up->likeness;
-        sentences.push_back(
-            "Close to the wound, where hands hide much from the cameras, " +
-            tenths_text(near.holes_percent) + " % of what a camera sees is missing, " +
-            tenths_text(near.undrawn_percent) + " % of the picture is dark, and " +
-            tenths_text(near.see_through_percent) +
-            " % of the rest shows something behind a missing surface: " + psnr_words(near.psnr_db) +
-            " from what is there.");
-    }
     return sentences;
 }
 
@@ -158,6 +182,10 @@ std::string in_short(const Compared& c) {
             for (const std::string& sentence : gaps(*ours))
                 points.push_back(sentence);
     }
+    for (const char* id : {zoomed_call_id, theatron_id, theatron_near_id, theatron_and_call_id})
+        if (const CompareMethod* other = c.find_measured(id); other && other->wound)
+            points.push_back(other->name + ", " + tenths_text(other->mbit_of_all()) +
+                             " Mbit/s: " + lower_first(shares_text(c, other->wound->near)));
     for (const char* id : {paper_id, pcl_id})
         if (const CompareMethod* other = c.find_measured(id))
             points.push_back(
@@ -185,7 +213,7 @@ std::string ways(const Compared& c) {
             text +=
                 " <b>Not measured on this computer</b>, so it has no pictures and no figures; "
                 "the reason stands at the end of the page.";
-        else if (!method.close_up && method.pictures.empty())
+        else if (!method.is_pair && !method.close_up && method.pictures.empty())
             text += " <b>It has no pictures here</b>; the reason stands at the end of the page.";
         text += "</dd>\n";
     }

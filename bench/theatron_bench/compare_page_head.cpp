@@ -33,8 +33,9 @@ h2 { font-size: 1.25rem; margin-top: 2.2rem; }
 dt { font-weight: bold; margin-top: .6rem; }
 dd { margin-left: 0; }
 .pictures { display: grid; grid-template-columns: repeat(3, minmax(0, 1fr)); gap: 1.2rem; }
+.pictures.pairs { grid-template-columns: repeat(2, minmax(0, 1fr)); }
 @media (max-width: 60rem) { .pictures { grid-template-columns: repeat(2, minmax(0, 1fr)); } }
-@media (max-width: 42rem) { .pictures { grid-template-columns: minmax(0, 1fr); } }
+@media (max-width: 42rem) { .pictures, .pictures.pairs { grid-template-columns: minmax(0, 1fr); } }
 figure { margin: 0; }
 figure button { display: block; width: 100%; padding: 0; border: 1px solid var(--line); background: none; cursor: zoom-in; }
 figure.ours button { border: 3px solid var(--ours); }
@@ -45,7 +46,8 @@ figcaption small { display: block; }
 dialog { inset: 0; width: 100%; height: 100%; max-width: none; max-height: none; margin: 0; padding: 0; border: 0; box-sizing: border-box; background: var(--page); color: var(--text); }
 dialog[open] { display: flex; flex-direction: column; }
 dialog .frame { flex: 1; min-height: 0; overflow: auto; }
-dialog img { display: block; margin: auto; height: 100%; width: max(100%, min(60rem, 250vw)); object-fit: contain; }
+dialog img { display: block; margin: auto; width: 100%; height: 100%; object-fit: contain; cursor: zoom-in; }
+dialog img.larger { width: max(150%, 60rem); height: auto; cursor: zoom-out; }
 dialog .below { padding: .5rem 1rem; display: flex; gap: .6rem; align-items: center; flex-wrap: wrap; }
 dialog .text { flex: 1 1 22rem; }
 dialog .text small { display: block; }
@@ -76,6 +78,7 @@ td.none { display: none; }
 @media print {
 body { font-size: 10pt; max-width: none; padding: 0; }
 .pictures { grid-template-columns: repeat(3, minmax(0, 1fr)); gap: 4mm; }
+.pictures.pairs { grid-template-columns: repeat(2, minmax(0, 1fr)); }
 figure, tr, li, dt, dd, .limits, .verdict { break-inside: avoid; }
 h2, dt { break-after: avoid; }
 thead th { position: static; }
@@ -110,9 +113,17 @@ for (const figure of document.querySelectorAll('figure'))
   figure.querySelector('button').onclick = () => {
     row = [...figure.parentElement.children];
     show(row.indexOf(figure));
+    large.classList.remove('larger');
     dialog.showModal();
-    frame.scrollLeft = (frame.scrollWidth - frame.clientWidth) / 2;
   };
+// The whole picture first; a click or a tap on it enlarges the place that was touched.
+large.onclick = (event) => {
+  const box = large.getBoundingClientRect();
+  const across = (event.clientX - box.left) / box.width, down = (event.clientY - box.top) / box.height;
+  large.classList.toggle('larger');
+  frame.scrollLeft = across * frame.scrollWidth - frame.clientWidth / 2;
+  frame.scrollTop = down * frame.scrollHeight - frame.clientHeight / 2;
+};
 before.onclick = () => show(shown - 1);
 next.onclick = () => show(shown + 1);
 close.onclick = () => dialog.close();

@@ -29,6 +29,10 @@ const char* paper_caveat();
 std::string tenths_text(double value);
 // "19".
 std::string whole_text(double value);
+// "20 cm": across the region close to the wound.
+std::string near_wound_text(const Compared& compared);
+// "Of the 20 cm around the wound 64.0 % are shown rightly, ... 3.2 mm a pixel."
+std::string shares_text(const Compared& compared, const CompareShares& near);
 // "a line of 20 Mbit/s".
 std::string line_text(const CompareLink& link);
 

@@ -139,6 +139,7 @@ public:
         }
         arrived.library = "PCL " + figures.version;
         arrived.points = std::move(figures.last);
+        arrived.point_grid_m = figures.resolution_m;
         // Points of a grid touch if they are as large as its cells are wide at a slant.
         arrived.point_edge_m = figures.resolution_m * 1.5;
     }

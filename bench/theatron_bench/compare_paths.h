@@ -19,9 +19,9 @@ struct ArrivedCamera {
     Calibration calibration;  // of the images that arrive
     std::vector<DepthImage> depth;
     std::vector<ColorImage> color;
-    PointCloud points;  // in the camera's frame
-    double point_edge_m = 0;
-    std::string library;  // that made the points, with its version
+    PointCloud points;                          // in the camera's frame
+    double point_edge_m = 0, point_grid_m = 0;  // as drawn; to which they were rounded
+    std::string library;                        // that made the points, with its version
 };
 
 // Functions throw Error if a codec refuses a picture.

@@ -5,10 +5,12 @@
 #include <functional>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 #include "base/error.h"
 #include "codec/rvl.h"
 #include "compare.h"
+#include "compare_sights.h"
 #include "synthetic/frame_maker.h"
 #include "synthetic/sensor_model.h"
 #include "video/color_codec.h"
@@ -54,6 +56,19 @@ double fov_of_close_up(Vec3 eye) {
     return 2 * std::atan(close_up_width_m / 2 / length(wound - eye)) / radians_of(1);
 }
 
+// The exact distances at the pixels of the colour camera.
+Image<float> distances_at_lens(const synthetic::OperatingRoom& room,
+                               const synthetic::RoomMoment& moment,
+                               const Calibration& calibration) {
+    Calibration lens;
+    lens.depth = calibration.color;
+    lens.room_from_camera = calibration.room_from_camera * inverse(calibration.color_from_depth);
+    lens.registered = true;
+    return std::move(room.look_from(lens, {.depth = true, .surface = false, .color = false})
+                         ->render(moment)
+                         .depth_m);
+}
+
 constexpr std::uint32_t zoomed_seed = 5003, full_hd_seed = 5009;
 
 Calibration full_hd_calibration(const CompareSceneOptions& options) {
@@ -93,6 +108,7 @@ CompareCamera make_video_camera(const synthetic::OperatingRoom& room,
         jpeg.jpeg.assign(encoded->bytes.begin(), encoded->bytes.end());
         drawn();
     }
+    camera.last_exact_m = distances_at_lens(room, *room.at(moment_of(frames - 1)), calibration);
     return camera;
 }
 
@@ -168,6 +184,8 @@ CompareScene make_compare_scene(const CompareSceneOptions& options,
             exact.exact_depth_m = std::move(truth.depth_m);
             exact.depth[ViewBenchCamera::frames - 1] = camera.depth.back();
             camera.last_exact = std::move(truth.color);
+            camera.last_exact_m =
+                distances_at_lens(room, *room.at(moment_of(i)), camera.calibration);
         }
     };
     std::vector<std::function<void()>> works = {
@@ -203,6 +221,7 @@ CompareScene make_compare_scene(const CompareSceneOptions& options,
             views.places.push_back(seen_from(by, beside_table(degrees, 1.6, 1.75), 60));
         const Vec3 first = beside_table(places[0].first, 1.6, 1.75);
         views.close_up = seen_from(by, first, fov_of_close_up(first));
+        views.near_wound = region_around(views.close_up.view, options.picture, wound, near_wound_m);
     }
     for (const auto& [degrees, name] : places)
         scene.place_names.emplace_back(name);

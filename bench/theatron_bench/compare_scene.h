@@ -21,16 +21,18 @@ struct CompareCamera {
     std::vector<DepthImage> depth;  // with the sensor's noise; none of a video camera
     std::vector<ColorData> color;   // JPEG, as from a camera
     ColorImage last_exact;          // the last colour picture before noise and JPEG
+    Image<float> last_exact_m;      // the distances at its pixels along the colour camera's axis
 };
 
-// The width of the close-up at the wound.
-inline constexpr double close_up_width_m = 0.6;
+// The width of the close-up at the wound, and the diameter of the region that is close to it.
+inline constexpr double close_up_width_m = 0.6, near_wound_m = 0.2;
 
 // The expert's exact pictures at the moment of the last frames, with masks of what some cameras
 // see.
 struct CompareViews {
     std::vector<ViewBenchPlace> places;
-    ViewBenchPlace close_up;  // the wound from the first place
+    ViewBenchPlace close_up;         // the wound from the first place
+    Image<std::uint8_t> near_wound;  // not 0 in its pixels close to the wound
 };
 
 struct CompareScene {

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "camera_frames.h"
 #include "compare_close_up.h"
+#include "compare_drawing_times.h"
 #include "compare_points.h"
 #include "render/cloud_set.h"
 #include "render/gl_driver.h"
@@ -55,9 +56,25 @@ void show_video(CompareMethod& method, const std::vector<const CompareCamera*>& 
             parts.push_back(parts_of<Rgb>({pictures.back()}, *part).front());
     }
     if (!is_zoomed)
-        method.pictures = {beside_each_other(pictures)};
+        method.pictures = {std::move(pictures.back())};
     if (!parts.empty())
         method.close_up = {beside_each_other(parts), {}, {}, {}};
+}
+
+std::vector<SightCamera> sight_cameras(const std::vector<const CompareCamera*>& cameras,
+                                       const std::vector<ArrivedCamera>& arrived,
+                                       bool is_in_depth_raster) {
+    std::vector<SightCamera> sights;
+    for (std::size_t c = 0; c < cameras.size(); ++c) {
+        const Calibration& calibration = cameras[c]->calibration;
+        sights.push_back(
+            {.lens = calibration.color,
+             .room_from_lens = calibration.room_from_camera * inverse(calibration.color_from_depth),
+             .exact_m = cameras[c]->last_exact_m.view(),
+             .coarsest_mm_at_1m = is_in_depth_raster ? 1000 / calibration.depth.fx : 0,
+             .grid_mm = arrived[c].point_grid_m * 1000});
+    }
+    return sights;
 }
 
 CompareDrawing::CompareDrawing() {
@@ -74,9 +91,17 @@ void CompareDrawing::check() const {
         throw Error("The graphics driver reports an error: " + context_->first_error());
 }
 
+void CompareDrawing::time_video(CompareMethod& method, const std::vector<ArrivedCamera>& arrived,
+                                Size size) const {
+    if (!context_)
+        return;
+    method.drawing_ms = drawing_ms_of_video(arrived, size);
+    method.drawn_on = driver_;
+}
+
 void CompareDrawing::show_clouds(CompareMethod& method, const CompareViews& exact,
                                  const std::vector<const CompareCamera*>& cameras,
-                                 const std::vector<ArrivedCamera>& arrived,
+                                 const std::vector<ArrivedCamera>& arrived, Image<float> details,
                                  const std::string& renderer,
                                  const std::function<void(double)>& progress) const {
     if (!context_) {
@@ -106,12 +131,16 @@ void CompareDrawing::show_clouds(CompareMethod& method, const CompareViews& exac
         progress(double(images + drawn.places.size()) / all);
     }
     drawn.close_up = draw(clouds, exact.close_up);
-    judge(method, exact, std::move(drawn), causes_with(cameras, arrived));
+    judge(method, exact, std::move(drawn), causes_with(cameras, arrived), std::move(details));
+    const ViewBenchPlace& first = exact.places.front();
+    method.drawing_ms =
+        drawing_ms_of_clouds(clouds, arrived, first.view, first.exact_color.size, renderer);
+    method.drawn_on = driver_;
 }
 
 void show_points(CompareMethod& method, const CompareViews& exact,
                  const std::vector<const CompareCamera*>& cameras,
-                 const std::vector<ArrivedCamera>& arrived) {
+                 const std::vector<ArrivedCamera>& arrived, Image<float> details) {
     std::vector<PlacedCloud> placed;
     for (const ArrivedCamera& camera : arrived)
         placed.push_back({&camera.points, camera.calibration.room_from_camera});
@@ -123,7 +152,9 @@ void show_points(CompareMethod& method, const CompareViews& exact,
     for (const ViewBenchPlace& place : exact.places)
         drawn.places.push_back(draw(place));
     drawn.close_up = draw(exact.close_up);
-    judge(method, exact, std::move(drawn), causes_with(cameras, arrived));
+    judge(method, exact, std::move(drawn), causes_with(cameras, arrived), std::move(details));
+    method.drawing_ms = drawing_ms_of([&] { (void)draw(exact.places.front()); });
+    method.drawn_on = "the processor";
 }
 
 }  // namespace theatron::bench

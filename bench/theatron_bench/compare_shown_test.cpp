@@ -45,12 +45,12 @@ TEST(CompareShown, PicturesOfAllHeightsStandBesideEachOther) {
     EXPECT_EQ(both.view().row(2)[2], (Rgb{}));
 }
 
-TEST(CompareShown, ACallOfTwoCamerasHasBothPicturesAndThePartOfEach) {
+TEST(CompareShown, ACallOfTwoCamerasHasTheSecondPictureAndThePartOfEach) {
     const TwoCameras two;
     CompareMethod method;
     show_video(method, two.cameras, two.arrived, two.point, false);
     ASSERT_EQ(method.pictures.size(), 1u);
-    EXPECT_EQ(method.pictures[0].size, (Size{160, 40}));
+    EXPECT_EQ(method.pictures[0], two.far.last_exact);
     // 4 m and 8 m wide at the point.
     constexpr int width =
         int(close_up_width_m / 4 * 80 + 0.5) + int(close_up_width_m / 8 * 80 + 0.5);
@@ -66,7 +66,18 @@ TEST(CompareShown, ACameraThatDoesNotSeeThePointHasNoPart) {
     show_video(method, two.cameras, two.arrived, two.point, false);
     ASSERT_TRUE(method.close_up);
     EXPECT_EQ(method.close_up->picture.size.width, int(close_up_width_m / 4 * 80 + 0.5));
-    EXPECT_EQ(method.pictures[0].size, (Size{160, 40}));
+}
+
+TEST(CompareShown, SightsAreThoseOfTheColourCamera) {
+    TwoCameras two;
+    two.near.calibration.color_from_depth.translation = {0, 0, -0.5};
+    two.arrived[1].point_grid_m = 0.005;
+    const auto sights = sight_cameras(two.cameras, two.arrived, true);
+    ASSERT_EQ(sights.size(), 2u);
+    EXPECT_NEAR((sights[0].room_from_lens * Vec3{0, 0, 0}).z, 0.5, 1e-9);
+    EXPECT_NEAR(sights[0].coarsest_mm_at_1m, 25, 1e-6);
+    EXPECT_EQ(sights[1].grid_mm, 5);
+    EXPECT_EQ(sight_cameras(two.cameras, two.arrived, false)[0].coarsest_mm_at_1m, 0);
 }
 
 TEST(CompareShown, AZoomedCameraShowsTheCloseUpAndNothingElse) {

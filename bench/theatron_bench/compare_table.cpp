@@ -3,6 +3,7 @@
 
 #include "compare_page_parts.h"
 #include "compare_words.h"
+#include "render/gl_driver.h"
 #include "svg_drawing.h"
 
 namespace theatron::bench {
@@ -53,7 +54,8 @@ public:
 private:
     // "none" has no line where the table is a list.
     static std::string class_of(const CompareMethod& method, bool has_no_figure = false) {
-        const bool is_ours = method.id == theatron_id || method.id == theatron_near_id;
+        const bool is_ours = method.id == theatron_id || method.id == theatron_near_id ||
+                             method.id == theatron_and_call_id;
         if (!is_ours && !has_no_figure)
             return "";
         return std::string(" class=\"") + (is_ours ? "ours" : "") +
@@ -67,7 +69,12 @@ private:
     std::string text_;
 };
 
-const Cell no_such_picture = {"", "no such picture"};
+const Cell no_such_picture = {"", "no such picture"}, not_its_own = {"", "no picture of its own"};
+
+// No figure: a pair has the pictures of its two ways, a video call none from there.
+Cell picture_of_others(const CompareMethod& method) {
+    return method.is_pair ? not_its_own : no_such_picture;
+}
 
 Cell psnr_cell(double db) {
     return {tenths_text(db) + " dB", psnr_words(db)};
@@ -80,52 +87,83 @@ Cell percent_cell(double percent) {
     return {tenths_text(percent) + " %", ""};
 }
 
-// The rows of the close-up, first: they decide.
+using SharePercent = double CompareShares::*;
+
+// The rows of the wound, first: they decide.
+void add_shares(Table& table, CompareShares CompareWound::*region) {
+    const auto of = [=](SharePercent figure) {
+        return [=](const CompareMethod& m) {
+            return m.wound ? percent_cell((*m.wound).*region.*figure) : no_such_picture;
+        };
+    };
+    table.row("Shown rightly",
+              "the surface that is there, at most 2 cm off; of a video call: what its camera sees; "
+              "higher is better",
+              of(&CompareShares::rightly_percent));
+    table.row("Shown wrongly", "something else in its place, without a mark; lower is better",
+              of(&CompareShares::wrongly_percent));
+    table.row("Not shown", "dark, or hidden from the camera; the three are 100 % together",
+              of(&CompareShares::hidden_percent));
+}
+
+void add_wound(Table& table, const Compared& c) {
+    table.part("The " + near_wound_text(c) +
+               " around the wound: what an expert at the foot of the table should see of them");
+    add_shares(table, &CompareWound::near);
+    table.row("Detail", "of the wound in a pixel of the best camera that sees it; lower is better",
+              [](const CompareMethod& m) {
+                  return m.wound && m.wound->near.detail_mm > 0
+                             ? Cell{tenths_text(m.wound->near.detail_mm) + " mm", ""}
+                             : no_such_picture;
+              });
+    table.row("Shown rightly, at 1 mm a pixel or finer", "a part of the first row",
+              [](const CompareMethod& m) {
+                  return m.wound ? percent_cell(m.wound->near.finely_percent) : no_such_picture;
+              });
+    const auto cause = [](CausePercent figure) {
+        return [=](const CompareMethod& m) {
+            return m.wound && m.wound->lost ? percent_cell((*m.wound->lost).*figure)
+                                            : picture_of_others(m);
+        };
+    };
+    table.row("Lost because no camera sees the place",
+              "the four causes together are what is shown wrongly or not at all",
+              cause(&CompareCauses::no_camera));
+    table.row("because the sensor measures nothing there", "although its camera sees the place",
+              cause(&CompareCauses::sensor));
+    table.row("because filters drop it", "", cause(&CompareCauses::filters));
+    table.row("because drawing loses or moves it", "although it arrived",
+              cause(&CompareCauses::drawing));
+}
+
 void add_close_up(Table& table, double width_m) {
     const auto of = [](Percent figure) {
         return [=](const CompareMethod& m) {
             return m.close_up && m.close_up->likeness
                        ? percent_cell((*m.close_up->likeness).*figure)
-                       : no_such_picture;
+                       : picture_of_others(m);
         };
     };
-    const auto cause = [](CausePercent figure) {
-        return [=](const CompareMethod& m) {
-            return m.close_up && m.close_up->see_through
-                       ? percent_cell((*m.close_up->see_through).*figure)
-                       : no_such_picture;
-        };
-    };
-    table.part("Close to the wound: the " + whole_text(width_m * 100) +
-               " cm around it, from the foot of the table");
-    table.row("Seen through at the wound",
-              "of what is drawn: a surface is missing, and something behind it shows; lower is "
-              "better",
+    table.part("The " + whole_text(width_m * 100) + " cm around the wound, from there");
+    add_shares(table, &CompareWound::whole);
+    table.row("Seen through",
+              "of what is drawn: a surface is missing, and something more than 15 cm behind shows",
               of(&CompareLikeness::see_through_percent));
-    table.row("because no camera sees the place", "the four causes together are the row above",
-              cause(&CompareCauses::no_camera));
-    table.row("because the sensor measures nothing there", "although its camera sees the place",
-              cause(&CompareCauses::sensor));
-    table.row("because filters drop it", "", cause(&CompareCauses::filters));
-    table.row("because drawing loses it", "although it arrived", cause(&CompareCauses::drawing));
     table.row(
         "Instruments missing",
         "of the surface of instruments: nothing, or something more than 2 cm behind, is drawn",
         [](const CompareMethod& m) {
             return m.close_up && m.close_up->instruments
                        ? percent_cell(m.close_up->instruments->sum())
-                       : no_such_picture;
+                       : picture_of_others(m);
         });
-    table.row("Dark at the wound", "of the whole close-up", of(&CompareLikeness::undrawn_percent));
-    table.row("Missing at the wound although a camera sees it",
-              "of the surfaces that a camera sees, without their edges",
-              of(&CompareLikeness::holes_percent));
-    table.row("Likeness at the wound",
-              "against the exact picture, where a camera sees the surface; higher is better",
+    table.row("Likeness",
+              "against the exact picture, where a camera sees the surface; higher is "
+              "better",
               [](const CompareMethod& m) {
                   return m.close_up && m.close_up->likeness
                              ? psnr_cell(m.close_up->likeness->psnr_db)
-                             : no_such_picture;
+                             : picture_of_others(m);
               });
 }
 
@@ -138,7 +176,7 @@ std::string places_title(std::size_t count) {
 void add_pictures(Table& table, std::size_t places) {
     const auto percent = [](Percent figure) {
         return [=](const CompareMethod& m) {
-            return m.expert ? percent_cell((*m.expert).*figure) : no_such_picture;
+            return m.expert ? percent_cell((*m.expert).*figure) : picture_of_others(m);
         };
     };
     table.part(places_title(places));
@@ -164,21 +202,25 @@ void add_pictures(Table& table, std::size_t places) {
               "against the exact picture, where a camera sees the surface; missing parts count; "
               "higher is better",
               [](const CompareMethod& m) {
-                  return m.expert ? psnr_cell(m.expert->psnr_db) : no_such_picture;
+                  return m.expert ? psnr_cell(m.expert->psnr_db) : picture_of_others(m);
               });
     table.row("Likeness of shapes from there", "higher is better, 1 is equal",
               [](const CompareMethod& m) {
                   return m.expert
                              ? Cell{formatted("%.3f", m.expert->ssim), ssim_words(m.expert->ssim)}
-                             : no_such_picture;
+                             : picture_of_others(m);
               });
     table.row("Likeness of the camera's own picture", "what a video call is good at",
               [](const CompareMethod& m) {
-                  return m.own_view ? psnr_cell(m.own_view->psnr_db) : Cell{"", "sends none"};
+                  return m.own_view  ? psnr_cell(m.own_view->psnr_db)
+                         : m.is_pair ? picture_of_others(m)
+                                     : Cell{"", "sends none"};
               });
 }
 
-void add_costs(Table& table) {
+const Cell two_kinds = {"", "two kinds of camera"};
+
+void add_costs(Table& table, const Compared& c) {
     table.part("What it costs");
     table.row("Cameras", "", [](const CompareMethod& m) {
         return Cell{std::to_string(m.cameras), ""};
@@ -189,6 +231,8 @@ void add_costs(Table& table) {
                               m.id == paper_id ? paper_caveat() : ""};
               });
     table.row("Data of one camera", "", [](const CompareMethod& m) {
+        if (m.is_pair)
+            return two_kinds;
         return Cell{tenths_text(m.mbit_per_camera) + " Mbit/s",
                     m.rate_setting_mbit > 0
                         ? "set to " + formatted("%g", m.rate_setting_mbit) +
@@ -197,13 +241,30 @@ void add_costs(Table& table) {
                         : ""};
     });
     table.row("Work in the operating room",
-              "of one processor core, for a picture of a camera; 33 ms are all of a core",
+              "of one processor core, for a picture of all cameras; 33 ms are all of a core",
               [](const CompareMethod& m) {
-                  return Cell{tenths_text(m.sender_ms) + " ms", ""};
+                  return Cell{tenths_text(m.sender_of_all_ms) + " ms", ""};
               });
-    table.row("Work at the expert's", "the same, without drawing", [](const CompareMethod& m) {
-        return Cell{tenths_text(m.receiver_ms) + " ms", ""};
+    table.row("for a picture of one camera", "", [](const CompareMethod& m) {
+        return m.is_pair ? two_kinds : Cell{tenths_text(m.sender_ms) + " ms", ""};
     });
+    table.row("Work at the expert's", "for a picture of all cameras, without drawing",
+              [](const CompareMethod& m) {
+                  return Cell{tenths_text(m.receiver_of_all_ms) + " ms", ""};
+              });
+    table.row("Drawing at the expert's",
+              c.gl_renderer.empty()
+                  ? "of a picture of all cameras, on the clock"
+                  : "of a picture of all cameras, on the clock, by " + c.gl_renderer +
+                        (render::is_software(c.gl_renderer)
+                             ? ", which is the processor; a graphics card is many times quicker"
+                             : ""),
+              [&](const CompareMethod& m) {
+                  if (m.drawn_on.empty())
+                      return Cell{"", "not measured"};
+                  return Cell{tenths_text(m.drawing_ms) + " ms",
+                              m.drawn_on == c.gl_renderer ? "" : "by " + m.drawn_on};
+              });
 }
 
 }  // namespace
@@ -216,9 +277,10 @@ std::string compare_table(const Compared& c) {
     Table table(c);
     if (table.empty())
         return "";
+    add_wound(table, c);
     add_close_up(table, c.close_up_width_m);
     add_pictures(table, c.places.size());
-    add_costs(table);
+    add_costs(table, c);
     for (std::size_t i = 0; i < c.links.size(); ++i) {
         table.part("Over " + line_text(c.links[i]) + " with " + whole_text(c.links[i].latency_ms) +
                    " ms of delay each way");

@@ -10,29 +10,73 @@
 namespace theatron::bench {
 namespace {
 
-// A measured close-up with its likeness, or null.
-const CompareCloseUp* close_up_of(const Compared& c, const char* id) {
+// A measured method with shares of the wound, or null.
+const CompareMethod* with_wound(const Compared& c, const char* id) {
     const CompareMethod* method = c.find_measured(id);
-    return method && method->close_up && method->close_up->likeness ? &*method->close_up : nullptr;
+    return method && method->wound ? method : nullptr;
 }
 
-std::string of_the_wound(const CompareCloseUp& close_up) {
-    const double through = close_up.likeness->see_through_percent;
+std::string percent_text(double percent) {
+    return tenths_text(percent) + " %";
+}
+
+std::string mbit_text(const CompareMethod& method) {
+    return tenths_text(method.mbit_of_all()) + " Mbit/s";
+}
+
+std::string of_the_wound(const Compared& c, const CompareShares& ours) {
     const std::string found =
-        "At the wound Theatron's picture shows something behind a missing surface on " +
-        tenths_text(through) + " % of its area";
-    if (through >= many_missing_percent)
+        "Of what an expert at the foot of the table should see within the " + near_wound_text(c) +
+        " around the wound, Theatron's picture shows " + percent_text(ours.rightly_percent) +
+        " rightly, something else in place of " + percent_text(ours.wrongly_percent) +
+        ", without a mark, and nothing in place of " + percent_text(ours.hidden_percent);
+    if (ours.wrongly_percent >= many_percent)
         return found + ": do not judge the wound from it.";
-    if (through >= few_missing_percent)
+    if (ours.wrongly_percent >= few_percent || ours.hidden_percent >= many_percent)
         return found + ": look at the video, too, before you judge the wound.";
     return found + ".";
 }
 
+// "a zoomed one", after "a video call".
+std::string of_calls(const CompareMethod* usual, const CompareMethod* zoomed) {
+    const CompareMethod& first = usual ? *usual : *zoomed;
+    std::string text = std::string(usual ? "A" : "A zoomed") + " video call shows " +
+                       percent_text(first.wound->near.rightly_percent) + " of it";
+    if (usual && zoomed)
+        text += ", a zoomed one " + percent_text(zoomed->wound->near.rightly_percent);
+    return text +
+           ", and nothing falsely: what its camera does not see from its fixed place is hidden.";
+}
+
+// Says which of the two shows more of the wound, and whether that can be trusted.
+std::string against_call(const CompareShares& ours, const CompareShares& call,
+                         const std::string& name) {
+    const bool is_false = ours.wrongly_percent >= few_percent;
+    const double more = ours.rightly_percent - call.rightly_percent;
+    if (more >= few_percent)
+        return is_false ? "At the wound Theatron shows more than " + name +
+                              ", and also what is not there: it does not replace the video."
+                        : "At the wound Theatron is better than " + name +
+                              ": it shows more, and next to nothing falsely.";
+    if (is_false || more <= -few_percent)
+        return "At the wound " + name + " is better than Theatron alone: it shows " +
+               (more <= -few_percent ? "more" : "as much") +
+               (is_false ? ", and nothing falsely." : ".");
+    return "At the wound Theatron and " + name + " show as much.";
+}
+
+std::string of_detail(const CompareShares& ours, const CompareShares& call,
+                      const std::string& name) {
+    return "Detail: a pixel of the best camera is " + tenths_text(ours.detail_mm) +
+           " mm of the wound with Theatron, and " + tenths_text(call.detail_mm) + " mm with " +
+           name + ".";
+}
+
 std::string of_instruments(const CompareCauses& missing) {
-    const std::string found = tenths_text(missing.sum()) +
-                              " % of the surface of instruments is missing in Theatron's picture";
-    return missing.sum() >= many_missing_percent ? found + ": do not guide an instrument by it."
-                                                 : found + ".";
+    const std::string found = percent_text(missing.sum()) +
+                              " of the surface of instruments is missing in Theatron's picture";
+    return missing.sum() >= many_percent ? found + ": do not guide an instrument by it."
+                                         : found + ".";
 }
 
 // The step that loses most, and its share.
@@ -41,45 +85,60 @@ std::string of_causes(const CompareCauses& causes) {
         {{causes.no_camera, "no camera sees the place"},
          {causes.sensor, "a camera sees the place and its sensor measures nothing there"},
          {causes.filters, "filters drop what was measured"},
-         {causes.drawing, "drawing loses what arrived"}}};
+         {causes.drawing, "drawing loses or moves what arrived"}}};
     const auto most = std::max_element(steps.begin(), steps.end());
-    return "The largest cause: " + std::string(most->second) + ", " + tenths_text(most->first) +
-           " of " + tenths_text(causes.sum()) + " %.";
+    return "The largest cause of what Theatron does not show rightly: " +
+           std::string(most->second) + ", " + tenths_text(most->first) + " of " +
+           percent_text(causes.sum()) + ".";
 }
 
-std::string of_near_camera(const CompareCloseUp& without, const CompareCloseUp& with) {
-    const double before = without.likeness->see_through_percent,
-                 after = with.likeness->see_through_percent;
-    return "With one camera more, about a metre from the wound, the share is " +
-           tenths_text(after) + " % in place of " + tenths_text(before) + " %" +
-           (after >= many_missing_percent ? ": still too much to judge the wound."
-            : after < before              ? "."
-                                          : ": this camera does not help.");
+std::string of_near_camera(const CompareMethod& without, const CompareMethod& with) {
+    const CompareShares &before = without.wound->near, &after = with.wound->near;
+    return "With one camera more, about a metre from the wound, Theatron shows " +
+           percent_text(after.rightly_percent) + " rightly in place of " +
+           percent_text(before.rightly_percent) + ", and " + percent_text(after.wrongly_percent) +
+           " wrongly in place of " + percent_text(before.wrongly_percent) + "; it needs " +
+           mbit_text(with) + " in place of " + mbit_text(without) +
+           (after.wrongly_percent >= many_percent ? ". That is still too much to judge the wound."
+            : after.rightly_percent > before.rightly_percent ? "."
+                                                             : ". This camera does not help.");
+}
+
+std::string advice(const CompareShares& ours, const CompareMethod* pair) {
+    if (ours.wrongly_percent < many_percent)
+        return "Whether that is enough for a decision, no figure here says.";
+    std::string text = "Use Theatron beside a video picture of the wound, not in its place";
+    if (pair)
+        text += ": together they need " + mbit_text(*pair) +
+                ", and at least one of the two "
+                "pictures shows " +
+                percent_text(pair->wound->near.rightly_percent) + " rightly";
+    return text + ". Where they differ, believe the video.";
 }
 
 }  // namespace
 
 std::vector<std::string> compare_verdict(const Compared& c) {
-    const CompareCloseUp *ours = close_up_of(c, theatron_id),
-                         *near = close_up_of(c, theatron_near_id);
+    const CompareMethod *ours = with_wound(c, theatron_id), *near = with_wound(c, theatron_near_id),
+                        *usual = with_wound(c, video_call_id),
+                        *zoomed = with_wound(c, zoomed_call_id);
     if (!ours)
         return {};
-    std::vector<std::string> sentences = {of_the_wound(*ours)};
-    if (ours->see_through && ours->see_through->sum() > 0)
-        sentences.push_back(of_causes(*ours->see_through));
+    const CompareShares& shares = ours->wound->near;
+    std::vector<std::string> sentences = {of_the_wound(c, shares)};
+    if (const CompareMethod* call = zoomed ? zoomed : usual) {
+        const std::string name = zoomed ? "the zoomed video call" : "the video call";
+        sentences.push_back(of_calls(usual, zoomed));
+        sentences.push_back(against_call(shares, call->wound->near, name));
+        sentences.push_back(of_detail(shares, call->wound->near, name));
+    }
+    sentences.push_back(advice(shares, with_wound(c, theatron_and_call_id)));
     if (near)
         sentences.push_back(of_near_camera(*ours, *near));
-    if (ours->instruments)
-        sentences.push_back(of_instruments(*ours->instruments));
-    if (const CompareMethod* zoomed = c.find_measured(zoomed_call_id); zoomed && zoomed->own_view)
-        sentences.push_back(
-            "A video camera that is zoomed to the wound shows all that it sees, with " +
-            psnr_words(zoomed->own_view->psnr_db) +
-            " from it, but from its own place only, and nothing else.");
-    const bool is_bad = ours->likeness->see_through_percent >= many_missing_percent;
-    sentences.push_back(is_bad
-                            ? "Use Theatron beside a video picture of the wound, not in its place."
-                            : "Whether that is enough for a decision, no figure here says.");
+    if (ours->wound->lost && ours->wound->lost->sum() > 0)
+        sentences.push_back(of_causes(*ours->wound->lost));
+    if (ours->close_up && ours->close_up->instruments)
+        sentences.push_back(of_instruments(*ours->close_up->instruments));
     return sentences;
 }
 

@@ -9,11 +9,12 @@
 
 namespace theatron::bench {
 
-// From this share of the close-up on that is missing, in percent, the wound is not to be judged
-// from the picture; below `few_missing_percent` nothing is said against it.
-inline constexpr double many_missing_percent = 5, few_missing_percent = 1;
+// Shares of the surfaces close to the wound, in percent. From many_percent on that are shown
+// wrongly the wound is not to be judged from the picture; below few_percent nothing is said against
+// it, and two ways whose shares differ by less show as much.
+inline constexpr double many_percent = 5, few_percent = 1;
 
-// Empty without a measured close-up of Theatron.
+// Empty where Theatron's picture of the wound was not measured.
 std::vector<std::string> compare_verdict(const Compared& compared);
 
 }  // namespace theatron::bench

@@ -11,50 +11,121 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::Contains;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::Not;
+using ::testing::StartsWith;
 
-Compared with_see_through(double percent) {
+CompareMethod with_shares(CompareMethod method, const char* id, double rightly, double wrongly) {
+    method.id = id;
+    method.wound->near = {rightly, wrongly, 100 - rightly - wrongly, 0, 3.4};
+    return method;
+}
+
+// A usual call that shows 40 %.
+Compared with_ours(double rightly, double wrongly) {
     Compared c = given_comparison();
-    c.methods.back().close_up->likeness->see_through_percent = percent;
+    c.methods.back() = with_shares(c.methods.back(), theatron_id, rightly, wrongly);
     return c;
 }
 
-TEST(CompareVerdict, TheFiguresChooseTheSentence) {
-    EXPECT_THAT(compare_verdict(with_see_through(28.16)),
-                AllOf(Contains(HasSubstr("on 28.2 % of its area: do not judge the wound from it.")),
-                      Contains(HasSubstr("not in its place"))));
-    EXPECT_THAT(compare_verdict(with_see_through(4.9)),
-                Contains(HasSubstr("look at the video, too, before you judge the wound.")));
-    EXPECT_THAT(compare_verdict(with_see_through(0.4)),
-                AllOf(Contains(HasSubstr("on 0.4 % of its area.")),
-                      Not(Contains(HasSubstr("not in its place")))));
+Compared with_zoomed(Compared c, double rightly) {
+    c.methods.push_back(with_shares(c.methods.front(), zoomed_call_id, rightly, 0));
+    c.methods.back().wound->near.detail_mm = 0.5;
+    return c;
+}
+
+TEST(CompareVerdict, BeginsWithWhatIsShownOfTheWoundAndWhetherItMayBeJudged) {
+    const auto first = [](double rightly, double wrongly) {
+        return compare_verdict(with_ours(rightly, wrongly)).front();
+    };
+    EXPECT_EQ(first(60, 38.16),
+              "Of what an expert at the foot of the table should see within the 20 cm around the "
+              "wound, Theatron's picture shows 60.0 % rightly, something else in place of 38.2 %, "
+              "without a mark, and nothing in place of 1.8 %: do not judge the wound from it.");
+    const std::string look = ": look at the video, too, before you judge the wound.";
+    EXPECT_THAT(first(94, 4.9), EndsWith(look));
+    EXPECT_THAT(first(94, 0.4), EndsWith(look));  // much is not shown
+    EXPECT_THAT(first(98, 0.4), EndsWith("nothing in place of 1.6 %."));
+}
+
+TEST(CompareVerdict, SaysWhetherAVideoCallShowsMore) {
+    const auto against = [](double rightly, double wrongly, double zoomed) {
+        return compare_verdict(with_zoomed(with_ours(rightly, wrongly), zoomed)).at(2);
+    };
+    EXPECT_EQ(against(60, 30, 50),
+              "At the wound Theatron shows more than the zoomed video call, and also what is not "
+              "there: it does not replace the video.");
+    EXPECT_EQ(against(60, 0.5, 50),
+              "At the wound Theatron is better than the zoomed video call: it shows more, and next "
+              "to nothing falsely.");
+    EXPECT_EQ(
+        against(60, 30, 70),
+        "At the wound the zoomed video call is better than Theatron alone: it shows more, and "
+        "nothing falsely.");
+    EXPECT_EQ(against(60, 30, 60.5),
+              "At the wound the zoomed video call is better than Theatron alone: it shows as much, "
+              "and nothing falsely.");
+    EXPECT_EQ(against(60, 0.5, 70),
+              "At the wound the zoomed video call is better than Theatron alone: it shows more.");
+    EXPECT_EQ(against(60, 0.5, 60.5),
+              "At the wound Theatron and the zoomed video call show as much.");
+}
+
+TEST(CompareVerdict, TellsTheShareAndTheDetailOfCalls) {
+    EXPECT_THAT(compare_verdict(with_zoomed(with_ours(60, 30), 45)),
+                AllOf(Contains("A video call shows 40.0 % of it, a zoomed one 45.0 %, and nothing "
+                               "falsely: what its camera does not see from its fixed place is "
+                               "hidden."),
+                      Contains("Detail: a pixel of the best camera is 3.4 mm of the wound with "
+                               "Theatron, and 0.5 mm with the zoomed video call.")));
+    EXPECT_THAT(compare_verdict(with_ours(60, 30)),
+                AllOf(Contains(StartsWith("A video call shows 40.0 % of it, and nothing")),
+                      Contains(HasSubstr("more than the video call, and also"))));
+}
+
+TEST(CompareVerdict, AdvisesBothAtOnceWithTheirPriceWhileTheWoundIsNotToBeJudged) {
+    Compared c = with_ours(60, 30);
+    EXPECT_THAT(compare_verdict(c), Contains("Use Theatron beside a video picture of the wound, "
+                                             "not in its place. Where they differ, believe the "
+                                             "video."));
+    c.methods.push_back(with_shares(c.methods.back(), theatron_and_call_id, 88, 5));
+    EXPECT_THAT(compare_verdict(c),
+                Contains("Use Theatron beside a video picture of the wound, not in its place: "
+                         "together they need 31.0 Mbit/s, and at least one of the two pictures "
+                         "shows 88.0 % rightly. Where they differ, believe the video."));
+    EXPECT_THAT(compare_verdict(with_ours(98, 0.4)), Not(Contains(HasSubstr("not in its place"))));
 }
 
 TEST(CompareVerdict, SaysTheLargestCauseAndWhatInstrumentsLose) {
-    EXPECT_THAT(compare_verdict(given_comparison()),
-                AllOf(Contains("The largest cause: no camera sees the place, 1.5 of 2.0 %."),
-                      Contains("32.0 % of the surface of instruments is missing in Theatron's "
-                               "picture: do not guide "
-                               "an instrument by it.")));
+    EXPECT_THAT(
+        compare_verdict(given_comparison()),
+        AllOf(Contains("The largest cause of what Theatron does not show rightly: no camera "
+                       "sees the place, 30.0 of 38.0 %."),
+              Contains("32.0 % of the surface of instruments is missing in Theatron's "
+                       "picture: do not guide "
+                       "an instrument by it.")));
 }
 
-TEST(CompareVerdict, SaysWhetherANearCameraHelps) {
-    const auto with_near = [](double percent) {
-        Compared c = with_see_through(28);
-        CompareMethod near = c.methods.back();
-        near.id = theatron_near_id;
-        near.close_up->likeness->see_through_percent = percent;
-        c.methods.push_back(near);
+TEST(CompareVerdict, SaysWhetherANearCameraHelpsAndWhatItCosts) {
+    const auto with_near = [](double rightly, double wrongly) {
+        Compared c = with_ours(60, 30);
+        c.methods.push_back(with_shares(c.methods.back(), theatron_near_id, rightly, wrongly));
+        c.methods.back().mbit_per_camera = 23.5;
         return compare_verdict(c);
     };
-    EXPECT_THAT(with_near(3), Contains(HasSubstr("the share is 3.0 % in place of 28.0 %.")));
-    EXPECT_THAT(with_near(9), Contains(HasSubstr("still too much to judge the wound.")));
+    EXPECT_THAT(
+        with_near(90, 3),
+        Contains("With one camera more, about a metre from the wound, Theatron shows 90.0 % "
+                 "rightly in place of 60.0 %, and 3.0 % wrongly in place of 30.0 %; it "
+                 "needs 47.0 Mbit/s in place of 31.0 Mbit/s."));
+    EXPECT_THAT(with_near(80, 9), Contains(EndsWith("still too much to judge the wound.")));
+    EXPECT_THAT(with_near(60, 3), Contains(EndsWith("This camera does not help.")));
 }
 
-TEST(CompareVerdict, IsEmptyWithoutACloseUp) {
+TEST(CompareVerdict, IsEmptyWithoutThePictureOfTheWound) {
     Compared c = given_comparison();
-    c.methods.back().close_up.reset();
+    c.methods.back().wound.reset();
     EXPECT_TRUE(compare_verdict(c).empty());
     c = given_comparison();
     c.methods.back().reason = "No encoder.";

@@ -16,7 +16,7 @@ std::string missing_encoder(const std::string& codec) {
 
 // A video call at a usual rate for the pictures of its cameras.
 CompareWay video_call(CompareMethod words, std::vector<const CompareCamera*> cameras, double mbit,
-                      const std::string& cameras_in_words) {
+                      const std::string& cameras_in_words, const CompareScene& scene) {
     words.is_video = true;
     words.rate_setting_mbit = mbit;
     const std::string rate = "h264:bitrate_mbit=" + formatted("%g", mbit);
@@ -38,7 +38,8 @@ CompareWay video_call(CompareMethod words, std::vector<const CompareCamera*> cam
             .cameras = std::move(cameras),
             .path = [codec](const CompareCamera&) { return make_video_path(codec); },
             .arrives_as_taken = true,
-            .shown = CompareWay::Shown::video};
+            .shown = CompareWay::Shown::video,
+            .views = &scene.without_near};
 }
 
 CompareWay usual_call(const CompareScene& scene) {
@@ -46,14 +47,14 @@ CompareWay usual_call(const CompareScene& scene) {
                        .name = "Video call",
                        .plain = "The picture of one camera, as in any video call. The expert sees "
                                 "what that camera sees"},
-                      {&scene.cameras.front()}, 2.5, "one camera");
+                      {&scene.cameras.front()}, 2.5, "one camera", scene);
 }
 
 CompareWay full_hd_call(const CompareScene& scene) {
     return video_call({.id = full_hd_call_id,
                        .name = "Video call, full HD",
                        .plain = "The same with a camera of more pixels, and a higher rate"},
-                      {&scene.full_hd}, 4, "one camera");
+                      {&scene.full_hd}, 4, "one camera", scene);
 }
 
 CompareWay zoomed_call(const CompareScene& scene) {
@@ -62,7 +63,7 @@ CompareWay zoomed_call(const CompareScene& scene) {
                     .name = "Video call, zoomed",
                     .plain = "A video call whose camera hangs at the same place and is zoomed to "
                              "the wound. It shows nothing else"},
-                   {&scene.zoomed}, 2.5, "one camera zoomed to the wound");
+                   {&scene.zoomed}, 2.5, "one camera zoomed to the wound", scene);
     way.shown = CompareWay::Shown::zoomed_video;
     return way;
 }
@@ -77,7 +78,7 @@ CompareWay two_camera_call(const CompareScene& scene) {
         words.reason = "This room has one camera alone.";
     else
         cameras = {usual[0], usual[1]};
-    return video_call(std::move(words), std::move(cameras), 2.5, "two cameras");
+    return video_call(std::move(words), std::move(cameras), 2.5, "two cameras", scene);
 }
 
 CompareWay paper(const CompareScene& scene) {
@@ -144,11 +145,40 @@ CompareWay theatron(const CompareScene& scene, bool near) {
     return way;
 }
 
+// Both ways at once.
+CompareWay pair(const CompareWay& one, const CompareWay& video, CompareMethod words) {
+    words.is_pair = true;
+    for (const CompareWay* part : {&one, &video})
+        if (words.reason.empty())
+            words.reason = part->words.reason;
+    words.ran = "both at once: " + one.words.ran + "; and " + video.words.ran;
+    words.expert_reason =
+        "Its pictures are those of \"" + one.words.name + "\" and \"" + video.words.name + "\".";
+    CompareWay both{.words = std::move(words),
+                    .cameras = one.cameras,
+                    .path =
+                        [clouds = one.path, picture = video.path](const CompareCamera& camera) {
+                            return camera.depth.empty() ? picture(camera) : clouds(camera);
+                        },
+                    .shown = CompareWay::Shown::pair,
+                    .views = one.views,
+                    .parts = {one.words.id, video.words.id}};
+    both.cameras.insert(both.cameras.end(), video.cameras.begin(), video.cameras.end());
+    return both;
+}
+
 }  // namespace
 
 std::vector<CompareWay> compare_ways(const CompareScene& scene) {
-    return {usual_call(scene), full_hd_call(scene), zoomed_call(scene),     two_camera_call(scene),
-            paper(scene),      pcl(scene),          theatron(scene, false), theatron(scene, true)};
+    std::vector<CompareWay> ways = {
+        usual_call(scene), full_hd_call(scene), zoomed_call(scene),     two_camera_call(scene),
+        paper(scene),      pcl(scene),          theatron(scene, false), theatron(scene, true)};
+    ways.push_back(pair(theatron(scene, false), zoomed_call(scene),
+                        {.id = theatron_and_call_id,
+                         .name = "Theatron beside a zoomed call",
+                         .plain = "Theatron and the zoomed video call at once, from the same "
+                                  "room. The expert has both pictures beside each other"}));
+    return ways;
 }
 
 }  // namespace theatron::bench

@@ -23,6 +23,9 @@ inline Compared given_comparison() {
     c.truth = {ColorImage({16, 8}), ColorImage({16, 8})};
     c.close_up_truth = ColorImage({16, 8});
     c.close_up_width_m = 0.5;
+    c.near_wound_m = 0.2;
+    c.near_wound = Image<std::uint8_t>({16, 8});
+    const CompareSights sights{Image<Seen>({16, 8}), Image<float>({16, 8})};
     CompareMethod call{.id = video_call_id, .name = "Video call", .ran = "one camera"};
     call.is_video = true;
     call.plain = "One picture";
@@ -36,6 +39,11 @@ inline Compared given_comparison() {
     call.expert_reason = "It has no other picture.";
     call.pictures = {ColorImage({16, 8})};
     call.close_up = CompareCloseUp{ColorImage({8, 4}), {}, {}, {}};
+    call.sights = sights;
+    call.wound = {{40, 0, 60, 0, 3.2}, {50, 0, 50, 0, 3.3}, {}};
+    call.sender_of_all_ms = 9.34;
+    call.drawing_ms = 1.25;
+    call.drawn_on = "llvmpipe";
     CompareMethod pcl{.id = pcl_id, .name = "A point cloud codec", .plain = "Points", .ran = "PCL"};
     pcl.reason = "This build has no PCL.";
     CompareMethod ours{.id = theatron_id, .name = "Theatron", .plain = "Ours", .ran = "strata"};
@@ -49,6 +57,12 @@ inline Compared given_comparison() {
     ours.pictures = {ColorImage({16, 8}), ColorImage({16, 8})};
     ours.close_up = CompareCloseUp{ColorImage({16, 8}), CompareLikeness{22, 0.8, 6.7, 8.9, 1, 2},
                                    CompareCauses{1.5, 0.3, 0.1, 0.1}, CompareCauses{20, 9, 1, 2}};
+    ours.sights = sights;
+    ours.wound = {{62, 2, 36, 0, 3.4}, {70, 20, 10, 0, 3.5}, CompareCauses{30, 4, 3, 1}};
+    ours.sender_of_all_ms = 12.4;
+    ours.receiver_of_all_ms = 6.1;
+    ours.drawing_ms = 250.5;
+    ours.drawn_on = "llvmpipe";
     c.methods = {call, pcl, ours};
     return c;
 }

@@ -10,8 +10,10 @@ import unittest
 
 from theatron_process import PROGRAM, run
 
-METHODS = ["video_call", "video_call_full_hd", "video_call_zoomed", "video_call_two_cameras", "paper", "pcl", "theatron", "theatron_near"]
-WHOLE_PICTURES_OF_VIDEO = ["video_call", "video_call_full_hd", "video_call_two_cameras"]
+METHODS = ["video_call", "video_call_full_hd", "video_call_zoomed", "video_call_two_cameras", "paper", "pcl", "theatron", "theatron_near",
+           "theatron_and_zoomed_call"]
+# From the first place alone, because cameras do not move with the expert.
+WHOLE_PICTURES_OF_VIDEO = ["video_call", "video_call_two_cameras"]
 
 
 class Compare(unittest.TestCase):
@@ -27,7 +29,7 @@ class Compare(unittest.TestCase):
         # The pictures would hide any message.
         shown = html.unescape(re.sub("base64,[^\"]*", "", raw))
         self.assertEqual([m["id"] for m in found["methods"]], METHODS)
-        pictures = len(found["places"]) + 1  # of what is there, the close-up among them
+        pictures = len(found["places"]) + 2  # of what is there; the close-up has its marks beside it
         for method in found["methods"]:
             with self.subTest(method["id"]):
                 self.assertIn(method["name"], out)
@@ -51,8 +53,17 @@ class Compare(unittest.TestCase):
                 if method["close_up"]:
                     causes = method["close_up"]["see_through_causes"]
                     self.assertAlmostEqual(sum(causes.values()), method["close_up"]["see_through_percent"])
-                pictures += len(found["places"]) + 1 if method["expert"] or method["id"] in WHOLE_PICTURES_OF_VIDEO else 0
-                pictures += method["id"] == "video_call_zoomed"  # the close-up alone
+                pictures += len(found["places"]) if method["expert"] else method["id"] in WHOLE_PICTURES_OF_VIDEO
+                pictures += 2 if method["expert"] or method["id"].startswith("video_call") else 0
+                if method["wound"]:
+                    for region in ("near", "whole"):
+                        shares = method["wound"][region]
+                        self.assertAlmostEqual(shares["rightly_percent"] + shares["wrongly_percent"] + shares["hidden_percent"], 100)
+                        self.assertLessEqual(shares["finely_percent"], shares["rightly_percent"])
+                    if causes := method["wound"]["lost"]:
+                        self.assertAlmostEqual(sum(causes.values()), 100 - method["wound"]["near"]["rightly_percent"])
+                if found["here"]["gl_renderer"]:
+                    self.assertGreater(method["drawing_ms"], 0)
         self.assertEqual(shown.count("<figure"), pictures)
         self.assertEqual(shown.count('src="data:image/jpeg;'), pictures)
         self.assertNotIn("http", shown)
@@ -67,10 +78,21 @@ class Compare(unittest.TestCase):
         if not methods["video_call"]["reason"]:
             self.assertEqual(methods["video_call_two_cameras"]["cameras"], 2)
             self.assertIsNotNone(methods["video_call_full_hd"]["own_view"])
+            for name in ("video_call", "video_call_zoomed"):
+                self.assertEqual(methods[name]["wound"]["near"]["wrongly_percent"], 0)
+            self.assertLess(methods["video_call_zoomed"]["wound"]["near"]["detail_mm"], methods["video_call"]["wound"]["near"]["detail_mm"])
+            both, alone, zoomed = (methods[name] for name in ("theatron_and_zoomed_call", "theatron", "video_call_zoomed"))
+            self.assertEqual(both["cameras"], alone["cameras"] + zoomed["cameras"])
+            # The same pictures through the same codecs.
+            self.assertAlmostEqual(both["mbit_of_all"], alone["mbit_of_all"] + zoomed["mbit_of_all"])
+            if alone["wound"]:
+                for one in (alone, zoomed):
+                    self.assertGreaterEqual(both["wound"]["near"]["rightly_percent"], one["wound"]["near"]["rightly_percent"])
         if methods["theatron"]["expert"]:
             self.assertLess(methods["theatron"]["expert"]["holes_percent"], methods["paper"]["expert"]["holes_percent"])
             near, usual = methods["theatron_near"]["close_up"], methods["theatron"]["close_up"]
             self.assertLess(near["see_through_percent"], usual["see_through_percent"])
+            self.assertGreater(methods["theatron_near"]["wound"]["near"]["rightly_percent"], methods["theatron"]["wound"]["near"]["rightly_percent"])
             self.assertIn("What may be judged from it", shown)
             self.assertGreater(methods["theatron"]["expert"]["psnr_db"], methods["paper"]["expert"]["psnr_db"])
         self.assertEqual(methods["pcl"]["reason"] is None, (pathlib.Path(PROGRAM).parent / "theatron_bench_pcl").exists())
