@@ -41,6 +41,7 @@
 #include "room_lines.h"
 #include "session/renderer_choice.h"
 #include "source_remarks.h"
+#include "study_lines.h"
 #include "video/color_codec.h"
 #include "video/depth_codecs.h"
 #include "viewer/head_text.h"
@@ -136,7 +137,8 @@ bool obey(client::Participant& participant, RoomLines& room, VoiceLine& voice,
         obey_people_line(participant, line) || obey_look_back_line(participant, line) ||
         refuse_looking_back(participant, line) || obey_camera_line(participant, line) ||
         obey_playback_line(participant, line) || obey_case_line(participant, line) ||
-        obey_mark_line(participant, line) || room.obey(line, participant))
+        obey_mark_line(participant, line) || obey_study_line(participant, line) ||
+        room.obey(line, participant))
         return true;
     std::istringstream words(line);
     std::string what, value, camera;
@@ -154,8 +156,9 @@ bool obey(client::Participant& participant, RoomLines& room, VoiceLine& voice,
             "'quit', in the room " +
                 std::string(RoomLines::help()) + ", on cases " + case_lines_help() + ", on marks " +
                 mark_lines_help() + ", on a recording that the host plays " +
-                playback_lines_help() + ", on the last minute " + look_back_help() +
-                ", or as an operator " + people_help() + ", " + camera_lines_help() + ".\n",
+                playback_lines_help() + ", in a study " + study_lines_help() +
+                ", on the last minute " + look_back_help() + ", or as an operator " +
+                people_help() + ", " + camera_lines_help() + ".\n",
             output::Stream::error);
     return true;
 }
@@ -181,6 +184,7 @@ nlohmann::json json_of(const client::Participant& participant, const VoiceLine& 
     nlohmann::json json = participant_json(participant);
     json["room"] = room_json(participant);
     json["cases"] = case_json(participant);
+    json["study"] = study_json(participant);
     json["voice"] = voice.json();
     json["voice"]["may_record"] = participant.voice_may_record();
     if (face)
@@ -273,6 +277,7 @@ void run_join(const JoinFlags& flags) {
     InputLines input;
     RoomLines room;
     SourceRemarks remarks;
+    StudyLines study;
 
     while (!cli::stop_requested()) {
         if (participant.wait_for_frame(50ms) && first_frame == TimePoint{})
@@ -319,6 +324,8 @@ void run_join(const JoinFlags& flags) {
         constexpr Duration join_patience = std::chrono::seconds(10);
         if (has_end && first_frame == TimePoint{} && now - started >= length + join_patience)
             throw Error(status.problem.empty() ? "The host sent no picture." : status.problem);
+        if (flags.every > 0)
+            study.on_tick(participant);
         if (flags.every > 0 && now >= next_line) {
             output::print(files::json_text(
                               json_of(participant, voice, face, face_line.get(), picture.get())) +
@@ -357,6 +364,7 @@ void add_join_command(CLI::App& app) {
         RoomLines::help() + ".\nOn the case in the room (docs/cases.md):\n" + case_lines_help() +
         ".\nOn a recording that the host plays (docs/views.md):\n" + playback_lines_help() +
         ".\nAt the last minute of the session, you alone (docs/views.md):\n" + look_back_help() +
+        ".\nIn a study that you take part in (docs/studies.md):\n" + study_lines_help() +
         ".\nOperators decide on people (docs/room.md):\n" + people_help() +
         ".\nThey adjust cameras for all (docs/registration.md):\n" + camera_lines_help() +
         ".\n"

@@ -115,6 +115,7 @@ client::Participant::Options participant_options(const JoinFlags& flags) {
     options.remark = [](const std::string& text) { log::say(text); };
     options.keeps_room = true;
     options.keeps_cases = true;
+    options.knows_studies = !flags.or_screen;
     options.voice_may_record = flags.voice_may_record;
     options.takes_faces = !flags.or_screen;
     options.direct = flags.direct == "on";

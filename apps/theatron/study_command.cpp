@@ -204,14 +204,26 @@ void add_study_command(CLI::App& app) {
         "Each reply is on the disk before the next question. After a crash the same command\n"
         "goes on. A pseudonym is a capital letter and a number; who it is stays on your paper.\n"
         "\nExamples:\n  theatron study run our-study --participant P07\n"
+        "  theatron study run our-study --participant P07 --link @operator.link\n"
+        "  theatron study run our-study --participant P07 --link @operator.link --person '#3'\n"
         "  theatron study run our-study --participant P07 --host-input host.pipe\n"
         "  theatron study run our-study --participant P07 --json < replies.txt");
     run->add_option("FOLDER", flags->folder, "The study's folder")->required();
     run->add_option("--participant", flags->participant, "The participant's pseudonym, such as P07")
         ->required();
+    run->add_option(
+        "--link", flags->link,
+        "The session's link for operators, or @FILE with it: the steps are shown to the "
+        "participant there, in the window, the page or the headset, and conditions are set and "
+        "locked by the host");
+    run->add_option("--person", flags->person,
+                    "Who takes part in that session: the name there, or # and the number; without "
+                    "it the only one who is no operator")
+        ->needs(run->get_option("--link"));
     run->add_option("--host-input", flags->host_input,
                     "A named pipe from which the session's host reads its lines: each condition's "
-                    "renderer is set there for everybody and locked");
+                    "renderer is set there for everybody and locked")
+        ->excludes(run->get_option("--link"));
     run->add_flag("--json", flags->json, "Print each step as a line of JSON");
     run->callback([flags] { run_study(*flags); });
 

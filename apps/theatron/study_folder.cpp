@@ -61,6 +61,10 @@ fs::path Study::journal_of(const std::string& participant) const {
     return folder / journals_name / (participant + journal_ending);
 }
 
+fs::path Study::paths_of(const std::string& participant) const {
+    return folder / journals_name / (participant + ".paths.csv");
+}
+
 Study load_study(const fs::path& place) {
     std::error_code none;
     const bool is_folder = fs::is_directory(place, none);

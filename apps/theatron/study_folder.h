@@ -18,6 +18,8 @@ struct Study {
     std::uint64_t hash = 0;  // of all its texts
 
     std::filesystem::path journal_of(const std::string& participant) const;
+    // The paths of head and hands; see study_paths.h.
+    std::filesystem::path paths_of(const std::string& participant) const;
 };
 
 // `place`: the folder, or its protocol file. Throws Error with all mistakes, a line each.

@@ -130,7 +130,7 @@ viewer::Facts FlatView::facts(TimePoint now) {
 void FlatView::add_people(viewer::Facts& facts, TimePoint now) {
     const auto room = participant_.room();
     const wire::Role role = facts.received.status.standing.role;
-    viewer::RoomPanel panel = viewer::room_panel(
+    viewer::RoomPanel people = viewer::room_panel(
         {.room = room,
          .people = viewer::people_of(room, participant_.poses(), participant_.session_time(now)),
          .places = {},
@@ -139,12 +139,16 @@ void FlatView::add_people(viewer::Facts& facts, TimePoint now) {
          .visitors = facts.visitors,
          .asked = removal_.asked(now)});
     // Ways to people need the room's view.
-    for (xr::Panel& one : panel.panels)
+    for (xr::Panel& one : people.panels)
         for (xr::PanelRow& row : one.rows)
             std::erase_if(row.buttons, [&](const xr::PanelButton& button) {
                 return !std::holds_alternative<viewer::Decide>(
-                    panel.commands[std::size_t(button.command)]);
+                    people.commands[std::size_t(button.command)]);
             });
+    viewer::RoomPanel panel;
+    (void)study_.take(participant_.study(), now);
+    study_.add_panel(panel, now);
+    panel = viewer::joined(std::move(panel), people);
     facts.panels = std::move(panel.panels);
     commands_ = std::move(panel.commands);
 }
@@ -152,6 +156,9 @@ void FlatView::add_people(viewer::Facts& facts, TimePoint now) {
 void FlatView::press(int command, TimePoint now) {
     if (command < 0 || command >= int(commands_.size()))
         return;
+    if (const auto* press = std::get_if<viewer::StudyPress>(&commands_[std::size_t(command)]))
+        if (const auto reply = study_.carry_out(*press, now))
+            participant_.reply_to_study(*reply);
     const auto* decision = std::get_if<viewer::Decide>(&commands_[std::size_t(command)]);
     if (decision && removal_.is_meant(*decision, now))
         participant_.manage(decision->action, decision->person, decision->role);

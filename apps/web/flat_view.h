@@ -15,6 +15,7 @@
 #include "viewer/facts.h"
 #include "viewer/notice.h"
 #include "viewer/removal_question.h"
+#include "viewer/study_panel.h"
 
 namespace theatron::web {
 
@@ -89,6 +90,7 @@ private:
     RateWindow drawn_;
     std::vector<viewer::RoomCommand> commands_;  // of the panel's buttons
     viewer::RemovalQuestion removal_;
+    viewer::StudyPanel study_;
     viewer::Notice notice_;
 };
 

@@ -27,7 +27,7 @@ const char* kind_of(const xr::Panel& panel) {
         {Phrase::at_the_door, "door"}, {Phrase::calls_you, "call"},
         {Phrase::screens, "screens"},  {Phrase::sound, "sound"},
         {Phrase::cameras, "cameras"},  {Phrase::look_back_alone, "past"},
-        {Phrase::marks, "marks"},
+        {Phrase::marks, "marks"},      {Phrase::study, "study"},
     };
     for (const auto& [title, kind] : kinds)
         if (panel.title == say(title))

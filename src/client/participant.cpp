@@ -42,6 +42,8 @@ std::vector<wire::Feature> features_of(const Participant::Options& options) {
         features.push_back(wire::Feature::webcam);
     if (options.screen.published)
         features.push_back(wire::Feature::shows_screen);
+    if (options.knows_studies)
+        features.push_back(wire::Feature::study);
     if (options.direct && DirectReception::is_possible())
         features.push_back(wire::Feature::direct);
     return features;
@@ -152,6 +154,8 @@ bool Participant::begin_connection(net::Client& client) {
         shared_->own_expression.reset();
         shared_->voice.clear();
         shared_->visitors.clear();
+        shared_->study.reset();
+        shared_->study_replies.clear();
         shared_->has_standing = false;
         shared_->status.standing = {};
         shared_->camera_wishes.clear();  // numbers of cameras may be others
@@ -372,6 +376,12 @@ void Participant::on_control(ByteView message) {
         case Change::patient:
         case Change::asked_patient:
             on_patient();
+            break;
+        case Change::study:
+            on_study();
+            break;
+        case Change::study_reply:
+            on_study_reply();
             break;
         case Change::direct:
             on_direct_grants();

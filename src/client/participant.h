@@ -95,6 +95,8 @@ public:
         bool shows_patient = false;
         // This person agrees that others record its voice; see allow_voice_recording().
         bool voice_may_record = false;
+        // Shows steps of a study to this person, or leads one as an operator's program.
+        bool knows_studies = false;
         // Takes pictures directly from their publishers, and sends its own directly, where the host
         // allows it. Not in a browser.
         bool direct = false;
@@ -289,6 +291,23 @@ public:
     // The oldest answer to a decision that is not taken yet, if any.
     std::optional<wire::Managed> take_managed();
 
+    // The step of a study that this person is to see, and a number that grows with each one that
+    // comes; nullopt: none has come on this connection.
+    struct Study {
+        wire::StudyStep step;
+        std::uint64_t version = 0;
+    };
+    std::optional<Study> study() const;
+    // Sends this person's reply to a step. False: not joined.
+    bool reply_to_study(const wire::StudyReply& reply);
+    // For an operator's program that leads a study: shows a step to a participant, sets what it
+    // sees. The answers are Managed, too. Both return their number; 0 while not joined, or where
+    // the host knows no studies.
+    std::uint32_t show_study(ParticipantId person, const wire::StudyStep& step);
+    std::uint32_t set_condition(const wire::SetCondition& condition);
+    // The oldest reply that is not taken yet, if any.
+    std::optional<wire::StudyReplied> take_study_reply();
+
     // Requests another target latency and ceiling.
     void choose_delivery(const wire::ChooseDelivery& goal);
 
@@ -320,6 +339,8 @@ private:
     void on_managed();
     void on_playback();
     void on_patient();
+    void on_study();
+    void on_study_reply();
     std::uint32_t decide(auto decision);
     // Cameras of one offer are answered and withdrawn together.
     enum class Offer : std::size_t { cameras, face, screen };

@@ -62,6 +62,7 @@ void Participant::on_welcome() {
     shared_->playback.reset();
     shared_->patient = shared_->asked_patient = {};
     shared_->may_ask_patient = session_.has(wire::Feature::asks_patient);
+    shared_->may_lead_study = session_.has(wire::Feature::study);
     shared_->renderer_command = wire::SetRenderer{};
     shared_->room.begin(session_.welcome().participant);
     shared_->status.joins += is_new;

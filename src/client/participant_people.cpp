@@ -121,6 +121,64 @@ std::uint32_t Participant::play(wire::PlayAction action, Duration position) {
     return playback() ? decide(wire::Play{0, action, position}) : 0;
 }
 
+void Participant::on_study() {
+    {
+        const std::lock_guard lock(shared_->mutex);
+        shared_->study = {session_.study_step(), ++shared_->study_steps};
+    }
+    announce();
+}
+
+void Participant::on_study_reply() {
+    {
+        const std::lock_guard lock(shared_->mutex);
+        if (shared_->study_replies.size() >= max_waiting_answers)
+            shared_->study_replies.pop_front();
+        shared_->study_replies.push_back(session_.study_reply());
+    }
+    announce();
+}
+
+std::optional<Participant::Study> Participant::study() const {
+    const std::lock_guard lock(shared_->mutex);
+    return shared_->study;
+}
+
+bool Participant::reply_to_study(const wire::StudyReply& reply) {
+    const std::lock_guard lock(shared_->mutex);
+    if (!shared_->client || shared_->status.phase != Phase::joined)
+        return false;
+    shared_->client->post([this, reply] { shared_->client->send_control(wire::encode(reply)); });
+    return true;
+}
+
+std::uint32_t Participant::show_study(ParticipantId person, const wire::StudyStep& step) {
+    {
+        const std::lock_guard lock(shared_->mutex);
+        if (!shared_->may_lead_study)
+            return 0;
+    }
+    return decide(wire::ShowStudy{0, person, step});
+}
+
+std::uint32_t Participant::set_condition(const wire::SetCondition& condition) {
+    {
+        const std::lock_guard lock(shared_->mutex);
+        if (!shared_->may_lead_study)
+            return 0;
+    }
+    return decide(wire::SetCondition(condition));
+}
+
+std::optional<wire::StudyReplied> Participant::take_study_reply() {
+    const std::lock_guard lock(shared_->mutex);
+    if (shared_->study_replies.empty())
+        return std::nullopt;
+    const wire::StudyReplied oldest = shared_->study_replies.front();
+    shared_->study_replies.pop_front();
+    return oldest;
+}
+
 std::uint32_t Participant::look_back(Duration ago) {
     return can_look_back() ? decide(wire::LookBack{0, ago}) : 0;
 }

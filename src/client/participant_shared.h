@@ -76,6 +76,10 @@ struct Participant::Shared {
     wire::Patient patient;                                 // empty: not known
     wire::Patient asked_patient;                           // the newest answer
     bool may_ask_patient = false;                          // the host answers
+    std::optional<Study> study;                            // on this connection
+    std::uint64_t study_steps = 0;                         // that have come
+    bool may_lead_study = false;                           // the host knows studies
+    std::deque<wire::StudyReplied> study_replies;          // not yet taken
     std::map<CameraId, wire::ChooseCodecs> camera_wishes;  // the same for single cameras
     std::array<std::vector<wire::OfferedCamera>, Participant::offers>
         offers;                     // by Participant::Offer

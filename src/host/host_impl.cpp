@@ -180,6 +180,10 @@ void Host::Impl::carry_out(const session::action::SetCeiling& a) {
     server->set_ceiling(peer_of(a.participant), double(a.bytes_per_second));
 }
 
+void Host::Impl::carry_out(const session::action::Delay& a) {
+    server->set_delay(peer_of(a.participant), a.by);
+}
+
 void Host::Impl::carry_out(const session::action::ChangeRights& a) {
     const auto found = session->participants().find(a.participant);
     if (found == session->participants().end())

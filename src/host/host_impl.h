@@ -198,6 +198,7 @@ struct Host::Impl {
     void carry_out(const session::action::TakeMedia& a);
     void carry_out(const session::action::KeepEverything& a);
     void carry_out(const session::action::SetCeiling& a);
+    void carry_out(const session::action::Delay& a);
     void carry_out(const session::action::ChangeRights& a);
     void carry_out(const session::action::Stepped& a);
     void carry_out(const session::action::Drawing& a);

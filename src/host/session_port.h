@@ -56,6 +56,7 @@ public:
     void set_ceiling(net::PeerId peer, double bytes_per_second) {
         server().set_ceiling(peer, bytes_per_second);
     }
+    void set_delay(net::PeerId peer, Duration delay) { server().set_delay(peer, delay); }
     void keep_everything(net::PeerId peer) { server().keep_everything(peer); }
     net::SendingFigures take_figures(net::PeerId peer) { return server().take_figures(peer); }
     bool is_behind(net::PeerId peer, StreamId stream) const {

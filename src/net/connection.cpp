@@ -59,7 +59,9 @@ Connection::Connection(WebSocket socket, wire::Unwrapper::Takes takes, Events ev
       unwrapper_(takes),
       ceiling_timer_(socket_.get_executor()),
       acknowledgement_timer_(socket_.get_executor()),
-      farewell_timer_(socket_.get_executor()) {}
+      farewell_timer_(socket_.get_executor()),
+      in_timer_(socket_.get_executor()),
+      out_timer_(socket_.get_executor()) {}
 
 void Connection::start(ByteView first) {
     beast::get_lowest_layer(socket_).expires_never();
@@ -160,6 +162,18 @@ void Connection::set_ceiling(double bytes_per_second) {
     write();
 }
 
+SendingFigures Connection::take_figures() {
+    SendingFigures figures = outbox_.take_figures(now_());
+    figures.round_trip = std::max(figures.round_trip - 2 * out_.delay(), Duration(0));
+    figures.delay = std::max(figures.delay - out_.delay(), Duration(0));
+    return figures;
+}
+
+void Connection::set_delay(Duration delay) {
+    in_.set_delay(delay);
+    out_.set_delay(delay);
+}
+
 void Connection::look() {
     if (!finished_ && outbox_.stands_still(now_()))
         finish(say(Phrase::took_nothing,
@@ -232,21 +246,52 @@ void Connection::read() {
                 const auto data = self->incoming_.cdata();
                 if (!self->closing_.empty())
                     self->late_bytes_ += data.size();
-                if (!self->only_reads_)
-                    self->take({static_cast<const std::byte*>(data.data()), data.size()});
+                const ByteView envelope{static_cast<const std::byte*>(data.data()), data.size()};
+                if (!self->only_reads_ && self->in_.is_used()) {
+                    self->in_.push({envelope.begin(), envelope.end()}, self->now_());
+                    self->take_delayed();
+                } else if (!self->only_reads_) {
+                    self->take(envelope);
+                }
                 self->incoming_.consume(self->incoming_.size());
                 if (!self->only_reads_ && self->late_bytes_ > max_last_bytes)
                     self->finish(self->closing_);
                 const bool is_flood = self->only_reads_ && self->late_bytes_ > max_discarded_bytes;
-                if (!self->finished_ && !is_flood)
+                self->waits_to_read_ = self->in_.bytes() > max_delayed_bytes;
+                if (!self->finished_ && !is_flood && !self->waits_to_read_)
                     self->read();
             });
         });
 }
 
+// Hands on the envelopes that have waited for their time.
+void Connection::take_delayed() {
+    while (!finished_ && !only_reads_)
+        if (const auto envelope = in_.take(now_()))
+            take(*envelope);
+        else
+            break;
+    if (finished_)
+        return;
+    if (waits_to_read_ && in_.bytes() <= max_delayed_bytes) {
+        waits_to_read_ = false;
+        read();
+    }
+    const auto due = in_.due();
+    if (!due || only_reads_)
+        return;
+    in_timer_.expires_after(std::max(*due - now_(), Duration(0)));
+    in_timer_.async_wait([self = shared_from_this()](beast::error_code error) {
+        if (!error)
+            self->guarded([&] { self->take_delayed(); });
+    });
+}
+
 void Connection::write() {
     if (writing_ || finished_ || only_reads_)
         return;
+    if (out_.is_used())
+        return write_delayed();
     const std::uint64_t begun_before = outbox_.begun_frames();
     if (!outbox_.next(outgoing_, now_())) {
         if (!closing_.empty() && !outbox_.control_waits())
@@ -255,6 +300,35 @@ void Connection::write() {
             write_later(*again);
         return;
     }
+    begin_write(begun_before);
+}
+
+// The outbox chooses as if the bytes left at once; they leave when their time has come.
+void Connection::write_delayed() {
+    const std::uint64_t begun_before = outbox_.begun_frames();
+    for (Bytes envelope; outbox_.next(envelope, now_()); envelope.clear())
+        out_.push(std::move(envelope), now_());
+    if (auto envelope = out_.take(now_())) {
+        outgoing_ = std::move(*envelope);
+        return begin_write(begun_before);
+    }
+    tell_begun(begun_before);
+    if (const auto again = outbox_.ask_again())
+        write_later(*again);
+    const auto due = out_.due();
+    if (!due) {
+        if (!closing_.empty() && !outbox_.control_waits())
+            bid_farewell();
+        return;
+    }
+    out_timer_.expires_after(std::max(*due - now_(), Duration(0)));
+    out_timer_.async_wait([self = shared_from_this()](beast::error_code error) {
+        if (!error)
+            self->guarded([&] { self->write(); });
+    });
+}
+
+void Connection::begin_write(std::uint64_t begun_before) {
     limit_unsent();
     writing_ = true;
     socket_.async_write(asio::buffer(outgoing_),
@@ -268,6 +342,10 @@ void Connection::write() {
                                 self->write();
                             });
                         });
+    tell_begun(begun_before);
+}
+
+void Connection::tell_begun(std::uint64_t begun_before) {
     if (outbox_.begun_frames() != begun_before && events_->frame_left) {
         const auto events = events_;
         events->frame_left();
@@ -300,6 +378,8 @@ void Connection::finish(const std::string& why) {
     finished_ = true;
     ceiling_timer_.cancel();
     acknowledgement_timer_.cancel();
+    in_timer_.cancel();
+    out_timer_.cancel();
     farewell_timer_.cancel();
     // No closing handshakes: they would wait for a peer that may be gone, and
     // every message is complete in itself.

@@ -18,6 +18,7 @@
 
 #include "base/fault.h"
 #include "net/acknowledger.h"
+#include "net/delay_line.h"
 #include "net/outbox.h"
 #include "wire/envelope.h"
 
@@ -45,6 +46,8 @@ public:
     static constexpr std::size_t max_discarded_bytes = std::size_t(64) << 10;
     // Bytes from a peer that does not take its last control messages; then the connection ends.
     static constexpr std::size_t max_last_bytes = std::size_t(4) << 20;
+    // Bytes of a peer that wait out set_delay(); then nothing more is read until some have.
+    static constexpr std::size_t max_delayed_bytes = std::size_t(16) << 20;
 
     // Called on the io thread. After `closed` nothing is called any more. A call that throws
     // costs the connection. All but `control`, `closed` and `now` may be empty.
@@ -85,7 +88,10 @@ public:
     void set_ceiling(double bytes_per_second);
     void keep_everything() { outbox_.keep_everything(); }
     bool is_behind(StreamId stream) const { return outbox_.is_behind(stream); }
-    SendingFigures take_figures() { return outbox_.take_figures(now_()); }
+    // Without the time of set_delay(): the link is measured, and not what was added to it.
+    SendingFigures take_figures();
+    // Everything to the peer and from it is this much later from now on.
+    void set_delay(Duration delay);
     // To be called a few times a second: closes the connection if the peer takes nothing.
     void look();
     // After look().
@@ -108,6 +114,10 @@ private:
     void read();
     void write();
     void write_later(TimePoint then);
+    void take_delayed();
+    void write_delayed();
+    void begin_write(std::uint64_t begun_before);
+    void tell_begun(std::uint64_t begun_before);
     void bid_farewell();
     void finish(const std::string& why);
 
@@ -127,10 +137,13 @@ private:
     Acknowledger acknowledger_;
     Outbox outbox_;
     std::size_t unsent_limit_ = 0;  // bytes, as set on the socket
-    boost::asio::steady_timer ceiling_timer_, acknowledgement_timer_, farewell_timer_;
+    boost::asio::steady_timer ceiling_timer_, acknowledgement_timer_, farewell_timer_, in_timer_,
+        out_timer_;
     bool acknowledgement_is_timed_ = false;
     Bytes outgoing_;
     bool writing_ = false;
+    DelayLine in_, out_;
+    bool waits_to_read_ = false;  // too much waits in `in_`
     bool finished_ = false;
     std::string closing_;         // not empty: close after the control that is queued
     bool only_reads_ = false;     // that control has been sent

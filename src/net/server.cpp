@@ -243,6 +243,12 @@ void Server::set_ceiling(PeerId peer, double bytes_per_second) {
     connection->set_ceiling(bytes_per_second);
 }
 
+void Server::set_delay(PeerId peer, Duration delay) {
+    const auto found = impl_->peers.find(peer);
+    if (found != impl_->peers.end())
+        found->second->set_delay(delay);
+}
+
 void Server::keep_everything(PeerId peer) {
     const auto found = impl_->peers.find(peer);
     if (found != impl_->peers.end())

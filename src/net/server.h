@@ -94,6 +94,8 @@ public:
     void take_media(PeerId peer, std::size_t max_message);
     // See Outbox. Figures of a peer that is gone are empty.
     void set_ceiling(PeerId peer, double bytes_per_second);
+    // See Connection.
+    void set_delay(PeerId peer, Duration delay);
     void keep_everything(PeerId peer);
     SendingFigures take_figures(PeerId peer);
     bool is_behind(PeerId peer, StreamId stream) const;

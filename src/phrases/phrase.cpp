@@ -15,6 +15,7 @@ constexpr Sentence phrases[] = {
 #include "phrases/form.inc"
 #include "phrases/meeting.inc"
 #include "phrases/pictures.inc"
+#include "phrases/study.inc"
 #include "phrases/window.inc"
 #undef PHRASE
 };

@@ -22,6 +22,7 @@ enum class Phrase : std::uint16_t {
 #include "phrases/form.inc"
 #include "phrases/meeting.inc"
 #include "phrases/pictures.inc"
+#include "phrases/study.inc"
 #include "phrases/window.inc"
 #undef PHRASE
 };

@@ -21,6 +21,7 @@ void DirectPaths::leave(ParticipantId participant) {
     has_changed_ = true;
     addresses_.erase(participant);
     members_.erase(participant);
+    held_back_.erase(participant);
     offers_.erase(participant);
     reports_.erase(participant);
     told_publishers_.erase(participant);
@@ -31,6 +32,14 @@ void DirectPaths::leave(ParticipantId participant) {
     const auto is_theirs = [&](const auto& entry) { return entry.first == participant; };
     std::erase_if(direct_, is_theirs);
     std::erase_if(needs_key_, is_theirs);
+}
+
+void DirectPaths::allow(ParticipantId participant, bool allowed) {
+    has_changed_ = true;
+    if (allowed)
+        held_back_.erase(participant);
+    else
+        held_back_.insert(participant);
 }
 
 void DirectPaths::offer(ParticipantId publisher, wire::OfferDirect offer) {
@@ -60,7 +69,8 @@ void DirectPaths::report(ParticipantId receiver, const std::vector<wire::StreamR
 
 bool DirectPaths::may_use(ParticipantId publisher, const StreamUse::Receiver& receiver) const {
     return receiver.may_be_direct && members_.contains(receiver.id) &&
-           offers_.contains(publisher) && receiver.id != publisher;
+           offers_.contains(publisher) && receiver.id != publisher &&
+           !held_back_.contains(publisher) && !held_back_.contains(receiver.id);
 }
 
 // The first receivers of a publisher, and the first publishers of a receiver, as far as the limits

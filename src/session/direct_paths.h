@@ -40,6 +40,8 @@ public:
     // The participant takes part, and its program knows direct sending.
     void join(ParticipantId participant);
     void leave(ParticipantId participant);
+    // False: the participant neither sends nor gets anything directly.
+    void allow(ParticipantId participant, bool allowed);
     // The participant listens; direct_addresses.h says which of its addresses are believed. A port
     // below least_direct_port withdraws the offer.
     void offer(ParticipantId publisher, wire::OfferDirect offer);
@@ -87,6 +89,7 @@ private:
     std::vector<Action>& actions_;
     std::map<ParticipantId, std::string> addresses_;
     std::set<ParticipantId> members_;
+    std::set<ParticipantId> held_back_;
     std::map<ParticipantId, wire::OfferDirect> offers_;
     std::map<PathId, Path> paths_;
     std::map<ParticipantId, std::set<SettingId>> reports_;

@@ -64,6 +64,11 @@ struct SetCeiling {
     ParticipantId participant{};
     std::uint64_t bytes_per_second = 0;
 };
+// Everything to the participant and from it is `by` later than it comes.
+struct Delay {
+    ParticipantId participant{};
+    Duration by{};
+};
 // The participant has other rights: take back from the others what it may not send any more.
 struct ChangeRights {
     ParticipantId participant{};
@@ -111,6 +116,6 @@ using Action = std::variant<action::Send, action::Close, action::Drop, action::E
                             action::TakeMedia, action::RequestKey, action::ChangeSettings,
                             action::KeepEverything, action::SetCeiling, action::ChangeRights,
                             action::Stepped, action::Drawing, action::Audit, action::RevokeLink,
-                            action::SendContent, action::Adjusted, action::Play>;
+                            action::SendContent, action::Adjusted, action::Play, action::Delay>;
 
 }  // namespace theatron::session

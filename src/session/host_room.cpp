@@ -44,6 +44,13 @@ void HostRoom::join(ParticipantId id, const PersonFacts& facts, bool keeps_room,
         send_snapshot(id);
 }
 
+void HostRoom::watch(ParticipantId id) {
+    Member& member = members_[id];
+    member.keeps_room = member.watches = true;
+    member.role = Role::observer;
+    send_snapshot(id);
+}
+
 HostRoom::Authors HostRoom::authors() const {
     Authors all = authors_;
     all.insert(sharers_.begin(), sharers_.end());
@@ -52,7 +59,7 @@ HostRoom::Authors HostRoom::authors() const {
 
 void HostRoom::set_person(ParticipantId id, const PersonFacts& facts) {
     const auto member = members_.find(id);
-    if (member == members_.end())
+    if (member == members_.end() || member->second.watches)
         return;
     member->second.role = facts.role;
     member->second.name = facts.name;

@@ -62,6 +62,8 @@ public:
     // `link`: by which it came.
     void join(ParticipantId id, const PersonFacts& facts, bool keeps_room, TimePoint now = {},
               const Bytes& person = {}, const std::string& link = "");
+    // A program that is nobody in the room gets the room and its changes, and changes nothing.
+    void watch(ParticipantId id);
     // Its role or another fact has changed.
     void set_person(ParticipantId id, const PersonFacts& facts);
     void leave(ParticipantId id);
@@ -132,6 +134,7 @@ public:
 private:
     struct Member {
         bool keeps_room = false;
+        bool watches = false;
         Role role{};
         std::string name;
         Bytes person;               // as in wire::Join

@@ -27,7 +27,8 @@ HostSession::HostSession(Config config)
       shared_(config_.session, admission_, streams_, room_, look_back_, direct_, actions_),
       adjusting_(streams_, look_back_, actions_),
       renderers_(admission_, actions_),
-      cases_(config_.patient_for, admission_, room_, actions_) {
+      cases_(config_.patient_for, admission_, room_, actions_),
+      studies_(admission_, actions_) {
     std::vector<wire::Camera> own = config_.cameras;
     int number = 0;
     for (wire::Camera& camera : own) {
@@ -190,6 +191,7 @@ void HostSession::on_closed(ParticipantId id) {
 void HostSession::leave_everything(ParticipantId id, Removal cameras) {
     admission_.find(id)->closing = true;
     shared_.remove_all(id, cameras);
+    studies_.leave(id);
     renderers_.forget(id);
     look_back_.leave(id);
     direct_.leave(id);
@@ -227,6 +229,7 @@ void HostSession::resynchronise(ParticipantId id) {
     room_.send_snapshot(id);
     tell_playback(id);
     cases_.tell_again(id);
+    studies_.tell_again(id);
     if (participant->may(Right::manage))
         tell_operators();
 }

@@ -25,6 +25,7 @@
 #include "session/renderers.h"
 #include "session/shared_cameras.h"
 #include "session/streams.h"
+#include "session/studies.h"
 #include "wire/control.h"
 #include "wire/media_header.h"
 
@@ -215,6 +216,10 @@ private:
     void carry_out(ParticipantId id, const wire::LookBack& message, TimePoint now);
     void carry_out(ParticipantId id, const wire::OfferDirect& message, TimePoint now);
     void carry_out(ParticipantId id, const wire::AskPatient& message, TimePoint now);
+    void carry_out(ParticipantId id, const wire::ShowStudy& message, TimePoint now);
+    void carry_out(ParticipantId id, const wire::StudyReply& message, TimePoint now);
+    void carry_out(ParticipantId id, const wire::SetCondition& message, TimePoint now);
+    wire::ManageRefusal set_condition(ParticipantId by, const wire::SetCondition& condition);
     void follow_paths();
     void carry_out_late(ParticipantId id, Participant& participant, TimePoint now);
     // `by`: the operator; 0: the person at the host's machine.
@@ -252,6 +257,7 @@ private:
     CameraAdjusting adjusting_;
     Renderers renderers_;
     OfferedCases cases_;
+    Studies studies_;
     bool has_ended_ = false;
     std::optional<wire::Playback> playback_;
 };

@@ -16,6 +16,8 @@ HostSession::CheckedCodec HostSession::checked(const CheckCodec& check, const st
 }
 
 void HostSession::carry_out(ParticipantId id, const wire::ChooseCodecs& wish, TimePoint) {
+    if (studies_.is_locked(id))
+        return send(id, wire::Settings{{}, {wire::TextCode::codecs_are_set}});
     CheckedCodec depth, color;
     if (!wish.depth_codec.empty())
         depth = checked(config_.check_depth, wish.depth_codec);

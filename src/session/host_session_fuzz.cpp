@@ -89,9 +89,9 @@ Bytes hello(std::uint8_t choice) {
                                           codecs[choice / 4 % 4]};
     wishes.delivery.target_latency_ms = choice % 32 < 16 ? 100 : 0;
     wishes.records = choice >= 200;
-    wishes.features = {wire::Feature::publish, wire::Feature::room,        wire::Feature::cases,
-                       wire::Feature::screens, wire::Feature::look_back,   wire::Feature::patient,
-                       wire::Feature::direct,  wire::Feature::asks_patient};
+    wishes.features = {wire::Feature::publish, wire::Feature::room,         wire::Feature::cases,
+                       wire::Feature::screens, wire::Feature::look_back,    wire::Feature::patient,
+                       wire::Feature::direct,  wire::Feature::asks_patient, wire::Feature::study};
     if (choice % 5 != 0)
         wishes.person = Bytes(wire::person_id_size, std::byte(choice % 7));
     wishes.run = choice % 3;
@@ -366,6 +366,19 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                 host.on_control(
                     id, wire::encode(wire::LookBack{choice, Duration(choice) * 300'000}), now);
                 host.on_control(id, wire::encode(wire::AskPatient{patient_of(choice % 3).of_case}),
+                                now);
+                wire::ShowStudy shown{choice, ParticipantId{1 + choice % participants}, {}};
+                shown.step.step = choice % 4;
+                shown.step.kind = wire::StudyKind(choice % 9);
+                host.on_control(id, wire::encode(shown), now);
+                host.on_control(id,
+                                wire::encode(wire::StudyReply{
+                                    choice % 4u, wire::StudyAction(1 + choice % 3), choice}),
+                                now);
+                host.on_control(id,
+                                wire::encode(wire::SetCondition{
+                                    choice, ParticipantId{1 + choice / 4 % participants}, "mesh",
+                                    choice % 2 ? "rvl" : "", "", Duration(choice), choice > 99}),
                                 now);
                 break;
             }

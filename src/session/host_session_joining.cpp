@@ -99,6 +99,8 @@ void HostSession::enter(ParticipantId id, const wire::Join& hello) {
     if (!participant.has(wire::Feature::sends_only))
         room_.join(id, facts_of(participant), participant.has(wire::Feature::room),
                    participant.connected, participant.person, participant.link);
+    else if (participant.has(wire::Feature::room))
+        room_.watch(id);
     tell_playback(id);
     cases_.tell_changes();
     if (participant.may(Right::manage))

@@ -5,6 +5,7 @@
 
 #include "session/audit_action.h"
 #include "session/host_session.h"
+#include "session/request_kinds.h"
 #include "wire/clear_objects.h"
 
 namespace theatron::session {
@@ -55,6 +56,8 @@ void HostSession::deny(ParticipantId id, const wire::ToHost& message) {
         send(id, wire::Managed{adjusting->number, ManageRefusal::adjusting_role});
     else if (const auto* play = std::get_if<wire::Play>(&message))
         send(id, wire::Managed{play->number, ManageRefusal::playing_role});
+    else if (const std::uint32_t number = decision_number(message); number != 0)
+        send(id, wire::Managed{number, ManageRefusal::role});
 }
 
 void HostSession::carry_out(ParticipantId id, const wire::Manage& decision, TimePoint now) {
@@ -211,6 +214,8 @@ void HostSession::set_role(ParticipantId id, Role role) {
     const bool could_manage = person.may(Right::manage);
     person.role = role;
     actions_.push_back(action::ChangeRights{id});
+    if (could_manage && !person.may(Right::manage))
+        studies_.end_leading(id);
     if (person.records && !person.may(Right::record))
         return refuse(id, {TextCode::observer_records});
     if (!person.may(Right::publish)) {

@@ -29,6 +29,9 @@ struct KindOf {
     Kind operator()(const wire::LookBack&) const { return Kind::manage; }
     Kind operator()(const wire::OfferDirect&) const { return Kind::publish; }
     Kind operator()(const wire::AskPatient&) const { return Kind::other; }
+    Kind operator()(const wire::ShowStudy&) const { return Kind::manage; }
+    Kind operator()(const wire::StudyReply&) const { return Kind::other; }
+    Kind operator()(const wire::SetCondition&) const { return Kind::manage; }
 };
 
 // One for each kind of message and no default: a forgotten one does not compile.
@@ -55,12 +58,17 @@ struct RightOf {
     Right operator()(const wire::OfferDirect&) const { return Right::publish; }
     // Those who may open a case; what they are told is decided by OfferedCases.
     Right operator()(const wire::AskPatient&) const { return Right::handle; }
+    Right operator()(const wire::ShowStudy&) const { return Right::manage; }
+    // An observer may be the participant of a study.
+    Right operator()(const wire::StudyReply&) const { return Right::see; }
+    Right operator()(const wire::SetCondition&) const { return Right::manage; }
 };
 
 template <class Message>
 concept Decision =
     std::is_same_v<Message, wire::Manage> || std::is_same_v<Message, wire::AdjustCamera> ||
-    std::is_same_v<Message, wire::Play> || std::is_same_v<Message, wire::LookBack>;
+    std::is_same_v<Message, wire::Play> || std::is_same_v<Message, wire::LookBack> ||
+    std::is_same_v<Message, wire::ShowStudy> || std::is_same_v<Message, wire::SetCondition>;
 
 }  // namespace
 

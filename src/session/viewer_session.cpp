@@ -50,6 +50,8 @@ Bytes ViewerSession::begin() {
     visitors_.clear();
     direct_grants_.clear();
     direct_receivers_ = {};
+    study_step_ = {};
+    study_reply_ = {};
     wire::Join join;
     join.token = wishes_.token;
     join.name = wishes_.name;
@@ -198,6 +200,14 @@ ViewerSession::Change ViewerSession::on_people(wire::ToParticipant message) {
     if (auto* receivers = std::get_if<wire::DirectReceivers>(&message)) {
         direct_receivers_ = std::move(*receivers);
         return Change::direct_receivers;
+    }
+    if (auto* step = std::get_if<wire::StudyStep>(&message)) {
+        study_step_ = std::move(*step);
+        return Change::study;
+    }
+    if (const auto* reply = std::get_if<wire::StudyReplied>(&message)) {
+        study_reply_ = *reply;
+        return Change::study_reply;
     }
     if (auto* content = std::get_if<wire::Content>(&message)) {
         content_ = std::move(*content);

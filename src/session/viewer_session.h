@@ -58,6 +58,8 @@ public:
         playback,    // playback(): where the recording is that the host plays
         patient,     // patient(): who the patient of the open case is
         asked_patient,     // asked_patient(): the answer to wire::AskPatient
+        study,             // study_step(): what this participant of a study is to be shown
+        study_reply,       // study_reply(): of a participant whom this program leads
         direct,            // direct_grants(): the publishers that this participant may connect to
         direct_receivers,  // direct_receivers(): who may connect to this participant
         goodbye,           // goodbye() says why: the session is over, the connection will end
@@ -119,6 +121,8 @@ public:
     const wire::Patient& asked_patient() const { return asked_patient_; }
     const std::vector<wire::DirectGrant>& direct_grants() const { return direct_grants_; }
     const wire::DirectReceivers& direct_receivers() const { return direct_receivers_; }
+    const wire::StudyStep& study_step() const { return study_step_; }
+    const wire::StudyReplied& study_reply() const { return study_reply_; }
     const Wishes& wishes() const { return wishes_; }
 
 private:
@@ -157,6 +161,8 @@ private:
     wire::Patient patient_, asked_patient_;
     std::vector<wire::DirectGrant> direct_grants_;
     wire::DirectReceivers direct_receivers_;
+    wire::StudyStep study_step_;
+    wire::StudyReplied study_reply_;
 };
 
 }  // namespace theatron::session

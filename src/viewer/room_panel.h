@@ -89,16 +89,33 @@ struct ChangeScreen {
 struct LookBackTo {  // for this person alone; 0: the present
     Duration ago{};
 };
+struct StudyPress {  // in the panel of a study
+    enum class What {
+        choose,  // `value`
+        digit,   // of a number: `value`
+        erase,   // the last digit
+        go_on,   // with what is chosen
+        leave_out,
+        ask_end,  // the study
+        end,
+        keep_on,  // it is not ended
+        aside,    // the panel
+        show,
+        close,  // after the end
+    } what{};
+    int value = 0;
+    bool operator==(const StudyPress&) const = default;
+};
 struct PressKey {  // as its key does
     xr::Action action{};
 };
 struct ShowSheet {
     Sheet sheet{};
 };
-using RoomCommand =
-    std::variant<GoToPerson, LookThrough, GoToPlace, Decide, AskToOpen, OpenOffered, LeaveClosed,
-                 ChangeCase, ChooseTool, ChangeMarks, Call, AnswerCall, ShowLarge, AdjustStep,
-                 PlayStep, ChangeScreen, ShowFace, LookBackTo, UseSound, PressKey, ShowSheet>;
+using RoomCommand = std::variant<GoToPerson, LookThrough, GoToPlace, Decide, AskToOpen, OpenOffered,
+                                 LeaveClosed, ChangeCase, ChooseTool, ChangeMarks, Call, AnswerCall,
+                                 ShowLarge, AdjustStep, PlayStep, ChangeScreen, ShowFace,
+                                 LookBackTo, UseSound, StudyPress, PressKey, ShowSheet>;
 
 struct RoomPanel {
     std::vector<xr::Panel> panels;

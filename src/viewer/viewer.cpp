@@ -275,6 +275,14 @@ void Viewer::follow_host(TimePoint now) {
     choose_pace();
 }
 
+// A new step shows itself, also where its panel was put aside.
+void Viewer::follow_study(TimePoint now) {
+    if (study_.take(participant_.study(), now) && headset_)
+        open_plate(Sheet::study);
+    if (plate_ == Sheet::study && !study_.is_on())
+        open_plate(Sheet::none);
+}
+
 // Restarts the choice of a drawing mode if the list of modes has changed.
 void Viewer::choose_pace() {
     auto ways = choice_.renderer() == automatic
@@ -298,6 +306,7 @@ bool Viewer::step(Size picture, TimePoint now) {
     if (status.phase == client::Participant::Phase::refused && status.joins == 0)
         throw Error(status.problem);
     follow_host(now);
+    follow_study(now);
     follow_receiving(now);
     const bool rests = rests_at(now);
     if (!rests)
@@ -465,6 +474,7 @@ Facts Viewer::facts(TimePoint now) {
     if ((!shows_case_ && plate_ != Sheet::patient_case) || !facts.past.empty() ||
         facts.received.status.phase != client::Participant::Phase::joined)
         asked_case_.reset();
+    study_.add_panel(panel, now);
     if (options_.one_panel) {
         add_tools(facts, panel, now);
         add_offers(facts, panel, now);

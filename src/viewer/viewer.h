@@ -32,6 +32,7 @@
 #include "viewer/sheet.h"
 #include "viewer/shown_moment.h"
 #include "viewer/sound_panel.h"
+#include "viewer/study_panel.h"
 #include "viewer/tools/tool.h"
 #include "xr/drawing_pace.h"
 #include "xr/drawing_rest.h"
@@ -188,6 +189,7 @@ private:
     void choose_next_color_codec(TimePoint now);
     void decide_on_visitor(wire::ManageAction action, TimePoint now);
     void follow_host(TimePoint now);
+    void follow_study(TimePoint now);
     void choose_pace();
     void begin_pace(std::vector<xr::DrawingWay> ways);
     void send_own_pose(Size picture, TimePoint now);
@@ -206,6 +208,7 @@ private:
     void go_to_person(ParticipantId id, TimePoint now);
     // Commands of the panels' buttons.
     void carry_out(const RoomCommand& command, TimePoint now);
+    void on(const StudyPress& press, TimePoint now);
     void on(const PressKey& key, TimePoint now);
     void on(const ShowSheet& opened, TimePoint now);
     void on(const Decide& decision, TimePoint now);
@@ -286,6 +289,7 @@ private:
     AdjustPanel adjusting_;
     Playing playing_;
     LookingBack looking_back_;
+    StudyPanel study_;
     bool slides_playback_ = false;                   // the slider that was pressed last
     std::optional<room::Pointer> pointer_;           // while this person points
     std::optional<Vec2> mouse_;                      // over the scene

@@ -229,6 +229,9 @@ void Viewer::add_sheet(Sheet sheet, const Facts& facts, RoomPanel& panel, TimePo
         case Sheet::look_back:
             add_look_back(facts, panel, now);
             break;
+        case Sheet::study:
+            study_.add_panel(panel, now);
+            break;
     }
 }
 

@@ -9,10 +9,18 @@
 namespace theatron::viewer {
 
 void Viewer::carry_out(const RoomCommand& command, TimePoint now) {
-    const bool needs_picture =
-        !std::holds_alternative<PressKey>(command) && !std::holds_alternative<ShowSheet>(command);
+    const bool needs_picture = !std::holds_alternative<PressKey>(command) &&
+                               !std::holds_alternative<ShowSheet>(command) &&
+                               !std::holds_alternative<StudyPress>(command);
     if (eye_.is_placed() || !needs_picture)
         std::visit([&](const auto& one) { on(one, now); }, command);
+}
+
+void Viewer::on(const StudyPress& press, TimePoint now) {
+    if (const auto reply = study_.carry_out(press, now))
+        participant_.reply_to_study(*reply);
+    if (headset_ && study_.is_aside() && plate_ == Sheet::study)
+        open_plate(Sheet::none);
 }
 
 void Viewer::on(const PressKey& key, TimePoint) {

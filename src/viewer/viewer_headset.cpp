@@ -14,7 +14,7 @@ void Viewer::enter_headset(bool real_room, double pictures_per_s, TimePoint now)
     scene_.set_cover_shown(true);
     headset_.emplace(eye_.view(any).room_from_eye, real_room);
     headset_wish_.reset();
-    open_plate(Sheet::none);
+    open_plate(study_.is_on() && !study_.is_aside() ? Sheet::study : Sheet::none);
     tools_.choose(ToolKind::none, scene_.meeting());
     pace_limits_ = xr::limits_of_display(pictures_per_s);
     window_pace_ = pace_;
@@ -61,6 +61,7 @@ void Viewer::on_headset(const xr::HeadsetFrame& frame, TimePoint now) {
                         : way().renderer;
     facts.people = scene_.meeting().people();
     facts.past = past(now);
+    facts.studies = study_.is_on();
     if (scene_.past_moment() && tools_.any())
         tools_.choose(ToolKind::none, scene_.meeting());
     show_plate(now);
@@ -102,6 +103,8 @@ void Viewer::follow_wish(const MenuRow& wish, TimePoint now) {
         if (const auto place = place_beside(wish.person))
             bring(*place);
     } else if (wish.action == MenuAction::panel) {
+        if (wish.panel == Sheet::study)
+            study_.put_aside(false);
         open_plate(wish.panel);
     } else {
         headset_wish_ = wish.action;
@@ -139,9 +142,10 @@ void Viewer::show_plate(TimePoint now) {
 
 void Viewer::press_plate(int command, TimePoint now) {
     plate_made_ = {};
-    if (command == close_plate)
+    if (command == close_plate) {
+        study_.put_aside(study_.is_aside() || plate_ == Sheet::study);
         open_plate(Sheet::none);
-    else if (command >= 0 && command < int(plate_commands_.size()))
+    } else if (command >= 0 && command < int(plate_commands_.size()))
         carry_out(RoomCommand(plate_commands_[std::size_t(command)]), now);
 }
 

@@ -11,6 +11,8 @@ std::vector<MenuRow> menu_rows(const MenuFacts& facts) {
     std::vector<MenuRow> rows;
     if (!facts.past.empty())
         rows.push_back({MenuAction::live, say(Phrase::menu_live), {}});
+    if (facts.studies)
+        rows.push_back({MenuAction::panel, say(Phrase::study), {}, Sheet::study});
     rows.push_back({MenuAction::microphone,
                     say(facts.muted             ? Phrase::menu_muted
                         : facts.microphone_open ? Phrase::menu_close_microphone

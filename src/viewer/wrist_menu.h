@@ -42,6 +42,7 @@ struct MenuFacts {
     std::string drawing;
     std::vector<room::RoomPerson> people;  // the others
     std::string past = {};                 // as in Facts
+    bool studies = false;                  // the person takes part in a study
 };
 
 // At most `most_menu_people` rows name people; the last one's text says how many more there are.

@@ -54,6 +54,7 @@ TEST(WristMenu, AllNotesHaveLettersInTheRoomInEveryLanguage) {
 #include "phrases/connection.inc"
 #include "phrases/meeting.inc"
 #include "phrases/pictures.inc"
+#include "phrases/study.inc"
 #include "phrases/window.inc"
 #undef PHRASE
     };

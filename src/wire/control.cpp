@@ -209,6 +209,16 @@ bool is_sound(const DirectGrant& grant) {
 bool is_sound(const DirectReceiver& receiver) {
     return receiver.secret.size() == direct_secret_size;
 }
+bool is_sound(const StudyStep& step) {
+    return step.kind <= StudyKind::over && step.step_size > 0 && step.lowest <= step.highest &&
+           step.watch >= Duration(0) && step.limit >= Duration(0);
+}
+bool is_sound(const StudyReply& reply) {
+    return reply.action >= StudyAction::answer && reply.action <= StudyAction::stop;
+}
+bool is_sound(const SetCondition& condition) {
+    return condition.latency >= Duration(0) && condition.latency <= max_added_latency;
+}
 bool is_sound(const Managed& answer) {
     return answer.refusal <= last_manage_refusal;
 }

@@ -28,7 +28,11 @@ static_assert(code_of(ManageRefusal::adjusting_role) == TextCode::operators_adju
 static_assert(code_of(ManageRefusal::playing_role) == TextCode::role_plays_not);
 static_assert(code_of(ManageRefusal::nothing_to_play) == TextCode::nothing_to_play);
 static_assert(code_of(ManageRefusal::nothing_kept) == TextCode::nothing_kept);
-static_assert(last_manage_refusal == ManageRefusal::nothing_kept);
+static_assert(code_of(ManageRefusal::shows_no_study) == TextCode::shows_no_study);
+static_assert(code_of(ManageRefusal::other_study) == TextCode::other_study);
+static_assert(code_of(ManageRefusal::no_such_codec) == TextCode::condition_codec);
+static_assert(code_of(ManageRefusal::large_step) == TextCode::large_step);
+static_assert(last_manage_refusal == ManageRefusal::large_step);
 
 // A sentence, in the language of the program's person; empty for `none`.
 inline std::string text_of(ManageRefusal refusal) {

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "base/time.h"
+
 namespace theatron::wire {
 
 // Versions of the protocol that this build speaks.
@@ -46,14 +48,19 @@ enum class Feature : std::uint16_t {
     direct = 12,        // pictures go from publisher to receiver: OfferDirect, DirectGrants
     asks_patient = 13,  // may ask whose case it is before it is opened: AskPatient, AskedPatient
     shows_screen = 14,  // may offer a screen as JPEG pictures: CameraKind::screen
+    study = 15,         // shows steps of a study: StudyStep, StudyReply
 };
 inline constexpr std::size_t max_features = 32;
 inline constexpr std::size_t person_id_size = 16;
 inline constexpr std::size_t max_visitors = 32;  // people who wait for admission at once
 inline constexpr std::size_t max_offered_cases = 64;
-inline constexpr std::size_t max_patient_text = 200;             // of a patient's name, of an id
-inline constexpr std::size_t max_adjustment_size = 64;           // bytes of one camera's
-inline constexpr std::size_t content_hash_size = 32;             // base/content_hash.h
+inline constexpr std::size_t max_patient_text = 200;    // of a patient's name, of an id
+inline constexpr std::size_t max_adjustment_size = 64;  // bytes of one camera's
+inline constexpr std::size_t content_hash_size = 32;    // base/content_hash.h
+inline constexpr std::size_t max_study_texts = 41;      // paragraphs of one step of a study
+inline constexpr std::size_t max_study_text = 1000;   // one of them, a choice, a meaning of a point
+inline constexpr std::size_t max_study_choices = 20;  // of one step
+inline constexpr Duration max_added_latency = std::chrono::seconds(5);
 inline constexpr std::size_t max_content_piece = 16 * 1024;      // bytes of content in one message
 inline constexpr std::size_t max_content_request = 1024 * 1024;  // bytes that one request asks for
 

@@ -201,6 +201,8 @@ constexpr Row rows[] = {
     {TextCode::coarser_color, {"colour as {0}", "Farbe als {0}"}},
     {TextCode::loss_outside_region,
      {"bounded loss outside the region", "begrenzter Verlust außerhalb des wichtigen Bereichs"}},
+    {TextCode::codecs_are_set,
+     {"The codecs are set by the study.", "Die Codecs sind durch die Studie festgelegt."}},
 
     {TextCode::link_without_cameras,
      {"Your role here lets you send no cameras; use the host's link for publishers, or ask an "
@@ -316,6 +318,20 @@ constexpr Row rows[] = {
     {TextCode::nothing_kept,
      {"The host keeps nothing of the last minute that you may see.",
       "Der Gastgeber hat von der letzten Minute nichts behalten, was Sie sehen dürfen."}},
+    {TextCode::shows_no_study,
+     {"The program of this participant is too old to show a study; update it.",
+      "Das Programm dieses Teilnehmers ist zu alt, um eine Studie zu zeigen; aktualisieren Sie "
+      "es."}},
+    {TextCode::other_study,
+     {"This participant takes part in a study that another operator's program leads.",
+      "Dieser Teilnehmer nimmt an einer Studie teil, die das Programm einer anderen "
+      "Sitzungsleitung leitet."}},
+    {TextCode::condition_codec,
+     {"The host does not know a codec of this condition.",
+      "Der Gastgeber kennt einen Codec dieser Bedingung nicht."}},
+    {TextCode::large_step,
+     {"This step of the study has too much text to be sent; shorten it.",
+      "Dieser Schritt der Studie hat zu viel Text, um gesendet zu werden; kürzen Sie ihn."}},
 };
 
 constexpr bool is_in_order() {

@@ -78,6 +78,7 @@ enum class TextCode : std::uint16_t {
     one_frame_of = 310,   // {0}: how many
     coarser_color = 311,  // {0}: codec
     loss_outside_region = 312,
+    codecs_are_set = 313,
 
     // Cameras of participants.
     link_without_cameras = 400,
@@ -125,6 +126,10 @@ enum class TextCode : std::uint16_t {
     role_plays_not = 609,
     nothing_to_play = 610,
     nothing_kept = 611,
+    shows_no_study = 612,
+    other_study = 613,
+    condition_codec = 614,
+    large_step = 615,
 };
 
 inline constexpr std::size_t max_text_arguments = 4;

@@ -303,6 +303,111 @@ struct OfferDirect {
     }
 };
 
+// The parts of a step that a surface shows; src/study has all kinds of steps.
+enum class StudyKind : std::uint8_t {
+    interrupted = 0,  // nobody leads the study at present: nothing can be replied
+    consent = 1,      // yes (1) or no (0)
+    read = 2,         // done
+    watch = 3,        // done, but not before StudyStep::watch is over
+    number = 4,       // from lowest to highest
+    yes_no = 5,
+    rating = 6,  // from lowest to highest in steps
+    choice = 7,  // 1 to the number of choices
+    over = 8,    // the study has ended; nothing can be replied
+};
+
+struct StudyText {
+    std::string text;
+    bool operator==(const StudyText&) const = default;
+
+    static void fields(auto& m, auto&& field) { field(m.text, max_study_text); }
+};
+
+// The step that a participant of a study sees from now on.
+struct StudyStep {
+    std::uint32_t step = 0, steps = 0;  // "4 of 31", from 1 on; a reply names the step
+    StudyKind kind{};
+    std::vector<StudyText> texts;  // paragraphs
+    std::vector<StudyText> choices;
+    std::string left, right;  // what the lowest and the highest point mean
+    std::int32_t lowest = 0, highest = 0, step_size = 1;
+    Duration watch{}, limit{};  // what is left of both; 0: none
+    std::string problem;        // why the last reply was not taken; empty: none
+    bool operator==(const StudyStep&) const = default;
+
+    static void fields(auto& m, auto&& field) {
+        field(m.step);
+        field(m.steps);
+        field(m.kind);
+        field(m.texts, max_study_texts);
+        field(m.choices, max_study_choices);
+        field(m.left, max_study_text);
+        field(m.right, max_study_text);
+        field(m.lowest);
+        field(m.highest);
+        field(m.step_size);
+        field(m.watch);
+        field(m.limit);
+        field(m.problem, max_sentence);
+    }
+};
+
+// An operator's program, which leads a study, shows a step to a participant. The host answers with
+// Managed.
+struct ShowStudy {
+    std::uint32_t number = 0;  // as in AdjustCamera
+    ParticipantId participant{};
+    StudyStep step;
+
+    static void fields(auto& m, auto&& field) {
+        field(m.number);
+        field(m.participant);
+        field(m.step);
+    }
+};
+
+enum class StudyAction : std::uint8_t {
+    answer = 1,  // with a value, or where there is nothing to answer: done
+    skip = 2,    // the question is left out
+    stop = 3,    // the participant ends the study
+};
+
+// The reply to the step of this number; to any other one it changes nothing.
+struct StudyReply {
+    std::uint32_t step = 0;
+    StudyAction action = StudyAction::answer;
+    std::int32_t value = 0;
+    bool operator==(const StudyReply&) const = default;
+
+    static void fields(auto& m, auto&& field) {
+        field(m.step);
+        field(m.action);
+        field(m.value);
+    }
+};
+
+// An operator sets how a participant sees the session. An empty text: as the participant asks for
+// it. The host answers with Managed.
+struct SetCondition {
+    std::uint32_t number = 0;  // as in AdjustCamera
+    ParticipantId participant{};
+    std::string renderer, depth_codec, color_codec;
+    // By which everything is late, to the participant and from it.
+    Duration latency{};
+    bool locked = false;  // the participant cannot change what is set
+    bool operator==(const SetCondition&) const = default;
+
+    static void fields(auto& m, auto&& field) {
+        field(m.number);
+        field(m.participant);
+        field(m.renderer, max_renderer);
+        field(m.depth_codec, max_codec);
+        field(m.color_codec, max_codec);
+        field(m.latency);
+        field(m.locked);
+    }
+};
+
 enum class CameraCondition : std::uint8_t { live = 0, stale = 1, ended = 2, failed = 3 };
 
 // Said by the host about any camera, by a publisher about its own.

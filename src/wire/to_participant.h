@@ -297,10 +297,15 @@ enum class ManageRefusal : std::uint8_t {
     playing_role = 10,     // the sender may not play the recording
     nothing_to_play = 11,  // the host plays no recording
     nothing_kept = 12,     // of the past that the sender may see
+    shows_no_study = 13,   // the participant's program does not know studies
+    other_study = 14,      // the participant takes part in one that another operator leads
+    no_such_codec = 15,    // in a condition
+    large_step = 16,       // of a study: it does not fit into a message
 };
-inline constexpr ManageRefusal last_manage_refusal = ManageRefusal::nothing_kept;
+inline constexpr ManageRefusal last_manage_refusal = ManageRefusal::large_step;
 
-// The host has decided on the sender's Manage, AdjustCamera, Play or LookBack of this number.
+// The host has decided on the sender's Manage, AdjustCamera, Play, LookBack, ShowStudy or
+// SetCondition of this number.
 struct Managed {
     std::uint32_t number = 0;
     ManageRefusal refusal{};
@@ -416,6 +421,18 @@ struct AskedPatient {
     Patient patient;
 
     static void fields(auto& m, auto&& field) { field(m.patient); }
+};
+
+// To the operator whose program leads a study: the reply of this participant.
+struct StudyReplied {
+    ParticipantId participant{};
+    StudyReply reply;
+    bool operator==(const StudyReplied&) const = default;
+
+    static void fields(auto& m, auto&& field) {
+        field(m.participant);
+        field(m.reply);
+    }
 };
 
 // To a receiver: the permission to connect to this publisher for the pictures of its cameras.

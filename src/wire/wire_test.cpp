@@ -394,6 +394,38 @@ TEST(Control, EveryMessageRoundTrips) {
               theatron::Status::malformed);
     EXPECT_EQ(round_trip(AskPatient{patient.of_case}).of_case, patient.of_case);
     EXPECT_EQ(round_trip(AskedPatient{patient}).patient, patient);
+    StudyStep step{4,
+                   31,
+                   StudyKind::rating,
+                   {{"How was it?"}, {"Think of all."}},
+                   {{"never"}},
+                   "not at all",
+                   "very much",
+                   -3,
+                   3,
+                   2,
+                   5s,
+                   9s,
+                   "Choose a point."};
+    EXPECT_EQ(round_trip(step), step);
+    EXPECT_EQ(round_trip(ShowStudy{8, ParticipantId{3}, step}).step, step);
+    const StudyReply skip{4, StudyAction::skip, -7};
+    EXPECT_EQ(round_trip(skip), skip);
+    EXPECT_EQ(round_trip(StudyReplied{ParticipantId{3}, skip}),
+              (StudyReplied{ParticipantId{3}, skip}));
+    const SetCondition late{9, ParticipantId{3}, "mesh", "rvl", "jpeg", 80ms, true};
+    EXPECT_EQ(round_trip(late), late);
+    step.step_size = 0;
+    EXPECT_EQ(decode_to_participant(encode(ToParticipant(step))).error(),
+              theatron::Status::malformed);
+    step.step_size = 1;
+    step.highest = -4;
+    EXPECT_EQ(decode_to_participant(encode(ToParticipant(step))).error(),
+              theatron::Status::malformed);
+    EXPECT_EQ(decode_to_host(encode(ToHost(StudyReply{4, StudyAction{4}, 0}))).error(),
+              theatron::Status::malformed);
+    EXPECT_EQ(decode_to_host(encode(ToHost(SetCondition{9, {}, "", "", "", 6s, false}))).error(),
+              theatron::Status::malformed);
     EXPECT_EQ(decode_to_host(encode(ToHost(AskPatient{Bytes(31)}))).error(),
               theatron::Status::malformed);
     EXPECT_EQ(decode_to_participant(encode(ToParticipant(AskedPatient{}))).error(),
@@ -533,6 +565,12 @@ TEST(Control, RefusesMoreThanItsLimits) {
     EXPECT_FALSE(
         accepted(Goodbye{{TextCode{9}, std::vector<std::string>(max_text_arguments + 1)}}));
     EXPECT_FALSE(accepted(Delivery{1, 2, 0, "", false, {}}));
+    StudyStep step;
+    step.texts.resize(max_study_texts);
+    step.choices.resize(max_study_choices);
+    EXPECT_TRUE(accepted(step));
+    step.texts.emplace_back();
+    EXPECT_FALSE(accepted(step));
     Camera camera;
     camera.calibration = numbered(max_calibration_size);
     EXPECT_TRUE(accepted(Welcome{1, {}, "", {camera}}));
@@ -543,6 +581,9 @@ TEST(Control, RefusesMoreThanItsLimits) {
     EXPECT_LE(max_cameras * (sizeof(Camera) + max_calibration_size + bytes_a_character * max_name),
               max_decoded_size);
     EXPECT_LE(max_streams * (sizeof(StreamSetting) + bytes_a_character * max_codec),
+              max_decoded_size);
+    EXPECT_LE((max_study_texts + max_study_choices + 2) *
+                  (sizeof(StudyText) + bytes_a_character * max_study_text),
               max_decoded_size);
 }
 

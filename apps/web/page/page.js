@@ -139,12 +139,13 @@ function run({ client, voice, face, screen, module, flat }) {
     offer_touch($("touch"), listen(canvas, client), client);
     const picture_panel = new PicturePanel(client, () => next_texts = 0);
     follow_touch(() => picture_panel.name());
-    $("room_panels").addEventListener("click", event => {
-        const command = event.target.dataset.command === undefined ? null : command_of(event.target, page.state.overlay.panels);
-        if (command !== null)
-            client.command(command);
-        next_texts = 0;
-    });
+    for (const id of ["room_panels", "study"])
+        $(id).addEventListener("click", event => {
+            const command = event.target.dataset.command === undefined ? null : command_of(event.target, page.state.overlay.panels);
+            if (command !== null)
+                client.command(command);
+            next_texts = 0;
+        });
     for (const [id, key] of [["draw", "z"], ["back_to_live", "end"]])
         $(id).addEventListener("click", () => client.key(key, ""));
     $("more").addEventListener("click", event => {

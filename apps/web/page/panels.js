@@ -46,15 +46,18 @@ function update(place, content, fill) {
         return;
     shown.set(place.id, key);
     const focus = document.activeElement?.dataset?.place;
+    const had_focus = place.id === "study" && place.contains(document.activeElement);
     place.replaceChildren();
     fill(place, content);
+    const buttons = [...place.querySelectorAll("button")];
     if (focus)
-        [...place.querySelectorAll("button")].find(button => button.dataset.place === focus)?.focus();
+        (buttons.find(button => button.dataset.place === focus) ?? (had_focus ? buttons[0] : null))?.focus();
 }
 
 // The room's panels are not rebuilt while one of their buttons is pressed: the click would be lost.
 let is_pressed = false;
-$("room_panels").addEventListener("pointerdown", () => is_pressed = true);
+for (const id of ["room_panels", "study"])
+    $(id).addEventListener("pointerdown", () => is_pressed = true);
 for (const end of ["pointerup", "pointercancel"])
     addEventListener(end, () => setTimeout(() => is_pressed = false), true);  // behind the click
 
@@ -261,6 +264,13 @@ function show_details(state, signs) {
     })), fill_cameras);
 }
 
+// Beside the other panels, until the study ends. A screen reader says each new question.
+function show_study(panels) {
+    $("study").hidden = panels.length === 0;
+    update_panels($("study"), panels);
+    set_text($("study_news"), panels[0]?.rows[0]?.text ?? "");
+}
+
 // `sheet` is the page's Sheet, `notices` its Notices; `way` is "room" or "flat",
 // and `way_sentence` says why, or which camera is shown.
 export function show(state, { sheet, notices, way, way_sentence, now_ms }) {
@@ -279,6 +289,7 @@ export function show(state, { sheet, notices, way, way_sentence, now_ms }) {
     if (way === "flat" && ["case", "draw"].includes(sheet.name))
         sheet.close();  // nothing of them is in this view
     show_details(state, [warning, unrest ? text("unrest", { count: unrest }) : ""].filter(Boolean));
+    show_study(of_kind(overlay, "study"));
     sheet.entitle();
     update_panels($("room_panels"), (kinds[sheet.name] ?? []).flatMap(kind => of_kind(overlay, kind)));
 }

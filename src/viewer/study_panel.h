@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// The panel of a person who takes part in a study: the step that the study's program shows, and the
+// buttons of the reply. The same in the window, the page and the headset.
+//
+// A reply is chosen first and sent by a second button, because it cannot be taken back. The panel
+// may be put aside, and comes back with the next step.
+//
+// Pure: time is an argument.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "client/participant.h"
+#include "viewer/room_panel.h"
+
+namespace theatron::viewer {
+
+// Use from one thread.
+class StudyPanel {
+public:
+    // After this time without another step a reply can be given once more.
+    static constexpr Duration again_after = std::chrono::seconds(4);
+    // Buttons of points beside each other; of more points than `most_points` the number is typed.
+    static constexpr int points_in_row = 7, most_points = 21;
+
+    // The session's newest step; nullopt: there is none. True: another one than before has come.
+    bool take(const std::optional<client::Participant::Study>& study, TimePoint now);
+    // There is something to show, perhaps put aside.
+    bool is_on() const { return step_.has_value(); }
+    bool is_aside() const { return aside_; }
+    void put_aside(bool aside) { aside_ = aside; }
+
+    // Returns the reply that is to be sent, if the press makes one.
+    std::optional<wire::StudyReply> carry_out(const StudyPress& press, TimePoint now);
+
+    // Rows and buttons, if there is a step.
+    void add_panel(RoomPanel& panel, TimePoint now) const;
+
+private:
+    // The lowest and the highest value of a reply.
+    std::pair<int, int> bounds() const;
+    bool is_question() const;
+    bool is_typed() const;
+    bool may_go_on(TimePoint now) const;
+    Duration seen_for(TimePoint now) const { return now - shown_; }
+    void add_texts(xr::Panel& rows) const;
+    void add_answers(xr::Panel& rows, RoomPanel& panel) const;
+    void add_keys(xr::Panel& rows, RoomPanel& panel) const;
+    void add_time(xr::Panel& rows, TimePoint now) const;
+    void add_ways_on(xr::Panel& rows, RoomPanel& panel, TimePoint now) const;
+    xr::PanelButton answer(const std::string& label, int value, RoomPanel& panel) const;
+
+    std::optional<wire::StudyStep> step_;
+    std::uint64_t version_ = 0;
+    // The last step that could be replied to.
+    std::pair<std::uint32_t, wire::StudyKind> last_{};
+    TimePoint shown_;
+    std::optional<int> chosen_;
+    std::optional<TimePoint> sent_;
+    bool aside_ = false;
+    bool asks_end_ = false;
+};
+
+}  // namespace theatron::viewer
