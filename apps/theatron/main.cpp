@@ -112,9 +112,7 @@ int run_with_code_of_configuration(int argc, char** argv) {
     try {
         return run(argc, argv);
     } catch (const theatron::app::ConfigError& e) {
-        theatron::output::print(std::string("theatron: ") + e.what() +
-                                "
-                                ",
+        theatron::output::print(std::string("theatron: ") + e.what() + "\n",
                                 theatron::output::Stream::error);
         const std::vector<std::string> words(argv, argv + argc);
         const bool is_check =

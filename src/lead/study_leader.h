@@ -24,8 +24,8 @@ struct Present {
 };
 std::vector<Present> present_in(const client::Participant::Room& room);
 
-// The person who takes part: of this name or number ("#7"), or without `who` the only one that is no
-// operator. nullopt: not here; `problem` is then a sentence if a person has to decide.
+// The person who takes part: of this name or number ("#7"), or without `who` the only one that is
+// no operator. nullopt: not here; `problem` is then a sentence if a person has to decide.
 std::optional<Present> choose_participant(const std::vector<Present>& present,
                                           const std::string& who, std::string& problem);
 

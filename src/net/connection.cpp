@@ -264,7 +264,7 @@ void Connection::read() {
         });
 }
 
-// What was read and has waited.
+// Hands on the envelopes that have waited for their time.
 void Connection::take_delayed() {
     while (!finished_ && !only_reads_)
         if (const auto envelope = in_.take(now_()))

@@ -323,7 +323,7 @@ struct StudyText {
     static void fields(auto& m, auto&& field) { field(m.text, max_study_text); }
 };
 
-// What a participant of a study sees from now on.
+// The step that a participant of a study sees from now on.
 struct StudyStep {
     std::uint32_t step = 0, steps = 0;  // "4 of 31", from 1 on; a reply names the step
     StudyKind kind{};
