@@ -10,6 +10,7 @@
 #include "capture/folder_calibration.h"
 #include "capture/mkv_file.h"
 #include "capture/playback.h"
+#include "capture/steady_times.h"
 #include "capture/time_pairing.h"
 #include "video/jpeg_header.h"
 
@@ -30,7 +31,6 @@ public:
             throw Error("'" + path.string() +
                         (file_.is_cut_off() ? "' is cut off before its first depth picture."
                                             : "' holds no whole depth picture."));
-        first_ = pair_->depth.time;
         if (file_.is_cut_off())
             log::warning("capture", "the recording is cut off and plays as far as it goes",
                          {{"file", path.string()}});
@@ -45,7 +45,7 @@ public:
     std::optional<Duration> offset() override {
         if (!upcoming())
             return std::nullopt;
-        return pair_->depth.time - first_;
+        return due_;
     }
 
     void skip() override { pair_.reset(); }
@@ -75,6 +75,7 @@ public:
         damaged_ = 0;
         pairing_ = TimePairing<Bytes>(tolerance(), most_colors());
         pair_.reset();
+        times_ = {};
     }
 
     std::uint64_t lost_pictures() const override {
@@ -100,19 +101,27 @@ private:
     // Sets pair_ to the next frame; false at the end.
     bool upcoming() {
         while (!pair_) {
-            pair_ = pairing_.take();
-            if (pair_)
+            if (take_pair())
                 break;
             std::optional<MkvFile::Packet> packet = file_.read();
             if (!packet) {
                 pairing_.finish();
-                pair_ = pairing_.take();
                 note_left_out();
-                return pair_.has_value();
+                return take_pair();
             }
             add(std::move(*packet));
         }
         note_left_out();
+        return true;
+    }
+
+    bool take_pair() {
+        pair_ = pairing_.take();
+        if (!pair_)
+            return false;
+        due_ = times_.due(pair_->depth.time, seconds_to_duration(1 / frames_per_second()));
+        if (times_.jumped())
+            note(jump_noted_, jump_remark);
         return true;
     }
 
@@ -155,9 +164,10 @@ private:
     MkvFile file_;
     TimePairing<Bytes> pairing_;
     std::optional<TimePairing<Bytes>::Pair> pair_;
-    Duration first_{};
+    SteadyTimes times_;
+    Duration due_{};
     std::uint64_t damaged_ = 0, lost_before_ = 0;  // in this round, in those before it
-    bool damage_noted_ = false, backward_noted_ = false, apart_noted_ = false;
+    bool damage_noted_ = false, backward_noted_ = false, apart_noted_ = false, jump_noted_ = false;
 };
 
 Calibration read_calibration(const fs::path& path, const MkvFile& file) {

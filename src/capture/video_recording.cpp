@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include "base/error.h"
+#include "base/log.h"
 #include "ffmpeg/ffmpeg.h"
 #include "geometry/screen.h"
 
@@ -88,10 +90,10 @@ VideoAnswer VideoRecording::open() {
         default:
             child_.refuse("a picture before the description");
     }
-    first_.reset();
+    any_ = false;
     upcoming_.reset();
     ended_ = false;
-    last_ = {};
+    times_ = {};
     request(VideoRequest::next);
     return opened;
 }
@@ -102,17 +104,16 @@ void VideoRecording::receive() {
     lost_ = std::max<std::uint64_t>(lost_, next.lost);
     if (next.kind == Kind::end) {
         ended_ = true;
-        if (!first_)
+        if (!any_)
             throw Error(quoted(path_) + " has no picture that can be decoded.");
         return;
     }
     if (next.kind != Kind::picture)
         child_.refuse("no picture");
-    if (!first_)
-        first_ = next.time;
-    // Damaged files have times that go back.
-    last_ = std::max(last_, next.time - *first_);
-    upcoming_ = last_;
+    any_ = true;
+    upcoming_ = times_.due(next.time, seconds_to_duration(1 / frames_per_second()));
+    if (times_.jumped() && !std::exchange(jump_noted_, true))
+        log::warning("capture", jump_remark, {{"file", path_.string()}});
 }
 
 void VideoRecording::take() {

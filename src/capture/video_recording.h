@@ -7,6 +7,7 @@
 
 #include "capture/playback.h"
 #include "capture/readable_file.h"
+#include "capture/steady_times.h"
 #include "capture/video_answer.h"
 #include "sandbox/child.h"
 
@@ -40,8 +41,9 @@ private:
     ReadableFile file_;
     sandbox::Child child_;
     VideoAnswer opened_;
-    std::optional<Duration> first_, upcoming_;
-    Duration last_{};
+    std::optional<Duration> upcoming_;
+    SteadyTimes times_;
+    bool any_ = false, jump_noted_ = false;
     std::uint64_t lost_ = 0, lost_before_ = 0;  // in this round, in those before it
     bool waiting_ = false;                      // an answer is outstanding
     bool ended_ = false;

@@ -211,6 +211,15 @@ const DicomElement* DicomSet::find(DicomTag tag) const {
     return nullptr;
 }
 
+bool DicomSet::has_two_values(DicomTag tag) const {
+    const DicomElement* const first = find(tag);
+    return first && std::any_of(elements_.begin(), elements_.end(), [&](const DicomElement& other) {
+               return other.tag == tag && !other.value.empty() &&
+                      !std::equal(other.value.begin(), other.value.end(), first->value.begin(),
+                                  first->value.end());
+           });
+}
+
 std::string DicomSet::text(DicomTag tag, std::size_t most) const {
     const DicomElement* element = find(tag);
     if (!element || element->is_open)
@@ -321,8 +330,20 @@ std::vector<ByteView> DicomSet::fragments(const DicomElement& element, bool& is_
     return found;
 }
 
+namespace {
+
+bool begins_with_mark(ByteView bytes) {
+    return bytes.size() >= 4 && std::memcmp(bytes.data(), "DICM", 4) == 0;
+}
+
+bool has_preamble(ByteView bytes) {
+    return bytes.size() >= 132 && begins_with_mark(bytes.subspan(128));
+}
+
+}  // namespace
+
 bool begins_as_dicom(ByteView head) {
-    if (head.size() >= 132 && std::memcmp(head.data() + 128, "DICM", 4) == 0)
+    if (has_preamble(head) || begins_with_mark(head))
         return true;
     if (head.size() < 8)
         return false;
@@ -352,8 +373,9 @@ DicomFile parse_dicom(ByteView file, std::size_t most) {
     if (!begins_as_dicom(file))
         return parsed;
     parsed.kind = DicomFile::Kind::good;
-    const bool has_preamble = file.size() >= 132 && std::memcmp(file.data() + 128, "DICM", 4) == 0;
-    const ByteView rest = has_preamble ? file.subspan(132) : file;
+    // Some programs leave the preamble out, but not the mark behind it.
+    const std::size_t begin = has_preamble(file) ? 132 : begins_with_mark(file) ? 4 : 0;
+    const ByteView rest = file.subspan(begin);
     // Group 2 describes the file and is always little-endian.
     std::size_t end = 0;
     Elements meta(rest, {}, 0);
@@ -382,7 +404,7 @@ DicomFile parse_dicom(ByteView file, std::size_t most) {
     parsed.set = DicomSet(set, encoding_of(set));
     // Any bytes may begin as a DICOM file without a preamble does; its class, modality or size
     // follows in one.
-    if (!has_preamble && !parsed.set.has(0x00080016) && !parsed.set.has(0x00080060) &&
+    if (begin == 0 && !parsed.set.has(0x00080016) && !parsed.set.has(0x00080060) &&
         !parsed.set.has(0x00280010))
         parsed.kind = DicomFile::Kind::no_dicom;
     return parsed;

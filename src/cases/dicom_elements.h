@@ -44,6 +44,8 @@ public:
     // The first element of this tag that is not empty; null where there is none.
     const DicomElement* find(DicomTag tag) const;
     bool has(DicomTag tag) const { return find(tag) != nullptr; }
+    // The element is there more than once, with other bytes.
+    bool has_two_values(DicomTag tag) const;
     // A text without blanks and zeros at its ends.
     std::string text(DicomTag tag, std::size_t most = 1024) const;
     // A whole number, in binary or as text; `fallback` where there is none.

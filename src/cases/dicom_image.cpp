@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "cases/dicom_identifiers.h"
 #include "cases/dicom_number.h"
@@ -195,6 +196,8 @@ Answer kind_of_object(const DicomSet& set) {
         return Answer::segmentation;
     if (is("30"))
         return Answer::map;
+    if (is("104.3") || is("104.4"))
+        return Answer::document;
     return is("66") ? Answer::no_image : Answer::content;  // 66: raw data
 }
 
@@ -233,6 +236,33 @@ Answer kind_of(const DicomSet& set, const DicomImage& image) {
     return Answer::content;
 }
 
+std::string problem_of_repeated(const DicomSet& set) {
+    constexpr std::pair<DicomTag, const char*> wanted[] = {
+        {rows_tag, "number of rows"},        {columns_tag, "number of columns"},
+        {slope_tag, "rescale slope"},        {intercept_tag, "rescale intercept"},
+        {position_tag, "position"},          {orientation_tag, "orientation"},
+        {spacing_tag, "pixel spacing"},      {0x00280101, "number of bits stored"},
+        {0x00280103, "pixel representation"}};
+    for (const auto& [tag, name] : wanted)
+        if (set.has_two_values(tag))
+            return std::string("has two values of its ") + name + "; export it again";
+    return "";
+}
+
+// Pixels of more bits or more images than are said would be shown as other values.
+std::string problem_of_pixels(const DicomSet& set, const DicomImage& image) {
+    const DicomElement* const pixels = set.find(pixel_data_tag);
+    if (!pixels || pixels->is_open || image.columns < 1 || image.rows < 1 || image.frames < 1)
+        return "";
+    const std::size_t announced = std::size_t(image.columns) * std::size_t(image.rows) *
+                                  std::size_t(image.frames) *
+                                  std::size_t(std::max(image.bits.allocated / 8, 1));
+    if (pixels->value.size() / 2 < announced)
+        return "";
+    return "holds at least twice the pixels that its size, its bits and its number of images "
+           "announce, so it is not known what they mean; export it again";
+}
+
 }  // namespace
 
 int ValueTable::value_of(int stored) const {
@@ -268,6 +298,10 @@ DicomImage describe_image(const DicomFile& file) {
     for (std::size_t i = 0; i < slice_keys; ++i)
         common.keys[i] = set.text(key_tags[i], 64);
     image.what = kind_of(set, image);
+    if (image.what == Answer::content && common.problem.empty())
+        common.problem = problem_of_pixels(set, image);
+    if (image.what == Answer::content && common.problem.empty())
+        common.problem = problem_of_repeated(set);
     return image;
 }
 

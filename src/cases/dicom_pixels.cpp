@@ -8,6 +8,10 @@
 
 #include <algorithm>
 #include <cstring>
+#include <string_view>
+#include <utility>
+
+#include "base/outside_text.h"
 
 namespace theatron::cases {
 namespace {
@@ -173,7 +177,41 @@ Answer read_packed(const DicomFile& file, const DicomElement& pixels, const Dico
     return possible ? Answer::content : Answer::compression;
 }
 
+// Some programs give the length of packed pixels.
+bool is_packed(const DicomElement& pixels) {
+    constexpr unsigned char item[] = {0xfe, 0xff, 0x00, 0xe0};
+    return pixels.is_open || (pixels.value.size() > sizeof(item) &&
+                              std::memcmp(pixels.value.data(), item, sizeof(item)) == 0);
+}
+
+// How a packing that is not read is called.
+std::string name_of_packing(const std::string& syntax) {
+    constexpr std::pair<std::string_view, const char*> known[] = {
+        {"1.2.840.10008.1.2.4.20", "HTJ2K"},
+        {"1.2.840.10008.1.2.4.11", "JPEG XL"},
+        {"1.2.840.10008.1.2.4.10", "a film"},
+        {"1.2.840.10008.1.2.4.9", "JPIP or JPEG 2000, part 2"},
+        {"1.2.840.10008.1.2.8", "deflate"},
+    };
+    for (const auto& [begin, name] : known)
+        if (syntax.starts_with(begin))
+            return name;
+    return clean_text(syntax, 64);
+}
+
 }  // namespace
+
+std::string packing_problem(const DicomFile& file) {
+    const DicomElement* const pixels = file.set.find(pixel_data_tag);
+    if (!pixels || !is_packed(*pixels))
+        return "";
+    bool is_cut_off = false;
+    const std::vector<ByteView> all = file.set.fragments(*pixels, is_cut_off);
+    if (is_cut_off || all.size() < 2 || syntax_of(file, all[1]) != gdcm::TransferSyntax::TS_END)
+        return "";
+    return "has its pixels packed as " + name_of_packing(file.transfer_syntax) +
+           ", which is not read; export it uncompressed";
+}
 
 Answer read_stored_values(const DicomFile& file, const DicomImage& image, int frame,
                           std::vector<int>& values, StoredBits& bits) {
@@ -182,7 +220,7 @@ Answer read_stored_values(const DicomFile& file, const DicomImage& image, int fr
         return Answer::cut_off;
     bits = image.bits;
     values.resize(std::size_t(image.columns) * std::size_t(image.rows));
-    if (pixels->is_open)
+    if (is_packed(*pixels))
         return read_packed(file, *pixels, image, frame, values, bits);
     return read_plain(file, *pixels, image, frame, values);
 }

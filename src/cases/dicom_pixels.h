@@ -3,11 +3,15 @@
 // for the process that reads foreign files (foreign_files.h), and for tests.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "cases/dicom_image.h"
 
 namespace theatron::cases {
+
+// Why the pixels of a valid file cannot be unpacked, as the end of a sentence; empty if they can.
+std::string packing_problem(const DicomFile& file);
 
 // Answer::content, and the stored values as they are, with the bits that count in `bits`; or why
 // there are none.

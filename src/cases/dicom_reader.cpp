@@ -37,6 +37,8 @@ void send_frames(sandbox::Inside& inside, const DicomFile& file, const DicomImag
         if (frame > 0 && !inside.receive())
             return;
         DicomSlice slice = describe_frame(file, image, frame);
+        if (slice.problem.empty())
+            slice.problem = packing_problem(file);
         Answer result = Answer::content;
         if (slice.problem.empty()) {
             std::vector<int> values;

@@ -28,6 +28,7 @@ enum class Answer : std::uint8_t {
     dose,           // of a radiation, as DICOM
     map,            // of computed values, as DICOM
     segmentation,   // masks or contours, as DICOM
+    document,       // a surface as DICOM
     no_dicom,       // other content than the file's name says
     no_picture,     // the same
     no_mesh,        // the same

@@ -121,8 +121,9 @@ ColorImage read_picture_file(const fs::path& path) {
     const Reply reply = reply_of(child);
     if (reply.what == Answer::compression)
         throw NotForUs(path, "has colours for printing (CMYK); save it with RGB colours");
+    // A picture stands for itself: without a damaged one nothing else is wrong.
     if (reply.what != Answer::content)
-        refuse(path, reply.what);
+        throw NotForUs(path, reason_of(reply.what));
     const Bytes copy(reply.content.begin(), reply.content.end());
     Result<ColorImage> picture = medical::decode_picture(copy);
     if (!picture)

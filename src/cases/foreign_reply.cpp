@@ -32,6 +32,7 @@ bool is_not_for_us(Answer what) {
         case Answer::dose:
         case Answer::map:
         case Answer::segmentation:
+        case Answer::document:
         case Answer::no_dicom:
         case Answer::no_picture:
         case Answer::no_mesh:
@@ -95,6 +96,9 @@ const char* reason_of(Answer what) {
         case Answer::segmentation:
             return "holds a segmentation as DICOM, which is not read; export it as a label map "
                    "(NIfTI, NRRD) or as surfaces (STL)";
+        case Answer::document:
+            return "holds a surface as a DICOM document, which is not read; save it as a file of "
+                   "its own (STL, OBJ)";
         case Answer::no_dicom:
             return "is no DICOM file, whatever its name says";
         case Answer::no_picture:

@@ -127,16 +127,32 @@ void make_regions_translucent(std::vector<ImportedPart>& parts) {
 void remark_on_places(const std::vector<ImportedPart>& parts,
                       const std::vector<ImportedSeries>& all_series,
                       std::vector<std::string>& remarks) {
+    std::vector<fs::path> outside;  // their names
     for (const ImportedPart& one : parts) {
         const medical::Box box = medical::box_of(one.mesh);
         const auto is_there = [&](const ImportedSeries& series) {
             return medical::overlap(medical::box_of(series.volume.grid), box);
         };
         if (!all_series.empty() && std::none_of(all_series.begin(), all_series.end(), is_there))
-            remarks.push_back("The part '" + one.part.name +
-                              "' lies outside of all images; check the surfaces' axes (--axes) and "
-                              "unit (--unit).");
+            outside.emplace_back(one.part.name);
     }
+    const std::string advice =
+        " outside of all images; check the surfaces' axes (--axes) and unit (--unit)";
+    if (outside.size() == 1)
+        remarks.push_back("The part " + quoted_path(outside[0]) + " lies" + advice + ".");
+    else if (!outside.empty())
+        remarks.push_back(std::to_string(outside.size()) + " parts lie" + advice + ": " +
+                          first_names(outside) + ".");
+}
+
+// `one` and `many`: the verb, as in "is too deep" and "are too deep".
+void remark_on_unopened(const std::vector<fs::path>& paths, const char* one, const char* many,
+                        std::vector<std::string>& remarks) {
+    if (paths.size() == 1)
+        remarks.push_back(quoted_path(paths[0]) + " " + one + ", so what it holds is left out.");
+    else if (!paths.empty())
+        remarks.push_back(std::to_string(paths.size()) + " files and folders " + many +
+                          ", so what they hold is left out: " + first_names(paths) + ".");
 }
 
 // No file is left out without a word. `read`: those that were read with others.
@@ -156,6 +172,10 @@ void remark_on_others(const SourceFiles& files, std::set<fs::path> read,
             unread.push_back(file);
     }
     known.append_to(remarks);
+    remark_on_unopened(files.closed, "may not be opened by this user",
+                       "may not be opened by this user", remarks);
+    remark_on_unopened(files.too_deep, "lies too many folders deep", "lie too many folders deep",
+                       remarks);
     if (files.links > 0)
         remarks.push_back("Links in the source are not followed, so what they lead to (" +
                           std::to_string(files.links) + ") is left out.");

@@ -76,13 +76,28 @@ fs::path sample_file_of_pair(const fs::path& head) {
     return !fs::exists(plain, failed) && fs::exists(packed, failed) ? packed : plain;
 }
 
-Bytes samples_beside(const fs::path& head, const fs::path& samples, const char* in_one_piece) {
+// The file with this name in an NRRD header, if it may lie beside the header: a name alone, or a
+// path of the computer that wrote it. Nothing for one in a folder below or above, of whose name
+// another file may lie here.
+std::optional<fs::path> data_beside(const fs::path& header, std::string_view name) {
+    while (name.starts_with("./") || name.starts_with(".\\"))
+        name.remove_prefix(2);
+    const std::size_t at = name.find_last_of("/\\");
+    const bool is_whole =
+        name.starts_with('/') || name.starts_with('\\') || (name.size() > 2 && name[1] == ':');
+    if (at != name.npos && !is_whole)
+        return std::nullopt;
+    return header.parent_path() / fs::path(name.substr(at == name.npos ? 0 : at + 1));
+}
+
+Bytes samples_beside(const fs::path& head, const std::optional<fs::path>& samples,
+                     const fs::path& name, const char* in_one_piece) {
     std::error_code failed;
-    if (!fs::is_regular_file(fs::symlink_status(samples, failed)))
-        throw NotForUs(head,
-                       "keeps its samples in another file, " + quoted_path(samples.filename()) +
-                           ", which is not beside it; save it in one piece (" + in_one_piece + ")");
-    return files::read_file(samples, max_label_file_bytes);
+    if (!samples || !fs::is_regular_file(fs::symlink_status(*samples, failed)))
+        throw NotForUs(head, "keeps its samples in another file, " + quoted_path(name) +
+                                 ", which is not beside it; save it in one piece (" + in_one_piece +
+                                 ")");
+    return files::read_file(*samples, max_label_file_bytes);
 }
 
 }  // namespace
@@ -97,22 +112,22 @@ std::optional<fs::path> sample_file_of(const fs::path& header) {
     const std::string name = detached_data_of(files::read_file(header, most));
     if (name.empty())
         return std::nullopt;
-    // Beside the header, and nowhere else.
-    return header.parent_path() / fs::path(name).filename();
+    return data_beside(header, name);
 }
 
 LabelMap read_label_map(const fs::path& file, std::size_t layer, std::size_t& layers) {
     const Bytes bytes = files::read_file(file, max_label_file_bytes);
     ParsedLabels parsed;
     if (is_nifti_head(bytes)) {
-        parsed = parse_nifti(bytes, samples_beside(file, sample_file_of_pair(file), ".nii"));
+        const fs::path samples = sample_file_of_pair(file);
+        parsed = parse_nifti(bytes, samples_beside(file, samples, samples.filename(), ".nii"));
     } else if (!is_nrrd_file(file)) {
         parsed = parse_nifti(bytes);
     } else if (const std::string name = detached_data_of(bytes); name.empty()) {
         parsed = parse_nrrd(bytes, layer);
     } else {
-        const fs::path data = file.parent_path() / fs::path(name).filename();
-        parsed = parse_nrrd(bytes, layer, samples_beside(file, data, ".nrrd"));
+        const std::optional<fs::path> data = data_beside(file, name);
+        parsed = parse_nrrd(bytes, layer, samples_beside(file, data, name, ".nrrd"));
     }
     layers = parsed.layers;
     if (!parsed.problem.empty() && parsed.is_other_content)

@@ -108,6 +108,41 @@ void add_part(const fs::path& file, Part part, Mesh mesh, const ImportOptions& o
     parts.push_back({std::move(part), std::move(mesh)});
 }
 
+void append(Mesh& mesh, const Mesh& more) {
+    const auto begin = std::uint32_t(mesh.positions.size());
+    mesh.positions.insert(mesh.positions.end(), more.positions.begin(), more.positions.end());
+    for (const medical::Triangle& t : more.triangles)
+        mesh.triangles.push_back({t[0] + begin, t[1] + begin, t[2] + begin});
+}
+
+bool is_closed(Mesh mesh) {
+    medical::weld(mesh);
+    return medical::shape_of(mesh).closed;
+}
+
+// Programs part one organ into groups, for its colours or its sides. Open ones that are closed
+// together are one part.
+void join_open_groups(std::vector<NamedMesh>& meshes) {
+    NamedMesh joined;
+    std::size_t count = 0;
+    std::vector<bool> is_open;
+    for (const NamedMesh& one : meshes) {
+        is_open.push_back(!is_closed(one.mesh));
+        if (!is_open.back())
+            continue;
+        append(joined.mesh, one.mesh);
+        joined.name = count++ == 0 ? one.name : joined.name;
+    }
+    if (count < 2 || !is_closed(joined.mesh))
+        return;
+    std::vector<NamedMesh> kept;
+    for (std::size_t i = 0; i < meshes.size(); ++i)
+        if (!is_open[i])
+            kept.push_back(std::move(meshes[i]));
+    kept.insert(kept.begin(), std::move(joined));
+    meshes = std::move(kept);
+}
+
 // Surfaces that the program that wrote the file does not show are not shown here, either.
 void remark_on_hidden(const fs::path& file, const std::vector<std::string>& names,
                       std::vector<std::string>& remarks) {
@@ -169,6 +204,8 @@ std::vector<ImportedPart> import_meshes(const std::vector<fs::path>& files,
         }
         beside.insert(file.beside.begin(), file.beside.end());
         remark_on_hidden(files[i], file.hidden, remarks);
+        if (file.meshes.size() > 1 && extension_of(files[i]) == ".obj")
+            join_open_groups(file.meshes);
         for (NamedMesh& named : file.meshes) {
             const bool alone = file.meshes.size() == 1 || named.name.empty();
             Part part = usual_part(alone ? files[i].stem().string() : named.name);

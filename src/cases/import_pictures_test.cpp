@@ -59,7 +59,7 @@ TEST_F(Import, APictureThatIsDamagedOrNoneIsNamed) {
     damaged[1] = std::byte(0xd8);  // as JPEG begins
     damaged[3] = std::byte(0xe0);
     files::write_file(source() / "x.jpg", damaged);
-    EXPECT_THAT(refusal(), HasSubstr("x.jpg' is damaged"));
+    EXPECT_THAT(refusal(), HasSubstr("x.jpg' is left out: it is damaged"));
     fs::resize_file(source() / "x.jpg", 200 << 20);
     EXPECT_THAT(refusal(), HasSubstr("at most 128 MiB are read; save it with fewer pixels"));
     fs::remove(source() / "x.jpg");

@@ -96,6 +96,45 @@ SlicesOfSeries read_slices(const std::vector<fs::path>& files, std::set<Identifi
     return series;
 }
 
+// Programs that take the patient's name out may give each image a series of its own. At least three
+// such images of one kind that lie in one row, evenly, are a series.
+void join_single_images(SlicesOfSeries& all, std::vector<std::string>& remarks) {
+    std::vector<std::vector<Slices*>> groups;
+    for (auto& [uid, read] : all) {
+        if (read.slices.size() != 1 || !read.problem.empty() || !read.slices[0].has_place)
+            continue;
+        const DicomSlice& slice = read.slices[0];
+        auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& one) {
+            const DicomSlice& first = one[0]->slices[0];
+            return first.modality == slice.modality && place_difference(first, slice).empty();
+        });
+        if (group == groups.end())
+            group = groups.insert(groups.end(), std::vector<Slices*>());
+        group->push_back(&read);
+    }
+    for (const std::vector<Slices*>& group : groups) {
+        if (group.size() < 3)
+            continue;
+        std::vector<DicomSlice> slices;
+        for (const Slices* one : group)
+            slices.push_back(one->slices[0]);
+        std::vector<DicomSlice> tried = slices;
+        const BuiltSeries built = build_series(tried);
+        if (!built.problem.empty() || built.repeated > 0 || !built.missing_slices.empty())
+            continue;
+        for (Slices* one : group)
+            one->slices.clear();
+        group[0]->slices = std::move(slices);
+        remarks.push_back(std::to_string(group.size()) +
+                          " images that name a series of their own each lie in one row, and are "
+                          "taken for one series. The first is " +
+                          quoted_path(group[0]->first) + ".");
+    }
+    std::erase_if(all, [](const auto& one) {
+        return one.second.slices.empty() && one.second.problem.empty();
+    });
+}
+
 // Adds the volume of one part of a series to `imported`, or a sentence to `problems`.
 void add_volume(std::vector<DicomSlice> slices, const std::string& begins,
                 std::map<std::string, int>& count, std::vector<ImportedSeries>& imported,
@@ -142,13 +181,17 @@ std::vector<ImportedSeries> import_series(const std::vector<fs::path>& files,
     std::vector<ImportedSeries> imported;
     std::vector<std::string> problems;
     std::map<std::string, int> count;
-    for (auto& [uid, read] : read_slices(files, identifiers, left_out, progress)) {
+    SlicesOfSeries all = read_slices(files, identifiers, left_out, progress);
+    join_single_images(all, remarks);
+    for (auto& [uid, read] : all) {
         const std::string begins = " The series begins with " + quoted_path(read.first) + ".";
         if (!read.problem.empty()) {
             problems.push_back(read.problem);
             continue;
         }
         SeriesParts split = split_series(std::move(read.slices));
+        if (!split.problem.empty())
+            problems.push_back(split.problem + begins);
         for (const std::string& remark : split.remarks)
             remarks.push_back(remark + begins);
         for (std::vector<DicomSlice>& part : split.parts)

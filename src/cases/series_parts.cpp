@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "cases/series_builder.h"
 
@@ -114,6 +115,18 @@ void add_phases(Slices slices, SeriesParts& out) {
     }
 }
 
+// True where each image had a frame of reference of its own, so that none says anything.
+bool take_one_frame_for_all(Slices& slices) {
+    std::set<std::string> frames;
+    for (const DicomSlice& slice : slices)
+        frames.insert(slice.frame_uid);
+    if (slices.size() < 3 || frames.size() < slices.size() || frames.contains(""))
+        return false;
+    for (DicomSlice& slice : slices)
+        slice.frame_uid.clear();
+    return true;
+}
+
 // Scouts that say so, beside at least three images that do not. Returns their number.
 std::size_t take_out_scouts(Slices& slices) {
     const auto is_scout = [](const DicomSlice& slice) {
@@ -128,6 +141,12 @@ std::size_t take_out_scouts(Slices& slices) {
 }  // namespace
 
 SeriesParts split_series(std::vector<DicomSlice> slices) {
+    SeriesParts split;
+    if (take_one_frame_for_all(slices))
+        split.remarks.push_back(
+            "Each image of the series names a frame of reference of its own, as programs write "
+            "that "
+            "take the patient's name out; they are taken for one.");
     std::vector<Slices> groups;
     std::size_t scouts = take_out_scouts(slices);
     for (DicomSlice& slice : slices) {
@@ -142,7 +161,12 @@ SeriesParts split_series(std::vector<DicomSlice> slices) {
     }
     std::stable_sort(groups.begin(), groups.end(),
                      [](const Slices& a, const Slices& b) { return a.size() > b.size(); });
-    SeriesParts split;
+    if (groups.size() >= 3 && groups[0].size() == 1 && groups[0][0].has_place) {
+        split.problem = "Each of the " + std::to_string(groups.size()) +
+                        " images of the series lies in another plane, as scouts and views from all "
+                        "around do, so they make no volume; save those that matter as PNG.";
+        return split;
+    }
     const bool is_series = !groups.empty() && groups[0].size() >= 3;
     for (std::size_t i = 0; i < groups.size(); ++i)
         if (is_series && i > 0 && (groups[i].size() == 1 || !groups[i][0].has_place))

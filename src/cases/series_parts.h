@@ -13,6 +13,7 @@ namespace theatron::cases {
 struct SeriesParts {
     std::vector<std::vector<DicomSlice>> parts;  // each may be built as one volume
     std::vector<std::string> remarks;            // sentences on what was left out or taken apart
+    std::string problem;  // a sentence: the images make no volume, and there are no parts
 };
 
 // Images that differ in direction, size, spacing or frame of reference become parts of their own; a

@@ -83,6 +83,15 @@ TEST(SeriesParts, AFrameOfReferenceThatIsMissingIsNoOtherOne) {
     EXPECT_THAT(sizes(split_series(slices)), ElementsAre(2, 1));
 }
 
+TEST(SeriesParts, AFrameOfReferenceOfEachImageSaysNothing) {
+    std::vector<DicomSlice> slices{slice_at(0), slice_at(1), slice_at(2)};
+    for (std::size_t i = 0; i < slices.size(); ++i)
+        slices[i].frame_uid = "1.2." + std::to_string(i);
+    const SeriesParts split = split_series(slices);
+    EXPECT_THAT(sizes(split), ElementsAre(3));
+    EXPECT_THAT(split.remarks, ElementsAre(HasSubstr("a frame of reference of its own")));
+}
+
 BuiltSeries built_at(const std::vector<double>& heights) {
     std::vector<DicomSlice> slices;
     for (const double z : heights)

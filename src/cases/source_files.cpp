@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cases/source_files.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <span>
 
@@ -19,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int deepest_folder = 8;
+constexpr int deepest_folder = 32;
 
 bool ends_with(const fs::path& file, std::string_view end) {
     return in_small_letters(file.filename().string()).ends_with(end);
@@ -31,8 +33,16 @@ bool is_of_finder(const fs::path& file) {
     return file.filename().string().starts_with("._");
 }
 
+// Programs name a file so while they copy it, and leave it where the copy is interrupted.
+bool is_unfinished(const fs::path& file) {
+    for (const char* end : {".part", ".partial", ".filepart", ".crdownload"})
+        if (ends_with(file, end))
+            return true;
+    return false;
+}
+
 void sort_in(const fs::path& file, SourceFiles& files) {
-    if (is_of_finder(file))
+    if (is_of_finder(file) || is_unfinished(file))
         files.others.push_back(file);
     else if (is_mesh_file(file))
         files.meshes.push_back(file);
@@ -46,6 +56,17 @@ void sort_in(const fs::path& file, SourceFiles& files) {
         files.others.push_back(file);
 }
 
+bool has_nifti_name(const fs::path& file) {
+    return ends_with(file, ".nii") || ends_with(file, ".nii.gz") || ends_with(file, ".nii.bz2");
+}
+
+// The name says that the file is of a kind that is imported.
+bool has_name_of_kind(const fs::path& file) {
+    return !is_of_finder(file) &&
+           (is_mesh_file(file) || has_nifti_name(file) || is_nrrd_file(file) ||
+            is_picture_file(file) || ends_with(file, ".dcm") || ends_with(file, ".ima"));
+}
+
 bool is_of_finished_case(const fs::path& file) {
     for (const char* extension : {mesh_extension, volume_extension, picture_extension})
         if (file.extension() == extension)
@@ -53,19 +74,31 @@ bool is_of_finished_case(const fs::path& file) {
     return false;
 }
 
+// This user may not open it.
+bool is_closed(const fs::path& path, bool is_folder) {
+    return access(path.c_str(), is_folder ? R_OK | X_OK : R_OK) != 0;
+}
+
 // Sorted by name. An error in the middle would leave files out without a word.
-std::vector<fs::path> files_below(const fs::path& folder, std::size_t& links) {
+std::vector<fs::path> files_below(const fs::path& folder, SourceFiles& files) {
     const std::string name = quoted_path(folder);
     std::vector<fs::path> found;
     std::error_code failed, ignored;
     for (fs::recursive_directory_iterator at(folder, failed), end; !failed && at != end;
          at.increment(failed)) {
         if (at->is_symlink(ignored)) {
-            ++links;
+            ++files.links;
             continue;
         }
-        if (at.depth() >= deepest_folder)
+        if (at->is_directory(ignored)) {
+            const bool is_too_deep = at.depth() >= deepest_folder;
+            // Discs of other systems have folders of the system, which nobody else may open.
+            if (!is_too_deep && !is_closed(at->path(), true))
+                continue;
             at.disable_recursion_pending();
+            (is_too_deep ? files.too_deep : files.closed).push_back(at->path());
+            continue;
+        }
         if (at->is_regular_file(ignored))
             found.push_back(at->path());
         if (found.size() > max_source_files)
@@ -81,8 +114,7 @@ std::vector<fs::path> files_below(const fs::path& folder, std::size_t& links) {
 }  // namespace
 
 bool is_nifti_file(const fs::path& file) {
-    return ends_with(file, ".nii") || ends_with(file, ".nii.gz") || ends_with(file, ".nii.bz2") ||
-           is_nifti_head_file(file);
+    return has_nifti_name(file) || is_nifti_head_file(file);
 }
 
 bool is_nifti_head_file(const fs::path& file) {
@@ -110,6 +142,8 @@ const char* reason_of_other_kind(const fs::path& file) {
                std::any_of(ends.begin(), ends.end(),
                            [&](std::string_view end) { return ends_with(file, end); });
     };
+    if (is_unfinished(file))
+        return "is a copy that did not end; copy it again";
     if (is_any(archives))
         return "is an archive, which is not opened; unpack it and import its folder";
     if (is_any(surfaces))
@@ -132,8 +166,11 @@ SourceFiles find_source_files(const fs::path& source) {
         if (!fs::is_directory(source, failed))
             throw Error(fs::exists(source, failed) ? name + " is neither a file nor a folder."
                                                    : "There is no file or folder " + name + ".");
-        for (const fs::path& file : files_below(source, files.links))
-            sort_in(file, files);
+        for (const fs::path& file : files_below(source, files))
+            if (is_closed(file, false) && !has_name_of_kind(file))
+                files.closed.push_back(file);
+            else
+                sort_in(file, files);
     }
     if (files.images.empty() && files.meshes.empty() && files.label_maps.empty() &&
         files.pictures.empty()) {
@@ -145,6 +182,12 @@ SourceFiles find_source_files(const fs::path& source) {
                     " holds neither DICOM images nor surfaces (STL, OBJ, PLY, GLB, glTF) nor "
                     "label maps (NIfTI, NRRD) nor pictures (PNG, JPEG)" +
                     (files.others.empty() ? "" : ", but " + first_names(files.others)) +
+                    (files.closed.empty() ? ""
+                                          : ", and " + first_names(files.closed) +
+                                                " may not be opened by this user") +
+                    (files.too_deep.empty()
+                         ? ""
+                         : ", and " + first_names(files.too_deep) + " lies too many folders deep") +
                     (files.links > 0 ? "; links in it are not followed." : "."));
     }
     return files;

@@ -13,7 +13,9 @@ struct SourceFiles {
     std::vector<std::filesystem::path> label_maps;
     std::vector<std::filesystem::path> pictures;  // PNG, JPEG
     std::vector<std::filesystem::path> others;
-    std::size_t links = 0;  // that were not followed
+    std::size_t links = 0;                        // that were not followed
+    std::vector<std::filesystem::path> too_deep;  // folders
+    std::vector<std::filesystem::path> closed;    // files and folders that may not be opened
 };
 
 // All regular files in the folder and those below it, or `source` itself, in the order of their

@@ -87,6 +87,10 @@ Answer read_text(ByteView file, const TakeMesh& take) {
             for (float& coordinate : p)
                 if (!to_number(words.next(), coordinate))
                     return words.at_end() ? Answer::lacks : Answer::unreadable;
+            // A fourth number: it is not known which three are meant ("1 234.5 ...").
+            float more = 0;
+            if (TextWords ahead = words; to_number(ahead.next(), more))
+                return Answer::unreadable;
             if (named.mesh.triangles.size() == medical::max_mesh_triangles)
                 return Answer::too_large;
             add_corner(named, p);

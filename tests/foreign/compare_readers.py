@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """What `theatron case import` and the readers that Debian has make of the inputs of this folder. Run by hand:
 
-    apt install python3-gdcm python3-nibabel python3-meshio python3-vtk9 dcm2niix dcmtk assimp-utils
+    apt install python3-gdcm python3-nibabel python3-meshio python3-vtk9 dcm2niix dcmtk assimp-utils libinsighttoolkit5-dev
     THEATRON=build/release/apps/theatron/theatron /usr/bin/python3 tests/foreign/compare_readers.py
 
 Another reader counts as reading an input if it gives pixels, samples or triangles of all files of its kind, whatever
 their values are; the right values are known for Theatron alone. Readers that are not installed are left out, and named.
+ITK has no package for Python: itk_reader is built for it at the first use, in build/itk_reader.
 Videos, recordings and folders of pictures (video_inputs.py) are recorded, and compared with what FFmpeg shows.
 
 With --values FOLDER, each folder in that one is an input of which nothing is known: the table has values, boxes and volumes
@@ -91,14 +92,22 @@ def assimp_reads(path):
     return done.returncode == 0 and faces and faces[0] != "0"
 
 
+def itk_reads(path):
+    return values.by_itk(path) is not None
+
+
 READERS = (("gdcm", gdcm_reads, "gdcm", ("DICOM",)), ("dcmtk", dcmtk_reads, "dcm2pnm", ("DICOM",)),
-           ("dcm2niix", dcm2niix_reads, "dcm2niix", ("DICOM",)),
+           ("dcm2niix", dcm2niix_reads, "dcm2niix", ("DICOM",)), ("itk", itk_reads, values.ITK, ("DICOM", "NIfTI", "NRRD")),
            ("nibabel", nibabel_reads, "nibabel", ("NIfTI",)), ("vtk", vtk_reads, "vtkmodules", ("NIfTI", "NRRD", "STL", "PLY", "OBJ")),
            ("meshio", meshio_reads, "meshio", ("STL", "PLY", "OBJ")), ("assimp", assimp_reads, "assimp", ("STL", "PLY", "glTF", "OBJ")))
 
 
+def is_module(name):
+    return "/" not in name and importlib.util.find_spec(name)
+
+
 def is_there(what):
-    return shutil.which(what) or importlib.util.find_spec(what)
+    return shutil.which(what) or is_module(what)
 
 
 def in_process(read, path):
@@ -138,15 +147,20 @@ def outcome(one, folder, program):
     return ("right", "") if done.returncode == 0 else ("refused", text.strip())
 
 
-def played_problem(kind, path, shown, color, depth):
+def played_problem(kind, path, shown, color, depth, code):
     """What differs from what FFmpeg shows; None if nothing does."""
     if kind == "camera folders":
         names = sorted((path / "color").iterdir())
         wanted = values.played_by_ffmpeg(path / "color" / ("%05d" + names[0].suffix))
         wanted_depth = values.depths_by_ffmpeg(path / "depth/%05d.png")
     elif kind == "recordings":
-        wanted = values.played_by_ffmpeg(path, "0:v:1")
+        # Colour whose depth is cut off is not given, which the exit code 3 says.
+        pairs = values.played_by_ffmpeg(path, "0:v:0")[0]
+        all_colors = values.played_by_ffmpeg(path, "0:v:1")
+        wanted = all_colors and values.played_by_ffmpeg(path, "0:v:1", ["-frames:v", str(pairs)])
         wanted_depth = values.depths_by_ffmpeg(path, "0:v:0")
+        if wanted and wanted[0] < all_colors[0] and code != 3:
+            return "does not say that it lacks colour"
     else:
         wanted, wanted_depth = values.played_by_ffmpeg(path, more=shown), depth
     if depth != wanted_depth:
@@ -163,7 +177,7 @@ def compare_played(program, counts, options):
         with tempfile.TemporaryDirectory() as folder:
             for name, path, *shown in make(pathlib.Path(folder)):
                 color, depth, code, said = values.played_by_theatron(camera % path, program)
-                found = None if depth is None else played_problem(kind, path, shown[0] if shown else (), color, depth)
+                found = None if depth is None else played_problem(kind, path, shown[0] if shown else (), color, depth, code)
                 # Also where the exit code 3 says that something was not given: what was given must be what FFmpeg shows.
                 what = "refused" if depth is None else "wrong" if found else "right"
                 by_ffmpeg = kind == "camera folders" or values.played_by_ffmpeg(path, "0:v:0") is not None
@@ -175,8 +189,9 @@ def compare_played(program, counts, options):
 
 def values_of(kind, paths):
     """Reader -> measure, of those that Theatron has."""
-    found = {"DICOM": (("gdcm", values.dicom_by_gdcm), ("dcm2niix", values.dicom_by_dcm2niix)),
-             "NIfTI": (("nibabel", values.labels_by_nibabel),), "NRRD": (("vtk", values.labels_by_vtk),),
+    found = {"DICOM": (("gdcm", values.dicom_by_gdcm), ("dcm2niix", values.dicom_by_dcm2niix), ("itk", values.dicom_by_itk)),
+             "NIfTI": (("nibabel", values.labels_by_nibabel), ("itk", values.labels_by_itk)),
+             "NRRD": (("vtk", values.labels_by_vtk), ("itk", values.labels_by_itk)),
              "glTF": (("assimp", values.surface_by_assimp),)}.get(
                  kind, (("vtk", values.surface_by_vtk), ("assimp", values.surface_by_assimp)))
     with tempfile.TemporaryDirectory() as folder:
@@ -223,6 +238,7 @@ def main():
     parser.add_argument("--values", type=pathlib.Path, metavar="FOLDER", help="values of inputs of which nothing is known")
     options = parser.parse_args()
     program = os.environ["THEATRON"]
+    values.build_itk_reader()
     if options.values:
         compare_values(program, options.values)
         return
@@ -231,7 +247,7 @@ def main():
         if one not in readers:
             print("not installed: " + one[0], file=sys.stderr)
     for _, _, module, _ in readers:
-        if importlib.util.find_spec(module):
+        if is_module(module):
             importlib.import_module(module)
     counts = collections.defaultdict(collections.Counter)
     for one in foreign_test.inputs():

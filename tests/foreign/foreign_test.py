@@ -19,6 +19,7 @@ import case_seeds  # noqa: E402
 import device_inputs  # noqa: E402
 import dicom_inputs  # noqa: E402
 import folder_inputs  # noqa: E402
+import further_inputs  # noqa: E402
 import gltf_inputs  # noqa: E402
 import label_inputs  # noqa: E402
 import mesh_inputs  # noqa: E402
@@ -36,7 +37,7 @@ LONGEST_SEED = 1 << 16
 
 def inputs():
     for module in (dicom_inputs, label_inputs, mesh_inputs, gltf_inputs, packed_glb, folder_inputs, more_inputs,
-                   unusual_inputs, device_inputs):
+                   unusual_inputs, device_inputs, further_inputs):
         yield from module.inputs()
 
 
@@ -109,6 +110,38 @@ class ForeignFiles(unittest.TestCase):
 
     def test_habits_of_devices(self):
         self.run_all(device_inputs)
+
+    def test_further_habits(self):
+        self.run_all(further_inputs)
+
+    def import_closed(self, closed):
+        """The result of an import of a good series by a user who may not open `closed`."""
+        other = 65534  # nobody: root may open everything
+        user = {"user": other, "group": other, "extra_groups": []} if os.geteuid() == 0 else {}
+        with tempfile.TemporaryDirectory() as temporary:
+            folder = pathlib.Path(temporary)
+            folder.chmod(0o777)
+            write(dicom_inputs.good() | {name: b"x" * 400 for name in closed}, folder / "source")
+            for name in closed:
+                (folder / "source" / name.split("/")[0]).chmod(0)
+            done = subprocess.run([os.environ["THEATRON"], "case", "import", folder / "source", folder / "case"], cwd=folder,
+                                  capture_output=True, text=True, timeout=120, **user)
+            for name in closed:
+                (folder / "source" / name.split("/")[0]).chmod(0o700)
+            return done.returncode, done.stdout + done.stderr
+
+    def test_what_may_not_be_opened_is_named(self):
+        for name in ("lost+found/x", "notes", "o.hdr"):
+            with self.subTest(name):
+                code, text = self.import_closed([name])
+                self.assertEqual(code, 0, text)
+                self.assertIn(name.split("/")[0] + "' may not be opened by this user, so what it holds is left out.", text)
+        code, text = self.import_closed(["notes", "lost+found/x"])
+        self.assertEqual(code, 0, text)
+        self.assertIn("2 files and folders may not be opened by this user", text)
+        code, text = self.import_closed(["IM004.dcm"])
+        self.assertEqual(code, 1, text)
+        self.assertIn("IM004.dcm': Permission denied", text)
 
     def test_there_are_enough_and_each_has_its_name(self):
         names = [one.name for one in inputs()]

@@ -12,6 +12,9 @@ import tempfile
 from expected import read_mesh, read_volume, volume_of
 
 LONGEST = 60  # seconds for a program
+HERE = pathlib.Path(__file__).resolve().parent
+ITK_FOLDER = HERE.parents[1] / "build/itk_reader"
+ITK = str(ITK_FOLDER / "itk_reader")
 
 
 def agree(a, b, relative=0.02, absolute=1.0):
@@ -21,6 +24,37 @@ def agree(a, b, relative=0.02, absolute=1.0):
 def spread(values):
     """Number of values, the smallest, the largest, the mean."""
     return [len(values), min(values), max(values), sum(values) / len(values)]
+
+
+# ---- ITK
+
+def build_itk_reader():
+    """Where ITK is installed; it is left out elsewhere."""
+    if any(pathlib.Path("/usr/lib/cmake").glob("ITK-*")):
+        subprocess.run(["cmake", "-S", HERE / "itk_reader", "-B", ITK_FOLDER, "-DCMAKE_BUILD_TYPE=Release"], check=True,
+                       capture_output=True)
+        subprocess.run(["cmake", "--build", ITK_FOLDER], check=True, capture_output=True)
+
+
+def by_itk(path):
+    """The numbers that itk_reader prints; None where ITK does not read the file."""
+    endings = {".nii": "nifti", ".gz": "nifti", ".bz2": "nifti", ".nrrd": "nrrd", ".nhdr": "nrrd"}
+    kind = "dicom" if path.name.lower().endswith((".dcm.gz", ".ima.gz")) else endings.get(path.suffix.lower(), "dicom")
+    done = subprocess.run([ITK, kind, str(path)], capture_output=True, text=True, timeout=LONGEST)
+    return json.loads(done.stdout) if done.returncode == 0 else None
+
+
+def dicom_by_itk(paths):
+    found = [one for one in map(by_itk, paths) if one]
+    if not found:
+        return None
+    count = sum(one[0] for one in found)
+    return [count, min(one[1] for one in found), max(one[2] for one in found), sum(one[0] * one[3] for one in found) / count]
+
+
+def labels_by_itk(paths):
+    found = [by_itk(path) for path in paths]
+    return [sum(one[4] * one[5] for one in found)] if all(found) else None
 
 
 # ---- a case

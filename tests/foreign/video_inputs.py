@@ -93,6 +93,8 @@ def videos(folder):
     ffmpeg("-i", plain, "-c", "copy", raw)
     yield "a bare stream", raw, ()
     yield made("animated", ".gif")
+    yield made("times that jump by 30 hours", ".mkv", "-vf", "setpts=PTS+gte(N\\,8)*108000/TB", "-vsync", "passthrough", "-pix_fmt",
+               "yuv420p", *H264)
 
 
 def element(kind, *content):
@@ -128,9 +130,9 @@ def recordings(folder):
     jpeg = ("-c:v", "mjpeg", "-q:v", "2", "-pix_fmt", "yuvj422p", "-f", "image2")
     raw = ("-c:v", "rawvideo", "-pix_fmt", "gray16be", "-f", "image2")
 
-    def written(name, depth_size, color_size, order=None):
-        depth = [(1, 33 * n + 7, one) for n, one in enumerate(pictures(folder / (name + " depth"), depth_size, *raw))]
-        color = [(2, 33 * n + 5, one) for n, one in enumerate(pictures(folder / (name + " color"), color_size, *jpeg) if color_size else ())]
+    def written(name, depth_size, color_size, order=None, jump=0):
+        depth = [(1, 33 * n + 7 + jump * (n > 3), one) for n, one in enumerate(pictures(folder / (name + " depth"), depth_size, *raw))]
+        color = [(2, 33 * n + 5 + jump * (n > 3), one) for n, one in enumerate(pictures(folder / (name + " color"), color_size, *jpeg) if color_size else ())]
         blocks = sorted(depth + color, key=order or (lambda one: one[1]))
         tracks = [track(1, "DEPTH", b"b16g", depth_size)] + ([track(2, "COLOR", b"MJPG", color_size)] if color_size else [])
         file = folder / (name + ".mkv")
@@ -141,6 +143,7 @@ def recordings(folder):
     for size in ((1920, 1080), (2048, 1536), (161, 121)):
         yield written("colour %dx%d" % size, (320, 288), size)
     yield written("depth alone", (320, 288), None)
+    yield written("a clock that jumps by a day", (320, 288), (640, 480), jump=86_400_000)
     yield written("all colour first", (320, 288), (640, 480), order=lambda one: (-one[0], one[1]))
     name, file = written("cut off", (640, 576), (1280, 720))
     file.write_bytes(file.read_bytes()[:-900_000])
