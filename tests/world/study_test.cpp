@@ -54,7 +54,8 @@ public:
         StudyLeader::Events events;
         events.keep = [this](const std::string& line) { journal += line; };
         events.waits = [this](const std::string& why) { waited.push_back(why); };
-        leader_ = std::make_unique<StudyLeader>(*run_, protocol_, who, *person_, events);
+        leader_ =
+            std::make_unique<StudyLeader>(*run_, protocol_, who, person_.participant(), events);
     }
     void kill() {
         leader_.reset();
@@ -113,6 +114,8 @@ protected:
     }
     // Replies to the step that the person sees, and waits until it is kept.
     void reply(Study& study, Person& person, int value = 1) {
+        EXPECT_TRUE(study.until(
+            [&] { return study.run().current().kind != study::Step::Kind::condition; }));
         const std::size_t before = study.run().position();
         EXPECT_TRUE(study.until([&] { return step_of(person) == before + 1; }));
         EXPECT_TRUE(
@@ -160,7 +163,7 @@ TEST_F(WorldStudy, AStepComesAgainAfterALostConnectionAndNothingIsKeptTwice) {
     EXPECT_THAT(study.kept(), ElementsAre("agree.consent", "opinion.slow.condition",
                                           "opinion.slow.own-presence.place1"));
     EXPECT_THAT(study.journal, HasSubstr("\t2\tok\n"));
-    EXPECT_THAT(study.waited, ElementsAre("The participant is not in the session yet."));
+    EXPECT_EQ(study.waited.back(), "The participant is not in the session yet.");
 }
 
 TEST_F(WorldStudy, AReplyThatWasOnItsWayWhenTheConnectionBrokeIsAskedForAgain) {
@@ -234,11 +237,12 @@ TEST_F(WorldStudy, OfSeveralPeopleOneIsNamed) {
 TEST_F(WorldStudy, AnotherRoleLeadsNoStudy) {
     Person& anna = participant("Anna");
     Study study(world);
-    study.start();
+    study.kill();
     study.person().join(wire::Role::expert);
     study::StudyRun run(study::parse_protocol(protocol_text).protocol,
                         study::built_in_questionnaires(), 1);
-    StudyLeader leader(run, {}, "Anna", *study.person(), {});
+    const study::Protocol protocol;
+    StudyLeader leader(run, protocol, "Anna", study.person().participant(), {});
     std::string problem;
     const auto is_refused = [&] {
         try {
