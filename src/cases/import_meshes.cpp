@@ -204,7 +204,7 @@ std::vector<ImportedPart> import_meshes(const std::vector<fs::path>& files,
         }
         beside.insert(file.beside.begin(), file.beside.end());
         remark_on_hidden(files[i], file.hidden, remarks);
-        if (file.meshes.size() > 1 && extension_of(files[i]) == ".obj")
+        if (file.meshes.size() > 1 && lower_extension(files[i]) == ".obj")
             join_open_groups(file.meshes);
         for (NamedMesh& named : file.meshes) {
             const bool alone = file.meshes.size() == 1 || named.name.empty();
