@@ -7,6 +7,7 @@
 #include "base/log.h"
 #include "base/steady_clock.h"
 #include "cli/stop_signal.h"
+#include "client/person_id.h"
 #include "lead/study_leader.h"
 #include "link_argument.h"
 #include "study_paths.h"
@@ -16,11 +17,15 @@ namespace {
 
 // After the end of the run, for the participant's surface to be told.
 constexpr Duration farewell_patience = std::chrono::seconds(5);
+// The same where the program stops before, for the participant to be freed.
+constexpr Duration freeing_patience = std::chrono::seconds(2);
 
 client::Participant::Options options_of(const StudyRunFlags& flags, StudyPaths& paths) {
     client::Participant::Options options;
     options.link = parse_link_argument(flags.link);
     options.name = "study";
+    // The host takes the connection before for this program's own when it comes back.
+    options.person = client::load_or_make_person_id({});
     options.sends_only = true;  // it is nobody in the room
     options.keeps_room = true;
     options.knows_studies = true;
@@ -64,7 +69,10 @@ void lead_study(const Study& study, const StudyRunFlags& flags, study::StudyRun&
             continue;
         leader.on_tick(now);
         if (status.clock_known) {
-            paths.follow(leader.person(), session_time());
+            // Nothing of the person before it has agreed, and nothing after the end.
+            const bool may_follow =
+                run.has_consent() && run.state() == study::StudyRun::State::running;
+            paths.follow(may_follow ? leader.person() : std::nullopt, session_time());
             paths.compare(participant.room(), session_time());
         }
         if (!paths.on_tick(now) && !std::exchange(is_full, true))
@@ -76,6 +84,10 @@ void lead_study(const Study& study, const StudyRunFlags& flags, study::StudyRun&
         if (now - *over > farewell_patience)
             break;
     }
+    for (const TimePoint end = steady_now() + freeing_patience;
+         run.state() == study::StudyRun::State::running && !leader.free_person() &&
+         steady_now() < end;)
+        (void)participant.wait_for_frame(std::chrono::milliseconds(20));
     paths.write();
     if (run.state() == study::StudyRun::State::running)
         throw Error("The run was stopped: the same command goes on at step " +

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lead/study_leader.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "base/error.h"
@@ -12,6 +13,12 @@ namespace theatron::lead {
 using study::Step;
 using study::StudyRun;
 using wire::ManageRefusal;
+
+namespace {
+
+constexpr Duration retry_after = std::chrono::seconds(1);
+
+}  // namespace
 
 std::vector<Present> present_in(const client::Participant::Room& room) {
     std::vector<Present> present;
@@ -53,27 +60,52 @@ StudyLeader::StudyLeader(StudyRun& run, const study::Protocol& protocol, std::st
       events_(std::move(events)) {}
 
 void StudyLeader::on_tick(TimePoint now) {
-    using Phase = client::Participant::Phase;
-    if (ended_)
+    if (ended_ || !is_here())
         return;
+    take_answers(now);
+    if (!find_person())
+        return;
+    take_replies(now);
+    if (now >= next_try_)
+        go_on(now);
+}
+
+bool StudyLeader::is_here() {
+    using Phase = client::Participant::Phase;
     const client::Participant::Status status = participant_.status();
-    if (status.phase == Phase::refused || status.phase == Phase::ended)
-        throw Error(status.problem + " The same command goes on at this step.");
+    if (status.phase == Phase::refused || status.phase == Phase::ended) {
+        // Nobody is there who could be told of the end.
+        if (run_.state() == StudyRun::State::running)
+            throw Error(status.problem + " The same command goes on at this step.");
+        ended_ = true;
+        return false;
+    }
     if (status.phase != Phase::joined) {
         joins_ = 0;
         lose_person();
-        return wait_for(status.phase == Phase::waiting ? "Somebody has to let this program in."
-                                                       : "There is no connection to the session.");
+        wait_for(status.phase == Phase::waiting ? "Somebody has to let this program in."
+                                                : "There is no connection to the session.");
+        return false;
     }
     if (status.joins != joins_) {  // the host knows nothing of what the connection before asked
         lose_person();
         joins_ = status.joins;
     }
-    take_answers(now);
-    if (!find_person())
-        return;
-    take_replies(now);
-    go_on(now);
+    return true;
+}
+
+bool StudyLeader::free_person() {
+    if (freed_ || !person_ || participant_.status().joins != joins_)
+        return true;
+    if (asked_ != Asked::free) {
+        wire::SetCondition free;
+        free.participant = *person_;
+        if (!ask(Asked::free, participant_.set_condition(free)))
+            return true;
+    }
+    while (const auto answer = participant_.take_managed())
+        freed_ = freed_ || answer->number == number_;
+    return freed_;
 }
 
 void StudyLeader::lose_person() {
@@ -90,8 +122,23 @@ void StudyLeader::wait_for(const std::string& why) {
     waiting_ = why;
 }
 
-bool StudyLeader::find_person() {
+// The host knows the person whom this program has led before. If somebody else is here under the
+// name, a person decides.
+void StudyLeader::note_stranger() {
     const auto present = present_in(participant_.room());
+    const bool is_here = std::any_of(present.begin(), present.end(),
+                                     [&](const Present& one) { return one.id == person_; });
+    if (!person_ || !is_here)
+        return;
+    strangers_.insert(*person_);
+    wait_for(
+        "Somebody else has come under the participant's name. If the questions are for them, "
+        "stop, and start with --person '#" +
+        std::to_string(std::uint32_t(*person_)) + "'.");
+}
+
+bool StudyLeader::find_person() {
+    auto present = present_in(participant_.room());
     std::string problem;
     if (person_) {
         for (const Present& one : present)
@@ -99,8 +146,11 @@ bool StudyLeader::find_person() {
                 return true;
         lose_person();
     }
+    std::erase_if(present, [&](const Present& one) { return strangers_.contains(one.id); });
     const auto found = choose_participant(present, who_, problem);
     if (!found) {
+        if (problem.empty() && !strangers_.empty())
+            return false;  // it has been said
         wait_for(!problem.empty() ? problem : "The participant is not in the session yet.");
         return false;
     }
@@ -115,7 +165,9 @@ bool StudyLeader::find_person() {
 
 bool StudyLeader::ask(Asked what, std::uint32_t number) {
     if (number == 0) {
-        if (participant_.status().clock_known)
+        // The connection may have been lost since the beginning of this tick.
+        const client::Participant::Status status = participant_.status();
+        if (status.phase == client::Participant::Phase::joined && status.joins == joins_)
             throw Error("The host is too old to show studies to participants; update it.");
         return false;
     }
@@ -130,12 +182,17 @@ void StudyLeader::take_answers(TimePoint now) {
             continue;
         const Asked asked = std::exchange(asked_, Asked::nothing);
         if (answer->refusal == ManageRefusal::no_such_participant) {
+            note_stranger();
             lose_person();
             continue;
         }
-        if (answer->refusal == ManageRefusal::too_often) {  // asked again at the next tick
+        if (answer->refusal == ManageRefusal::too_often ||
+            answer->refusal == ManageRefusal::other_study) {
             shown_.reset();
             set_.reset();
+            next_try_ = now + retry_after;
+            if (answer->refusal == ManageRefusal::other_study)
+                wait_for(wire::text_of(answer->refusal));
             continue;
         }
         if (answer->refusal == ManageRefusal::role)
@@ -158,8 +215,14 @@ void StudyLeader::take_replies(TimePoint now) {
             shown_ != run_.position() || replied->reply.step != run_.position() + 1)
             continue;
         const Step step = run_.current();
-        keep(run_.reply(reply_text(step, replied->reply), now), step.id);
+        keep(run_.reply(reply_text(step, replied->reply), now, 2 * added_latency()), step.id);
     }
+}
+
+// On the way to the participant, and on the way back.
+Duration StudyLeader::added_latency() const {
+    return set_ ? std::chrono::milliseconds(protocol_.conditions[std::size_t(*set_)].latency_ms)
+                : Duration(0);
 }
 
 void StudyLeader::keep(const StudyRun::Answer& answer, const std::string& id) {

@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,9 @@ public:
     StudyLeader(study::StudyRun& run, const study::Protocol& protocol, std::string who,
                 client::Participant& participant, Events events);
 
+    // Gives the participant back what it had before the condition, without an end of the run. Call
+    // it until it returns true: the host has done so, or there is nobody to free.
+    bool free_person();
     // Call it at each news of the participant, and ten times a second. Throws Error if the study
     // cannot be led in this session.
     void on_tick(TimePoint now);
@@ -57,6 +61,7 @@ private:
     // The question to the host, until it has answered.
     enum class Asked { nothing, condition, step, free, end };
 
+    bool is_here();
     bool find_person();
     void take_answers(TimePoint now);
     void take_replies(TimePoint now);
@@ -65,8 +70,10 @@ private:
     void show(TimePoint now);
     void keep(const study::StudyRun::Answer& answer, const std::string& id);
     void lose_person();
+    void note_stranger();
     void wait_for(const std::string& why);
     bool ask(Asked what, std::uint32_t number);
+    Duration added_latency() const;
 
     study::StudyRun& run_;
     const study::Protocol& protocol_;
@@ -75,12 +82,14 @@ private:
     const Events events_;
     int joins_ = 0;
     std::optional<ParticipantId> person_;
+    std::set<ParticipantId> strangers_;  // who came under the person's name, or alone
     Asked asked_ = Asked::nothing;
     std::uint32_t number_ = 0;               // of what was asked
     std::optional<int> set_;                 // the condition that holds for this person
     std::optional<std::size_t> shown_;       // the step that this person sees
     std::optional<std::size_t> first_seen_;  // the step whose first showing is shown_at_
     TimePoint shown_at_;
+    TimePoint next_try_;   // after other programs' studies
     std::string problem_;  // of the last reply
     std::string waiting_;  // the last sentence
     bool freed_ = false, ended_ = false;

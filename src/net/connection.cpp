@@ -170,6 +170,11 @@ SendingFigures Connection::take_figures() {
 }
 
 void Connection::set_delay(Duration delay) {
+    if (!closing_.empty())
+        return;
+    // A way that becomes shorter shows itself by the first answer.
+    if (delay > out_.delay())
+        outbox_.lengthen_path(delay - out_.delay(), now_());
     in_.set_delay(delay);
     out_.set_delay(delay);
 }
@@ -191,6 +196,10 @@ void Connection::close(const std::string& why) {
     if (finished_ || !closing_.empty())
         return;
     closing_ = why;
+    // Whoever is sent away gets nothing more of the others, and learns the reason at once.
+    in_.hurry([](ByteView) { return false; });
+    out_.hurry(wire::is_control);
+    out_timer_.cancel();
     write();
 }
 

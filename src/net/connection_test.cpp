@@ -160,6 +160,33 @@ TEST(Connection, BothSidesLearnOfTheEnd) {
     EXPECT_EQ(closed.get_future().get(), "refused");
 }
 
+TEST(Connection, WhoIsSentAwayGetsTheReasonAndNothingThatWaitedOutADelay) {
+    TestServer* host = nullptr;
+    Server::Handler handler;
+    const Bytes sound(20, std::byte{3});
+    handler.control = [&](PeerId peer, ByteView) {
+        host->server.set_delay(peer, 300ms);
+        host->server.send_voice(peer, {ParticipantId{7}, sound});
+        host->server.send_control(peer, Bytes{std::byte{9}});
+        host->server.close(peer, "refused");
+    };
+    TestServer server(handler);
+    host = &server;
+
+    Client* self = nullptr;
+    bool last_word = false;
+    int voices = 0;
+    Client::Handler h = client_handler();
+    h.connected = [&] { self->send_control(Bytes{std::byte{1}}); };
+    h.control = [&](ByteView) { last_word = true; };
+    h.voice = [&](const wire::Voice&) { ++voices; };
+    Client client(server.link(), h);
+    self = &client;
+    EXPECT_NE(client.run().why.find("The connection ended"), std::string::npos);
+    EXPECT_TRUE(last_word);
+    EXPECT_EQ(voices, 0);
+}
+
 TEST(Connection, WhoLeavesIsHeardToTheEnd) {
     // The second one waits for the first, and none for a third turn of a loop that may be late.
     constexpr std::size_t messages = 2, size = 1000;

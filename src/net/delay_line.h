@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <functional>
 #include <optional>
 #include <utility>
 
@@ -29,6 +30,16 @@ public:
         if (!waiting_.empty())
             due = std::max(due, waiting_.back().first);
         waiting_.emplace_back(due, std::move(envelope));
+    }
+    // The rest is `wanted` alone, without delay, and so is what comes from now on.
+    void hurry(const std::function<bool(ByteView)>& wanted) {
+        delay_ = Duration(0);
+        std::erase_if(waiting_, [&](const auto& entry) { return !wanted(entry.second); });
+        bytes_ = 0;
+        for (auto& [due, envelope] : waiting_) {
+            due = TimePoint{};
+            bytes_ += envelope.size();
+        }
     }
     // When the next one leaves; nullopt: none waits.
     std::optional<TimePoint> due() const {

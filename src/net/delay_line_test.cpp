@@ -42,5 +42,19 @@ TEST(DelayLine, NothingOvertakesWhatWaitsWhenTheDelayEnds) {
     EXPECT_FALSE(line.is_used());
 }
 
+TEST(DelayLine, TheLastOnesLeaveAtOnceAndNothingElseDoes) {
+    DelayLine line;
+    line.set_delay(5s);
+    const TimePoint start = from_us(5'000'000);
+    for (int number = 1; number <= 4; ++number)
+        line.push(envelope(number), start);
+    line.hurry([](ByteView one) { return int(one[0]) % 2 == 0; });
+    EXPECT_EQ(line.bytes(), 6u);
+    line.push(envelope(5), start);
+    for (const int number : {2, 4, 5})
+        EXPECT_EQ(line.take(start), envelope(number));
+    EXPECT_FALSE(line.is_used());
+}
+
 }  // namespace
 }  // namespace theatron::net

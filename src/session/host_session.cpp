@@ -191,6 +191,7 @@ void HostSession::on_closed(ParticipantId id) {
 void HostSession::leave_everything(ParticipantId id, Removal cameras) {
     admission_.find(id)->closing = true;
     shared_.remove_all(id, cameras);
+    end_leading(id);
     studies_.leave(id);
     renderers_.forget(id);
     look_back_.leave(id);
@@ -212,6 +213,7 @@ void HostSession::on_tick(TimePoint now) {
         if (participant.takes_part())
             carry_out_late(id, participant, now);
     }
+    studies_.on_tick(now);
     adjusting_.on_tick(now);
     look_back_.on_tick(now);
     streams_.on_tick(now);

@@ -220,6 +220,8 @@ private:
     void carry_out(ParticipantId id, const wire::StudyReply& message, TimePoint now);
     void carry_out(ParticipantId id, const wire::SetCondition& message, TimePoint now);
     wire::ManageRefusal set_condition(ParticipantId by, const wire::SetCondition& condition);
+    void end_condition(ParticipantId id);
+    void end_leading(ParticipantId leader);
     void follow_paths();
     void carry_out_late(ParticipantId id, Participant& participant, TimePoint now);
     // `by`: the operator; 0: the person at the host's machine.

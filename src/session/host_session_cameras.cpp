@@ -26,6 +26,7 @@ void HostSession::carry_out(ParticipantId id, const wire::ChooseCodecs& wish, Ti
     for (const std::string& problem : {depth.problem, color.problem})
         if (!problem.empty())  // the old codecs stay
             return send(id, wire::Settings{{}, wire::as_written(problem)});
+    streams_.fix(id, {});  // of a condition that is not locked
     streams_.choose(id, {depth.codec, color.codec}, wish.cameras);
 }
 
@@ -34,6 +35,8 @@ void HostSession::carry_out(ParticipantId id, const wire::RequestKey& lost, Time
 }
 
 void HostSession::carry_out(ParticipantId id, const wire::ChooseDelivery& goal, TimePoint) {
+    if (studies_.is_locked(id))
+        return send(id, wire::Settings{{}, {wire::TextCode::codecs_are_set}});
     streams_.set_goal(id, goal);
 }
 

@@ -78,6 +78,9 @@ void HostSession::enter(ParticipantId id, const wire::Join& hello) {
     // A recording is of the present.
     if (!look_back_.is_possible() || hello.records || participant.has(wire::Feature::sends_only))
         std::erase(participant.features, wire::Feature::look_back);
+    // Unseen by the others, only those who manage the session see the room.
+    if (participant.has(wire::Feature::sends_only) && !participant.may(Right::manage))
+        std::erase(participant.features, wire::Feature::room);
     if (!direct_.is_possible())
         std::erase(participant.features, wire::Feature::direct);
     if (participant.has(wire::Feature::direct))

@@ -214,8 +214,14 @@ void HostSession::set_role(ParticipantId id, Role role) {
     const bool could_manage = person.may(Right::manage);
     person.role = role;
     actions_.push_back(action::ChangeRights{id});
-    if (could_manage && !person.may(Right::manage))
-        studies_.end_leading(id);
+    if (could_manage && !person.may(Right::manage)) {
+        end_leading(id);
+        // A program that is nobody in the room watches it for as long as it may manage.
+        if (person.has(wire::Feature::sends_only)) {
+            room_.leave(id);
+            std::erase(person.features, wire::Feature::room);
+        }
+    }
     if (person.records && !person.may(Right::record))
         return refuse(id, {TextCode::observer_records});
     if (!person.may(Right::publish)) {

@@ -6,10 +6,15 @@
 #pragma once
 
 #include <string>
+#include <utility>
 
 #include "wire/control.h"
 
 namespace theatron::session {
+
+// As the renderer of wire::SetRenderer: the newest choice that was not locked, of the person or of
+// the host.
+inline constexpr const char* own_renderer = "own";
 
 class RendererChoice {
 public:
@@ -20,13 +25,17 @@ public:
     bool choose(const std::string& renderer) {
         if (locked_)
             return false;
-        renderer_ = renderer;
+        renderer_ = own_ = renderer;
         return true;
     }
     // Applies a command of the host.
     void follow(const wire::SetRenderer& word) {
-        if (!word.renderer.empty())
+        if (word.renderer == own_renderer)
+            renderer_ = own_;
+        else if (!word.renderer.empty())
             renderer_ = word.renderer;
+        if (!word.locked && !word.renderer.empty())
+            own_ = renderer_;
         locked_ = word.locked;
     }
 
@@ -34,7 +43,7 @@ public:
     bool locked() const { return locked_; }
 
 private:
-    std::string renderer_;
+    std::string renderer_, own_ = renderer_;
     bool locked_ = false;
 };
 

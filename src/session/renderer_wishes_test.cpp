@@ -74,5 +74,20 @@ TEST(RendererChoice, TheLastWordHoldsUnlessTheHostLocksIt) {
     EXPECT_TRUE(choice.choose("splat"));
 }
 
+TEST(RendererChoice, TheChoiceFromBeforeTheLockComesBackAsItsOwn) {
+    RendererChoice choice("auto");
+    choice.follow({"mesh", true});
+    choice.follow({"blend", true});
+    choice.follow({own_renderer, false});
+    EXPECT_EQ(choice.renderer(), "auto");
+    EXPECT_FALSE(choice.locked());
+    choice.follow({"splat", false});
+    choice.follow({"mesh", true});
+    choice.follow({"", false});  // a new connection
+    choice.follow({"mesh", true});
+    choice.follow({own_renderer, false});
+    EXPECT_EQ(choice.renderer(), "splat");
+}
+
 }  // namespace
 }  // namespace theatron::session

@@ -23,6 +23,16 @@ void Renderers::set(ParticipantId id, const wire::SetRenderer& wish) {
     tell(id);
 }
 
+void Renderers::begin_condition(ParticipantId id, const wire::SetRenderer& wish) {
+    wishes_.begin_condition(id, admission_.find(id)->given_name, wish);
+    tell(id);
+}
+
+void Renderers::end_condition(ParticipantId id) {
+    if (const auto wish = wishes_.end_condition(id, admission_.find(id)->given_name))
+        actions_.push_back(action::Send{id, *wish});
+}
+
 void Renderers::set(const std::string& name, const wire::SetRenderer& wish) {
     wishes_.set(name, wish);
     for (const auto& [id, participant] : admission_.participants()) {

@@ -6,6 +6,8 @@
 namespace theatron::session {
 
 const std::string& StreamReceiver::wished(CameraId camera, bool depth) const {
+    if (!fixed.of(depth).empty())
+        return fixed.of(depth);
     const auto single = wishes.find(camera);
     return single != wishes.end() && !single->second.of(depth).empty() ? single->second.of(depth)
                                                                        : wish.of(depth);
@@ -29,7 +31,19 @@ void StreamReceiver::choose(const CodecWish& chosen, const std::vector<CameraId>
                 single.color.clear();
         }
     }
-    delivery.set_wish(wish.depth, wish.color);
+    tell_delivery();
+}
+
+void StreamReceiver::fix(const CodecWish& codecs) {
+    fixed = codecs;
+    tell_delivery();
+}
+
+void StreamReceiver::tell_delivery() {
+    const auto usual = [&](bool depth) {
+        return fixed.of(depth).empty() ? wish.of(depth) : fixed.of(depth);
+    };
+    delivery.set_wish(usual(true), usual(false));
 }
 
 void StreamReceiver::request(CameraStreams& camera, ParticipantId id, bool depth) const {

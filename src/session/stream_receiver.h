@@ -19,11 +19,13 @@ namespace theatron::session {
 struct CodecWish {
     std::string depth, color;
     const std::string& of(bool is_depth) const { return is_depth ? depth : color; }
+    bool operator==(const CodecWish&) const = default;
 };
 
 struct StreamReceiver {
     CodecWish wish;
     std::map<CameraId, CodecWish> wishes;  // for single cameras; empty texts: as `wish`
+    CodecWish fixed;                       // instead of both, by a study; empty texts: none
     bool records = false, takes_faces = false;
     bool has_ceiling = false;
     std::set<CameraId> past;  // that it is shown the past of
@@ -36,6 +38,8 @@ struct StreamReceiver {
     const std::string& wished(CameraId camera, bool depth) const;
     // An empty text keeps the codec. Empty `cameras`: for all, also for later ones.
     void choose(const CodecWish& chosen, const std::vector<CameraId>& cameras);
+    // Instead of all that was chosen, which comes back where a text is empty.
+    void fix(const CodecWish& codecs);
     // Puts the wished codec of this camera into its table.
     void request(CameraStreams& camera, ParticipantId id, bool depth) const;
     const LadderStep& step_for(const CameraStreams& camera, ParticipantId id);
@@ -45,6 +49,9 @@ struct StreamReceiver {
     wire::Text note_on(const CameraStreams& camera, ParticipantId id);
     // No stream of this camera is sent to it any more.
     void forget(CameraId camera);
+
+private:
+    void tell_delivery();
 };
 
 }  // namespace theatron::session

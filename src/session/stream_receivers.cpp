@@ -72,6 +72,32 @@ void Streams::choose(ParticipantId id, const CodecWish& wish,
     apply();
 }
 
+void Streams::fix(ParticipantId id, const CodecWish& codecs) {
+    const auto found = receivers_.find(id);
+    if (found == receivers_.end() || found->second.fixed == codecs)
+        return;
+    StreamReceiver& receiver = found->second;
+    receiver.fix(codecs);
+    receiver.delivery.set_codecs(steps_for(receiver), region_is_drawn_);
+    for (auto& [number, camera] : cameras_)
+        if (receiver.gets(camera, id)) {
+            receiver.request(camera, id, true);
+            receiver.request(camera, id, false);
+        }
+    take_step(id, receiver);
+    apply();
+}
+
+// The steps that a slow link may take.
+CodecSteps Streams::steps_for(const StreamReceiver& receiver) const {
+    CodecSteps steps = codecs_;
+    if (!receiver.fixed.depth.empty())
+        steps.lossy_outside_region = nullptr;
+    if (!receiver.fixed.color.empty())
+        steps.coarser = nullptr;
+    return steps;
+}
+
 // Asks for the encodings of the receiver's step.
 void Streams::take_step(ParticipantId id, StreamReceiver& receiver) {
     for (auto& [number, camera] : cameras_)

@@ -109,7 +109,7 @@ void Streams::on_region(bool is_drawn) {
         // A region adds steps down, which a recorder does not take.
         if (receiver.records)
             continue;
-        receiver.delivery.set_codecs(codecs_, is_drawn);
+        receiver.delivery.set_codecs(steps_for(receiver), is_drawn);
         send(id, receiver.delivery.message({}));
         take_step(id, receiver);
     }

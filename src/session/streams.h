@@ -85,6 +85,9 @@ public:
     // An empty text keeps the codec. Empty `cameras`: for all, also for later ones.
     void choose(ParticipantId receiver, const CodecWish& wish,
                 const std::vector<CameraId>& cameras);
+    // A study sets these codecs for all cameras: a slow link makes them no coarser. An empty text
+    // gives back what the receiver has chosen.
+    void fix(ParticipantId receiver, const CodecWish& codecs);
     void set_goal(ParticipantId receiver, const wire::ChooseDelivery& goal);
     // The receiver is shown the past of exactly these cameras (look_backs.h): it gets nothing of
     // their present, and no settings. The cameras of an earlier call that are not among them it
@@ -128,6 +131,7 @@ private:
         actions_.push_back(action::Send{participant, std::move(message)});
     }
     void tell_changed(const CameraStreams& camera);
+    CodecSteps steps_for(const StreamReceiver& receiver) const;
     void take_step(ParticipantId id, StreamReceiver& receiver);
     // Brings encoders and receivers in line with the tables.
     void apply();

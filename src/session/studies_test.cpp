@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session/studies.h"
 
+#include <set>
+
 #include "session/host_session_testing.h"
 
 namespace theatron::session {
@@ -58,7 +60,33 @@ protected:
         return sent<wire::StudyReplied>(lead, taken);
     }
 
+    void set(const std::string& renderer, const std::string& depth, Duration latency = {}) {
+        const bool locked = !renderer.empty() || !depth.empty() || latency > Duration(0);
+        tell(lead, wire::SetCondition{7, taker, renderer, depth, "", latency, locked});
+        EXPECT_EQ(answer(lead), ManageRefusal::none);
+    }
+    // The depth codecs that the host's camera is encoded in.
+    std::set<std::string> depth_codecs() {
+        session.on_tick(now += 1s);
+        std::set<std::string> codecs;
+        for (const ActiveSetting& setting : session.depth_settings())
+            codecs.insert(setting.codec);
+        return codecs;
+    }
+    // All that the participant had before a condition holds again.
+    void expect_freed() {
+        EXPECT_EQ(sent<wire::SetRenderer>(taker, taken), std::vector{own});
+        const auto delays = actions_of<action::Delay>(taken);
+        ASSERT_EQ(delays.size(), 1u);
+        EXPECT_EQ(delays[0].participant, taker);
+        EXPECT_EQ(delays[0].by, 0ms);
+        EXPECT_EQ(depth_codecs(), std::set<std::string>{"trvl"});
+        tell(taker, wire::ChooseCodecs{"zstd", "", {}});
+        EXPECT_TRUE(depth_codecs().contains("zstd"));
+    }
+
     static constexpr ParticipantId lead = alice, taker = bob;
+    const wire::SetRenderer own{own_renderer, false};
     std::vector<Action> taken;
 };
 
@@ -169,11 +197,175 @@ TEST_F(StudiesOfAHost, ConditionsAreSetAndLocked) {
         EXPECT_NE(setting.codec, "zstd");
 
     tell(lead, wire::SetCondition{8, taker, "", "", "", 0ms, false});
-    EXPECT_EQ(sent<wire::SetRenderer>(taker, taken), std::vector{(wire::SetRenderer{"", false})});
+    EXPECT_EQ(sent<wire::SetRenderer>(taker, taken), std::vector{own});
     EXPECT_EQ(actions_of<action::Delay>(taken).at(0).by, 0ms);
     tell(taker, wire::ChooseCodecs{"zstd", "", {}});
     EXPECT_TRUE(std::any_of(session.depth_settings().begin(), session.depth_settings().end(),
                             [](const ActiveSetting& one) { return one.codec == "zstd"; }));
+}
+
+TEST_F(StudiesOfAHost, WhatAConditionLeavesOpenIsAsTheParticipantHasChosenIt) {
+    tell(taker, wire::ChooseCodecs{"zstd", "", {CameraId{0}}});
+    EXPECT_EQ(depth_codecs(), (std::set<std::string>{"trvl", "zstd"}));
+    set("mesh", "rvl", 80ms);
+    EXPECT_EQ(depth_codecs(), (std::set<std::string>{"trvl", "rvl"}));
+    set("", "", 40ms);
+    EXPECT_EQ(sent<wire::SetRenderer>(taker, taken), std::vector{own});
+    EXPECT_EQ(depth_codecs(), (std::set<std::string>{"trvl", "zstd"}))
+        << "the wish for this camera alone";
+    set("splat", "");
+    EXPECT_EQ(depth_codecs(), (std::set<std::string>{"trvl", "zstd"}));
+    tell(taker, wire::ChooseCodecs{"delta", "", {}});
+    EXPECT_TRUE(depth_codecs().contains("delta")) << "codecs are free";
+    set("", "");
+    EXPECT_EQ(sent<wire::SetRenderer>(taker, taken), std::vector{own});
+    EXPECT_TRUE(depth_codecs().contains("delta"));
+    set("", "");
+    EXPECT_TRUE(sent<wire::SetRenderer>(taker, taken).empty()) << "it has its own one";
+}
+
+TEST_F(StudiesOfAHost, TheHostsOwnLockHoldsAgainAfterAConditionAndReachesThoseWhoHadOne) {
+    session.set_renderer({"blend", true});
+    set("mesh", "");
+    taken = session.take_actions();
+    set("", "");
+    EXPECT_EQ(sent<wire::SetRenderer>(taker, taken),
+              std::vector{(wire::SetRenderer{"blend", true})});
+    set("mesh", "");
+    session.set_renderer({"splat", false});
+    taken = session.take_actions();
+    EXPECT_EQ(sent<wire::SetRenderer>(taker, taken), std::vector{(wire::SetRenderer{"mesh", true})})
+        << "the condition goes first";
+    set("", "");
+    EXPECT_EQ(sent<wire::SetRenderer>(taker, taken),
+              std::vector{(wire::SetRenderer{"splat", false})});
+}
+
+TEST_F(StudiesOfAHost, WhoeverIsFreedHasNoConditionLeft) {
+    set("mesh", "rvl", 80ms);  // without any step
+    session.on_closed(lead);
+    taken = session.take_actions();
+    EXPECT_TRUE(sent<wire::StudyStep>(taker, taken).empty()) << "it has seen nothing of a study";
+    expect_freed();
+}
+
+TEST_F(StudiesOfAHost, AConditionEndsWithTheRightToManage) {
+    come(carol, "operate");
+    set("mesh", "rvl", 80ms);
+    tell(carol, wire::Manage{6, wire::ManageAction::set_role, lead, Role::expert});
+    expect_freed();
+}
+
+TEST_F(StudiesOfAHost, AConditionEndsWithTheStudy) {
+    EXPECT_EQ(show(lead, taker, step(1)), ManageRefusal::none);
+    set("mesh", "rvl", 80ms);
+    wire::StudyStep end = step(2);
+    end.kind = StudyKind::over;
+    EXPECT_EQ(show(lead, taker, end), ManageRefusal::none);
+    expect_freed();
+}
+
+TEST_F(StudiesOfAHost, AProgramThatIsKnownLeadsOnePersonWhoeverElseComes) {
+    const auto come_as = [&](ParticipantId id, const char* token, int person, int run) {
+        session.on_connected(id, now += 1s);
+        wire::Join hello;
+        hello.token = token;
+        hello.name = person == 9 ? "study" : "Anna";
+        hello.depth_codec = "trvl";
+        hello.color_codec = "jpeg";
+        hello.features = {wire::Feature::room, wire::Feature::study};
+        hello.person = Bytes(wire::person_id_size, std::byte(person));
+        hello.run = std::uint64_t(run);
+        say(id, hello);
+        taken = session.take_actions();
+    };
+    const ParticipantId program{11}, again{12}, anna{13}, stranger{14}, anna_again{15};
+    come_as(program, "operate", 9, 1);
+    come_as(anna, "secret", 1, 2);
+    EXPECT_EQ(show(program, anna, step(1)), ManageRefusal::none);
+    session.on_closed(anna);
+    come_as(stranger, "secret", 2, 3);
+    EXPECT_EQ(show(program, stranger, step(1)), ManageRefusal::no_such_participant);
+    tell(program, wire::SetCondition{9, stranger, "splat", "", "", 0ms, true});
+    EXPECT_EQ(answer(program), ManageRefusal::no_such_participant);
+    come_as(anna_again, "secret", 1, 4);
+    EXPECT_EQ(show(program, anna_again, step(1)), ManageRefusal::none);
+    // Its own new connection, while the host has not noticed the end of the one before.
+    come_as(again, "operate", 9, 1);
+    EXPECT_EQ(show(again, anna_again, step(1)), ManageRefusal::none);
+    EXPECT_EQ(show(again, stranger, step(1)), ManageRefusal::no_such_participant);
+}
+
+TEST_F(StudiesOfAHost, WhoeverSetsAConditionLeads) {
+    come(carol, "operate");
+    set("mesh", "");
+    tell(carol, wire::SetCondition{9, taker, "splat", "", "", 0ms, true});
+    EXPECT_EQ(answer(carol), ManageRefusal::other_study);
+    EXPECT_EQ(show(carol, taker, step(1)), ManageRefusal::other_study);
+    set("", "");
+    EXPECT_EQ(show(carol, taker, step(1)), ManageRefusal::none) << "nothing is left of it";
+}
+
+TEST_F(StudiesOfAHost, WhileItsCodecsAreSetAParticipantChangesNothingThatIsSent) {
+    tell(taker, wire::ChooseDelivery{0, 900});
+    ASSERT_EQ(actions_of<action::SetCeiling>(taken).size(), 1u);
+    set("", "rvl");
+    tell(taker, wire::ChooseDelivery{100, 200});
+    EXPECT_TRUE(actions_of<action::SetCeiling>(taken).empty());
+    EXPECT_EQ(sent<wire::Settings>(taker, taken).at(0).note.code, wire::TextCode::codecs_are_set);
+    set("mesh", "");
+    tell(taker, wire::ChooseDelivery{0, 300});
+    EXPECT_EQ(actions_of<action::SetCeiling>(taken).size(), 1u);
+}
+
+TEST_F(StudiesOfAHost, AStepThatIsToldAgainHasWhatIsLeftOfItsTimes) {
+    wire::StudyStep watched = step(4);
+    watched.watch = 30s;
+    watched.limit = 20s;
+    EXPECT_EQ(show(lead, taker, watched), ManageRefusal::none);
+    session.on_tick(now + 12s);
+    session.resynchronise(taker);
+    wire::StudyStep again = sent<wire::StudyStep>(taker, session.take_actions()).at(0);
+    EXPECT_EQ(again.watch, 18s);
+    EXPECT_EQ(again.limit, 8s);
+    session.on_tick(now + 60s);
+    session.resynchronise(taker);
+    again = sent<wire::StudyStep>(taker, session.take_actions()).at(0);
+    EXPECT_EQ(again.watch, 1us) << "0 would be none";
+    EXPECT_EQ(again.limit, 1us);
+}
+
+TEST_F(StudiesOfAHost, NobodyWithoutTheRightToManageSeesTheRoomUnseen) {
+    const auto hello = [&](const std::string& token) {
+        wire::Join hello;
+        hello.token = token;
+        hello.depth_codec = "trvl";
+        hello.color_codec = "jpeg";
+        hello.features = {wire::Feature::sends_only, wire::Feature::room, wire::Feature::study};
+        return hello;
+    };
+    const auto brick = [&] {
+        tell(taker,
+             wire::RoomRequest{1, encode_request(request::Create{ObjectKind::brick, {}, 1, {}})});
+    };
+    for (const char* token : {"watch", "secret"}) {
+        session.on_connected(carol, now);
+        tell(carol, hello(token));
+        EXPECT_EQ(sent<wire::Welcome>(carol, taken).size(), 1u) << token;
+        EXPECT_TRUE(sent<wire::RoomSnapshot>(carol, taken).empty()) << token;
+        brick();
+        EXPECT_TRUE(sent<wire::RoomChange>(carol, taken).empty()) << token;
+        session.on_closed(carol);
+    }
+    session.on_connected(dave, now);
+    tell(dave, hello("operate"));
+    brick();
+    EXPECT_EQ(sent<wire::RoomChange>(dave, taken).size(), 1u);
+    tell(lead, wire::Manage{6, wire::ManageAction::set_role, dave, Role::publisher});
+    brick();
+    EXPECT_TRUE(sent<wire::RoomChange>(dave, taken).empty());
+    session.resynchronise(dave);
+    EXPECT_TRUE(sent<wire::RoomSnapshot>(dave, session.take_actions()).empty());
 }
 
 TEST_F(StudiesOfAHost, AConditionWithAnUnknownCodecChangesNothing) {

@@ -192,7 +192,12 @@ void StudyRun::show(TimePoint now) {
         shown_ = now;
 }
 
-StudyRun::Answer StudyRun::reply(std::string_view text, TimePoint now) {
+bool StudyRun::has_consent() const {
+    return std::any_of(steps_.begin(), steps_.begin() + std::ptrdiff_t(next_),
+                       [](const Step& step) { return step.kind == Step::Kind::consent; });
+}
+
+StudyRun::Answer StudyRun::reply(std::string_view text, TimePoint now, Duration added) {
     assert(state_ == State::running);
     show(now);
     text = trimmed(text);
@@ -202,7 +207,7 @@ StudyRun::Answer StudyRun::reply(std::string_view text, TimePoint now) {
             0, std::chrono::duration_cast<std::chrono::milliseconds>(duration).count());
     };
     entry.at_ms = before_ms_ + ms(now - *began_);
-    entry.took_ms = ms(now - *shown_);
+    entry.took_ms = ms(now - *shown_ - added);
     const Step& step = current();
     entry.step = step.id;
     if (text == "stop") {

@@ -111,6 +111,8 @@ public:
     std::string resumed_line() const;
 
     State state() const { return state_; }
+    // The person has agreed to take part, in this run or an earlier one.
+    bool has_consent() const;
     // While running.
     const Step& current() const { return steps_[next_]; }
     std::size_t position() const { return next_; }
@@ -125,8 +127,9 @@ public:
         std::string problem;  // a sentence for the person; then there is no line
     };
     // `text`: a number, yes, no, "-" to leave a question out, "stop" to end early; empty or "done"
-    // where there is nothing to answer.
-    Answer reply(std::string_view text, TimePoint now);
+    // where there is nothing to answer. `added`: the part of the time since show() by which step
+    // and reply were made late on purpose, which the person did not take.
+    Answer reply(std::string_view text, TimePoint now, Duration added = {});
 
 private:
     Answer add(JournalEntry entry);

@@ -123,6 +123,9 @@ TEST(StudyRun, AReplyAfterTheLimitIsLate) {
     run.show(now);
     EXPECT_THAT(run.reply("1", now + 10s).line, HasSubstr("\tok\n"));
     run.show(now);
+    StudyRun delayed = run;
+    EXPECT_THAT(delayed.reply("1", now + 10100ms, 100ms).line, HasSubstr("\t10000\t"))
+        << "without what was added on the way";
     EXPECT_THAT(run.reply("1", now + 10001ms).line, HasSubstr("\tlate\n"));
 }
 

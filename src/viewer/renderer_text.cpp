@@ -45,7 +45,7 @@ std::string renderer_for(const std::string& choice, std::size_t cameras) {
 
 std::string follow_host(session::RendererChoice& choice, const wire::SetRenderer& word) {
     try {
-        if (!word.renderer.empty())
+        if (!word.renderer.empty() && word.renderer != session::own_renderer)
             check_renderer_choice(word.renderer);
     } catch (const Error& e) {
         return say(Phrase::host_wants_unknown, e.what());

@@ -65,6 +65,10 @@ Bytes wrap_control(ByteView control) {
     return envelope;
 }
 
+bool is_control(ByteView envelope) {
+    return !envelope.empty() && envelope.front() == kind_control;
+}
+
 std::size_t wrap_chunk(ByteView media, std::size_t offset, Bytes& out, std::size_t chunk_size) {
     assert(offset < media.size() && media.size() <= max_media_size);
     assert(chunk_size > 0 && chunk_size <= max_chunk_size);

@@ -68,6 +68,7 @@ struct Acknowledgement {
 
 // Puts a control message into an envelope.
 Bytes wrap_control(ByteView control);
+bool is_control(ByteView envelope);
 
 // Writes the envelope of the chunk of `media` that begins at `offset` and has at most `chunk_size`
 // bytes into `out`, replacing its content, and returns the offset of the next chunk.

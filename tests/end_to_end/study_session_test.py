@@ -106,7 +106,9 @@ class StudiesInASession(unittest.TestCase):
         self.assertIn("build.mesh.condition", steps)
         self.assertEqual(stat.S_IMODE(os.stat(self.study / "journals/P01.paths.csv").st_mode), 0o600)
         rows = self.paths()
-        self.assertEqual(rows[0]["what"], "came")
+        kinds = [row["what"] for row in rows]
+        self.assertLess(kinds.index("reply"), kinds.index("came"))
+        self.assertEqual(kinds[-1], "left", "nothing is written after the end")
         times = [int(row["session_us"]) for row in rows if row["what"] in ("step", "reply")]
         self.assertEqual(times, sorted(times))
         self.assertEqual([row["detail"] for row in rows if row["what"] == "reply"], steps)
@@ -129,18 +131,38 @@ class StudiesInASession(unittest.TestCase):
         make_study(self.study, COMPARISON)
         with self.session() as h, Surface(h.greeting["links"]["expert"], 1) as anna, \
                 self.lead(h.greeting["links"]["operator"], 1) as lead:
-            anna.next_step()
-            anna.process.say("stand 0.5 1.6 1.5 0 1 0")
-            anna.process.say("brick 0.3 1 0.2")
             path = self.study / "journals/P01.paths.csv"
+            first = anna.next_step()
+            anna.process.say("stand 0.5 1.6 1.5 0 1 0")
+            anna.process.say("brick 0.1 1 0.2")
+            # The host passes on what comes from one participant in its order: the reply is behind the pose.
+            anna.reply(first)
+            anna.next_step()
+            anna.process.say("brick 0.3 1 0.2")
             wait_until(lambda: {"head", "made"} <= {row["what"] for row in self.paths()}, of=lead)
             head = next(row for row in self.paths() if row["what"] == "head")
             self.assertEqual([float(head[axis]) for axis in "xyz"], [0.5, 1.6, 1.5])
-            made = next(row for row in self.paths() if row["what"] == "made")
-            self.assertRegex(made["detail"], r"^brick \d+$")
+            made = [row for row in self.paths() if row["what"] == "made"]
+            self.assertEqual([float(row["x"]) for row in made], [0.3], "the brick from before the consent is nowhere")
+            self.assertRegex(made[0]["detail"], r"^brick \d+$")
+            kinds = [row["what"] for row in self.paths()]
+            self.assertEqual(set(kinds[:kinds.index("reply")]), {"step"})
             lead.send(signal.SIGKILL)
             lead.process.wait()
             self.assertTrue(path.read_text().endswith("\n"))
+
+    def test_a_run_that_was_declined_keeps_no_path(self):
+        make_study(self.study, COMPARISON)
+        with self.session() as h, Surface(h.greeting["links"]["expert"], 1) as anna, \
+                self.lead(h.greeting["links"]["operator"], 1) as lead:
+            anna.next_step()
+            anna.process.say("stand 0.5 1.6 1.5 0 1 0")
+            anna.process.say("brick 0.1 1 0.2")
+            anna.process.say("study reply 0")
+            self.assertEqual(anna.next_step()["kind"], "over")
+            self.assertEqual(lead.wait_for(lambda event: event["event"] == "end")["state"], "declined")
+            self.assertEqual(lead.end(), 0)
+        self.assertLessEqual({row["what"] for row in self.paths()}, {"step", "reply"})
 
     def test_a_killed_program_loses_at_most_the_answer_being_typed(self):
         make_study(self.study, PRESENCE)

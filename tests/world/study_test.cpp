@@ -65,6 +65,7 @@ public:
     Person& person() { return person_; }
     StudyRun& run() { return *run_; }
     bool has_ended() const { return leader_->has_ended(); }
+    bool free_person() { return leader_->free_person(); }
     void tick() {
         if (leader_)
             leader_->on_tick(world_.now());
@@ -222,6 +223,34 @@ TEST_F(WorldStudy, NobodyIsAskedInPlaceOfTheParticipant) {
     EXPECT_EQ(step_of(ben), 0u);
 }
 
+TEST_F(WorldStudy, SomebodyElseOfTheSameNameIsAskedByDecisionAlone) {
+    const auto known_as = [](int number) { return Bytes(wire::person_id_size, std::byte(number)); };
+    world.person("Anna").options.person = known_as(1);
+    Person& anna = participant("Anna");
+    Study study(world);
+    study.person().options.person = known_as(9);
+    study.start();
+    EXPECT_TRUE(sees(study, anna, 1));
+    anna.leave();
+    anna.options.person = known_as(2);
+    anna.join();
+    EXPECT_FALSE(study.until([&] { return step_of(anna) != 0; }, 5s));
+    const std::string number = "#" + std::to_string(std::uint32_t(anna.number()));
+    EXPECT_THAT(study.waited.back(), HasSubstr("--person '" + number + "'"));
+    anna.leave();
+    anna.options.person = known_as(1);
+    anna.join();
+    EXPECT_TRUE(sees(study, anna, 1)) << "the person from before is known again";
+    anna.leave();
+    anna.options.person = known_as(2);
+    anna.join();
+    EXPECT_TRUE(world.until([&] { return anna.is_in(); }));
+    study.kill();
+    study.person().options.person = known_as(10);  // of its next start
+    study.start("#" + std::to_string(std::uint32_t(anna.number())));
+    EXPECT_TRUE(sees(study, anna, 1));
+}
+
 TEST_F(WorldStudy, OfSeveralPeopleOneIsNamed) {
     Person& anna = participant("Anna");
     Person& ben = participant("Ben");
@@ -289,10 +318,66 @@ TEST_F(WorldStudy, TheLatencyOfAConditionIsThatOfEverything) {
     }
     EXPECT_LT(to_ms(anna->now() - ben->now()), 20);
     EXPECT_GT(to_ms(anna->now() - ben->now()), -20);
+    // A program that is killed leaves nobody late, and sets the condition again when it comes back.
+    study.kill();
+    world.advance(2s);
+    EXPECT_LT(time_of_pose(anna, ben, 4), 150ms);
+    study.start("Anna");
+    EXPECT_TRUE(sees(study, anna, 3));
+    world.advance(2s);
+    EXPECT_GE(time_of_pose(anna, ben, 5), 200ms);
+    EXPECT_TRUE(study.until([&] { return study.free_person(); }));
+    world.advance(1s);
+    EXPECT_LT(time_of_pose(anna, ben, 6), 150ms) << "before the program leaves";
+    study.start("Anna");
+    EXPECT_TRUE(sees(study, anna, 3));
     EXPECT_TRUE(anna->reply_to_study({3, StudyAction::stop, 0}));
     EXPECT_TRUE(study.until([&] { return study.has_ended(); }));
     world.advance(1s);
-    EXPECT_LT(time_of_pose(anna, ben, 4), 150ms) << "it ends with the study";
+    EXPECT_LT(time_of_pose(anna, ben, 7), 150ms) << "it ends with the study";
+}
+
+TEST_F(WorldStudy, TheTimeOfAReplyIsWithoutTheAddedLatency) {
+    Person& anna = participant("Anna");
+    Study study(world);
+    study.start();
+    reply(study, anna);
+    EXPECT_TRUE(sees(study, anna, 3));
+    world.advance(2s);
+    reply(study, anna);
+    const auto read = study::parse_journal(study::journal_head("P01", 1) + study.journal);
+    EXPECT_GE(read.journal.entries.back().took_ms, 2000);
+    EXPECT_LT(read.journal.entries.back().took_ms, 2300) << "twice 200 ms are the condition's";
+}
+
+TEST_F(WorldStudy, AProgramWaitsForTheEndOfAnotherOnesStudy) {
+    Person& anna = participant("Anna");
+    world.person("other").options.knows_studies = true;
+    world.person("other").join(wire::Role::operator_);
+    Person& other = world.person("other");
+    EXPECT_TRUE(world.until([&] { return other.is_in(); }));
+    wire::StudyStep step;
+    step.step = 77;
+    step.kind = StudyKind::read;
+    EXPECT_NE(other->show_study(anna.number(), step), 0u);
+    EXPECT_TRUE(world.until([&] { return step_of(anna) == 77; }));
+    Study study(world);
+    study.start("Anna");
+    EXPECT_FALSE(study.until([&] { return step_of(anna) == 1; }, 5s));
+    EXPECT_THAT(study.waited.back(), HasSubstr("another operator's program"));
+    other.leave();
+    EXPECT_TRUE(sees(study, anna, 1));
+}
+
+TEST_F(WorldStudy, TheEndOfTheSessionBehindTheEndOfTheRunIsNoProblem) {
+    Person& anna = participant("Anna");
+    Study study(world);
+    study.start();
+    EXPECT_TRUE(sees(study, anna, 1));
+    EXPECT_TRUE(anna->reply_to_study({1, StudyAction::stop, 0}));
+    EXPECT_TRUE(study.until([&] { return study.run().state() != StudyRun::State::running; }));
+    world.end_host();
+    EXPECT_TRUE(study.until([&] { return study.has_ended(); }));
 }
 
 }  // namespace
