@@ -54,7 +54,8 @@ public:
         StudyLeader::Events events;
         events.keep = [this](const std::string& line) { journal += line; };
         events.waits = [this](const std::string& why) { waited.push_back(why); };
-        leader_ = std::make_unique<StudyLeader>(*run_, protocol_, who, *person_, events);
+        leader_ =
+            std::make_unique<StudyLeader>(*run_, protocol_, who, person_.participant(), events);
     }
     void kill() {
         leader_.reset();
@@ -267,7 +268,7 @@ TEST_F(WorldStudy, AnotherRoleLeadsNoStudy) {
     study.person().join(wire::Role::expert);
     study::StudyRun run(study::parse_protocol(protocol_text).protocol,
                         study::built_in_questionnaires(), 1);
-    StudyLeader leader(run, {}, "Anna", *study.person(), {});
+    StudyLeader leader(run, {}, "Anna", study.person().participant(), {});
     std::string problem;
     const auto is_refused = [&] {
         try {
