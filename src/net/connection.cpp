@@ -196,7 +196,7 @@ void Connection::close(const std::string& why) {
     if (finished_ || !closing_.empty())
         return;
     closing_ = why;
-    // Whoever is sent away gets nothing more of the others, and learns the reason at once.
+    // A peer that is sent away gets nothing more of the others, and learns the reason at once.
     in_.hurry([](ByteView) { return false; });
     out_.hurry(wire::is_control);
     out_timer_.cancel();

@@ -56,7 +56,7 @@ public:
     void acknowledge(std::uint64_t total, Duration held, TimePoint now);
 
     // From now on the path is longer by `way` in each direction, which was added on purpose and is
-    // no queue. What is on its way has left already: only its answer is later.
+    // no queue. Chunks on their way have left already: only their answer is later.
     void lengthen(Duration way, TimePoint now);
 
     // False if the window is full. True for a peer that has never acknowledged anything.

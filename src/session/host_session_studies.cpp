@@ -52,7 +52,7 @@ wire::ManageRefusal HostSession::set_condition(ParticipantId by,
     return ManageRefusal::none;
 }
 
-// Whatever the participant, and the host for it, have chosen holds again.
+// The choice of the participant, and of the host for it, holds again.
 void HostSession::end_condition(ParticipantId id) {
     renderers_.end_condition(id);
     streams_.fix(id, {});

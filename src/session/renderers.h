@@ -25,7 +25,7 @@ public:
     void set(const std::string& name, const wire::SetRenderer& wish);
     void forget(ParticipantId participant) { wishes_.forget(participant); }
 
-    // Of a study, for this connection; see RendererWishes.
+    // A study sets it, for this connection; see RendererWishes.
     void begin_condition(ParticipantId participant, const wire::SetRenderer& wish);
     void end_condition(ParticipantId participant);
 
