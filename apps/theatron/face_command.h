@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "face/network.h"
-#include "face/recording.h"
+#include "face_files.h"
 
 namespace theatron::app {
 
@@ -24,11 +23,6 @@ struct FaceTest {
     bool json = false;
 };
 void run_face_test(const FaceTest& wanted);
-
-struct FacePort {
-    std::string address = "127.0.0.1";
-    int port = 9001;
-};
 
 struct FaceListen {
     FacePort at;
@@ -53,10 +47,5 @@ struct FaceAct {
     double seconds = 0, rate_hz = 60;
 };
 void run_face_act(const FaceAct& wanted);
-
-// Throw Error with a sentence that repeats nothing of the file's content.
-face::Recording read_face_recording(const std::string& file);
-face::Network read_face_network(const std::string& file);
-face::Source face_source(const std::string& name);
 
 }  // namespace theatron::app

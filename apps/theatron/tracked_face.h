@@ -4,7 +4,7 @@
 
 #include "face/face_input.h"
 #include "face/osc_face.h"
-#include "face_command.h"
+#include "face_files.h"
 #include "face_socket.h"
 
 namespace theatron::app {

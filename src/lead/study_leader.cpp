@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "session/permissions.h"
 #include "session/room_bytes.h"
 #include "wire/manage_text.h"
 
@@ -87,6 +88,8 @@ bool StudyLeader::is_here() {
                                                 : "There is no connection to the session.");
         return false;
     }
+    if (!session::may(status.standing.role, session::Right::manage))
+        throw Error("This link is not one of an operator. Take the host's link for operators.");
     if (status.joins != joins_) {  // the host knows nothing of what the connection before asked
         lose_person();
         joins_ = status.joins;

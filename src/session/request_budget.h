@@ -45,7 +45,7 @@ public:
         report,
         publish,  // cameras that come or leave
         state,    // the condition of a camera
-        room,     // a change of the room
+        room,     // a change of the room, a reply to a study
         manage,   // a decision of an operator
         other,    // unknown and unexpected messages
         content,  // a part of a case

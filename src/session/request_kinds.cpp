@@ -30,7 +30,7 @@ struct KindOf {
     Kind operator()(const wire::OfferDirect&) const { return Kind::publish; }
     Kind operator()(const wire::AskPatient&) const { return Kind::other; }
     Kind operator()(const wire::ShowStudy&) const { return Kind::manage; }
-    Kind operator()(const wire::StudyReply&) const { return Kind::other; }
+    Kind operator()(const wire::StudyReply&) const { return Kind::room; }
     Kind operator()(const wire::SetCondition&) const { return Kind::manage; }
 };
 

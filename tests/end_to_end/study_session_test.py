@@ -24,9 +24,11 @@ def value(step, reply):
 class Surface:
     """A participant without a window, whose replies are lines."""
 
-    def __init__(self, link, number, name=NOBODY):
+    def __init__(self, link, number, name=NOBODY, home=None):
+        """`home`: a folder by which the host knows the person again; without it each surface is another computer."""
         self.person = Participant(number)
-        self.process = Process("join", link, "--no-window", "--name", name, "--every", "1000")
+        known = {"env": {**os.environ, "XDG_STATE_HOME": str(home)}} if home else {}
+        self.process = Process("join", link, "--no-window", "--name", name, "--every", "1000", **known)
         self.seen = []
 
     def __enter__(self):
@@ -192,13 +194,19 @@ class StudiesInASession(unittest.TestCase):
         make_study(self.study, CONSENT.join(["study = Short\nbreak-off = Take the headset off.\n", "\nphase = opinion\nkind = questionnaire\nquestionnaire = own-presence\n"]))
         with self.session() as h, self.lead(h.greeting["links"]["operator"], 3, "--person", NOBODY) as lead:
             lead.wait_for(lambda event: event["event"] == "waits")
-            with Surface(h.greeting["links"]["expert"], 3) as anna, Surface(h.greeting["links"]["expert"], 4, "Ben") as ben:
+            home = self.folder / "home"
+            with Surface(h.greeting["links"]["expert"], 3, home=home) as anna, \
+                    Surface(h.greeting["links"]["expert"], 4, "Ben") as ben:
                 for _ in range(3):
                     anna.reply(anna.next_step())
                 last = anna.next_step()
                 self.assertEqual(ben.seen, [])
             lead.wait_for(lambda event: event["event"] == "waits")
-            with Surface(h.greeting["links"]["observer"], 3) as anna:
+            # The same name from another computer gets no question.
+            with Surface(h.greeting["links"]["expert"], 5) as other:
+                self.assertIn("Somebody else", lead.wait_for(lambda event: event["event"] == "waits")["why"])
+                self.assertEqual(other.seen, [])
+            with Surface(h.greeting["links"]["observer"], 3, home=home) as anna:
                 self.assertEqual(anna.next_step(), last)
                 anna.process.say("study reply 99")
                 self.assertIn("whole number", anna.process.wait_for(lambda line: line.get("study") and line["study"]["problem"])["study"]["problem"])

@@ -329,6 +329,8 @@ TEST_F(WorldStudy, TheLatencyOfAConditionIsThatOfEverything) {
     EXPECT_TRUE(study.until([&] { return study.free_person(); }));
     world.advance(1s);
     EXPECT_LT(time_of_pose(anna, ben, 6), 150ms) << "before the program leaves";
+    study.kill();
+    world.advance(2s);
     study.start("Anna");
     EXPECT_TRUE(sees(study, anna, 3));
     EXPECT_TRUE(anna->reply_to_study({3, StudyAction::stop, 0}));
