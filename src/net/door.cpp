@@ -4,16 +4,13 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <array>
 #include <boost/asio/bind_executor.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
-#include <boost/asio/write.hpp>
 #include <boost/beast/http.hpp>
 #include <map>
 #include <optional>
-#include <sstream>
 
 #include "base/error.h"
 #include "base/fault.h"
@@ -351,27 +348,25 @@ private:
         const std::string& body = answer_.file ? *answer_.file : answer_.body;
         if (body.size() > large_answer)
             extend(large_answer_deadline, "did not take its answer in time");
-        http::response<http::empty_body> head;
-        head.result(unsigned(answer_.status));
-        head.set(http::field::content_type, answer_.type);
-        head.set(http::field::cache_control, "no-store");
-        head.set("X-Content-Type-Options", "nosniff");
+        response_.result(unsigned(answer_.status));
+        response_.set(http::field::content_type, answer_.type);
+        response_.set(http::field::cache_control, "no-store");
+        response_.set("X-Content-Type-Options", "nosniff");
         if (answer_.status == 401)
-            head.set(http::field::www_authenticate, "Bearer");
+            response_.set(http::field::www_authenticate, "Bearer");
         if (door_.access.insists_on_https)
-            head.set(http::field::strict_transport_security,
-                     "max-age=" + std::to_string(std::int64_t(to_seconds(https_only))));
+            response_.set(http::field::strict_transport_security,
+                          "max-age=" + std::to_string(std::int64_t(to_seconds(https_only))));
         for (const auto& [name, value] : answer_.headers)
-            head.set(name, value);
-        head.keep_alive(false);
-        head.content_length(body.size());
-        answer_head_ = (std::ostringstream() << head.base()).str();
-        const bool is_head = parser_.get().method() == http::verb::head;
-        asio::async_write(
-            *stream_,
-            std::array<asio::const_buffer, 2>{asio::buffer(answer_head_),
-                                              is_head ? asio::const_buffer() : asio::buffer(body)},
-            std::move(end));
+            response_.set(name, value);
+        response_.keep_alive(false);
+        response_.body() = {body.data(), body.size()};
+        response_.prepare_payload();
+        serializer_.emplace(response_);
+        if (parser_.get().method() == http::verb::head)
+            http::async_write_header(*stream_, *serializer_, std::move(end));
+        else
+            http::async_write(*stream_, *serializer_, std::move(end));
     }
 
     void upgrade() {
@@ -429,8 +424,9 @@ private:
     asio::steady_timer deadline_;
     beast::flat_buffer incoming_;
     http::request_parser<http::empty_body> parser_;
-    std::string answer_head_;
-    HttpAnswer answer_;
+    HttpAnswer answer_;  // owns the body of:
+    http::response<http::span_body<const char>> response_;
+    std::optional<http::response_serializer<http::span_body<const char>>> serializer_;
 };
 
 void Door::Impl::turn_away(Places::Id id, const std::string& why) {

@@ -106,7 +106,7 @@ class InTheWindow(unittest.TestCase):
         study = folder / "study"
         make_short_study(study)
         with VirtualScreen(1280, 720) as screen, host(folder / "state", CAMERA) as h, \
-                Process("join", h.greeting["links"]["expert"], "--size", "1280x720", "--renderer", "splat",
+                Process("join", h.greeting["links"]["expert"], "--name", "Wim", "--size", "1280x720", "--renderer", "splat",
                         env=screen.environment) as window, \
                 lead(folder, study, h.greeting["links"]["operator"]) as leader:
             self.screen, self.window = screen, window
