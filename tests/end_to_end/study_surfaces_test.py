@@ -129,8 +129,6 @@ class InTheWindow(unittest.TestCase):
         places = wait_until(lambda: (found := self.screen.buttons(500, 650)) and len(found) == len(labels) and found, of=self.window)
         self.picture(f"study_window_{self.shown:02}")
         self.shown += 1
-        if step["kind"] == "read":  # by the keyboard, whose first button it is
-            return self.screen.do("key", "Tab", "key", "Return")
         self.screen.do("mousemove", *places[labels.index(label)], "click", 1, "mousemove", 900, 300)
 
 

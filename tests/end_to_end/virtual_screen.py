@@ -95,11 +95,17 @@ class VirtualScreen:
                 box = next((b for b in boxes if b[0] - 3 <= x and end <= b[1] + 3 and y - b[3] <= 2), None)
                 if box:
                     box[:] = min(box[0], x), max(box[1], end), box[2], y
-                elif end - x > 20:
+                elif end - x > 8:
                     boxes.append([x, end, y, y])
                 x = end
         found = [((left + right) // 2, top + 3) for left, right, top, last in boxes if last - top > 10]
-        return sorted(found, key=lambda place: (round(place[1] / 30), place[0]))
+        rows = []  # buttons of one row have the same upper edge, nearly
+        for place in sorted(found, key=lambda place: place[1]):
+            if rows and place[1] - rows[-1][0][1] <= 8:
+                rows[-1].append(place)
+            else:
+                rows.append([place])
+        return [place for row in rows for place in sorted(row)]
 
 
 def difference(one, other):

@@ -6,7 +6,7 @@ const tables = {
     en: {
         your_name: "Your name",
         enter: "Enter the room",
-        view: "The room. Keys walk and act here; H explains them.", tools: "Bar of buttons",
+        view: "The room. Keys walk and act here; H explains them.", tools: "Bar of buttons", study: "Study",
         loading: "The program is being loaded…",
         invited: "You are invited to a session on {host}.",
         invited_as: "You are invited to a session on {host} as {role}.",
@@ -152,7 +152,7 @@ const tables = {
     de: {
         your_name: "Ihr Name",
         enter: "Den Raum betreten",
-        view: "Der Raum. Tasten gehen und handeln hier; H erklärt sie.", tools: "Leiste der Knöpfe",
+        view: "Der Raum. Tasten gehen und handeln hier; H erklärt sie.", tools: "Leiste der Knöpfe", study: "Studie",
         loading: "Das Programm wird geladen…",
         invited: "Sie sind zu einer Sitzung auf {host} eingeladen.",
         invited_as: "Sie sind zu einer Sitzung auf {host} eingeladen, als {role}.",
