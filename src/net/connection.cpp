@@ -172,9 +172,6 @@ SendingFigures Connection::take_figures() {
 void Connection::set_delay(Duration delay) {
     if (!closing_.empty())
         return;
-    // A way that becomes shorter shows itself by the first answer.
-    if (delay > out_.delay())
-        outbox_.lengthen_path(delay - out_.delay(), now_());
     in_.set_delay(delay);
     out_.set_delay(delay);
 }

@@ -73,19 +73,6 @@ void Flight::acknowledge(std::uint64_t total, Duration held, TimePoint now) {
     last_answer_ = now;
 }
 
-void Flight::lengthen(Duration way, TimePoint now) {
-    for (Duration* shortest : {&shortest_now_, &shortest_before_})
-        if (*shortest != Duration::max())
-            *shortest += 2 * way;
-    for (Chunk& chunk : chunks_)
-        chunk.sent -= way;
-    // For so long no answer comes.
-    for (TimePoint* last : {&last_answer_, &busy_at_, &low_seen_})
-        if (*last != TimePoint{})
-            *last += way;
-    lengthened_until_ = now + 2 * way;
-}
-
 void Flight::note_round_trip(Duration took, TimePoint now) {
     if (shortest_now_ == Duration::max() || now - bucket_began_ > bucket) {
         shortest_before_ = shortest_now_;
@@ -138,11 +125,8 @@ double Flight::bytes_per_second(TimePoint now) const {
 double Flight::window(TimePoint now) const {
     if (busy_seconds_ <= 0)
         return window_at_first_;
-    // At once it would let through a burst, which would queue at the bottleneck.
-    const Duration not_yet = std::max(lengthened_until_ - now, Duration(0));
-    const Duration path = std::max(round_trip() - not_yet, Duration(0));
-    const double seconds = now < draining_until_ ? drain_share * to_seconds(path)
-                                                 : to_seconds(path + allowed_queue(rate()));
+    const double seconds = now < draining_until_ ? drain_share * to_seconds(round_trip())
+                                                 : to_seconds(round_trip() + allowed_queue(rate()));
     return std::max(smallest_window, rate() * seconds);
 }
 

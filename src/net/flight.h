@@ -55,10 +55,6 @@ public:
     // this. Totals that are impossible or not newer are ignored.
     void acknowledge(std::uint64_t total, Duration held, TimePoint now);
 
-    // From now on the path is longer by `way` in each direction, which was added on purpose and is
-    // no queue. Chunks on their way have left already: only their answer is later.
-    void lengthen(Duration way, TimePoint now);
-
     // False if the window is full. True for a peer that has never acknowledged anything.
     // Call only if there is media to send: a refusal marks the next chunk as held back.
     bool may_send(TimePoint now);
@@ -102,7 +98,6 @@ private:
 
     Duration shortest_now_ = Duration::max(), shortest_before_ = Duration::max();
     TimePoint bucket_began_, low_seen_, draining_until_;
-    TimePoint lengthened_until_;  // the window has grown by the longer path
     Duration delay_{};
 };
 

@@ -28,20 +28,13 @@ struct Way {
             while (flight.may_send(now) && (answered_ || total == 0)) {
                 flight.sent(chunk, now, true, now);
                 total += chunk;
-                free_at_ = std::max(free_at_, now + added_) +
-                           seconds_to_duration(double(chunk) / bytes_per_second);
-                answers_.push_back({free_at_ + round_trip + added_, total});
+                free_at_ =
+                    std::max(free_at_, now) + seconds_to_duration(double(chunk) / bytes_per_second);
+                answers_.push_back({free_at_ + round_trip, total});
             }
         }
     }
-    Duration queue() const { return std::max(free_at_ - now - added_, Duration(0)); }
-    // As Connection::set_delay().
-    void add(Duration way) {
-        flight.lengthen(way, now);
-        added_ += way;
-        for (Answer& answer : answers_)
-            answer.at += way;
-    }
+    Duration queue() const { return std::max(free_at_ - now, Duration(0)); }
 
 private:
     struct Answer {
@@ -51,7 +44,6 @@ private:
     std::deque<Answer> answers_;
     bool answered_ = false;
     TimePoint free_at_;
-    Duration added_{};
 };
 
 TEST(Flight, FindsTheRateAndKeepsTheQueueShort) {
@@ -78,20 +70,6 @@ TEST(Flight, FollowsARateThatFallsAndRises) {
     way.bytes_per_second = 5e6;
     way.run(3);
     EXPECT_NEAR(way.flight.bytes_per_second(way.now), 5e6, 1e6);
-}
-
-TEST(Flight, ALongerPathIsNoQueueAndStopsNothing) {
-    Way way;
-    way.run(3);
-    way.add(200ms);
-    for (int tenth = 0; tenth < 30; ++tenth) {
-        const std::uint64_t before = way.total;
-        way.run(0.1);
-        EXPECT_GT(double(way.total - before), 0.1 * 0.7 * way.bytes_per_second) << tenth;
-        EXPECT_LT(way.queue(), 100ms) << tenth;
-    }
-    EXPECT_NEAR(way.flight.bytes_per_second(way.now), 5e6, 0.75e6);
-    EXPECT_NEAR(to_ms(way.flight.round_trip()), 460, 10);
 }
 
 TEST(Flight, APeerThatNeverAnswersIsNotHeldBack) {

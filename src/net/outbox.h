@@ -124,9 +124,6 @@ public:
     // Limits the rate from now on; 0: no ceiling.
     void set_ceiling(double bytes_per_second) { ceiling_ = bytes_per_second; }
 
-    // See Flight.
-    void lengthen_path(Duration way, TimePoint now) { flight_.lengthen(way, now); }
-
     SendingFigures take_figures(TimePoint now);
 
     // True if the peer has taken nothing for give_up_after although something waits for it. Call it

@@ -8,7 +8,6 @@
 namespace theatron::viewer {
 namespace {
 
-using What = StudyPress::What;
 using ::testing::ElementsAre;
 using wire::StudyAction;
 using wire::StudyKind;
@@ -137,7 +136,7 @@ TEST_F(StudyPanelOfAPerson, WatchingGoesOnWhenItsTimeIsOver) {
     EXPECT_TRUE(says("Please watch for another 3 s."));
     now += 2500ms;
     EXPECT_TRUE(says("Please watch for another 1 s."));
-    EXPECT_EQ(panel.carry_out({What::go_on}, now), std::nullopt);
+    EXPECT_EQ(panel.carry_out({StudyPress::What::go_on}, now), std::nullopt);
     now += 500ms;
     EXPECT_EQ(press("Go on"), (wire::StudyReply{1, StudyAction::answer, 0}));
 }

@@ -110,7 +110,7 @@ class InTheWindow(unittest.TestCase):
                         env=screen.environment) as window, \
                 lead(folder, study, h.greeting["links"]["operator"]) as leader:
             self.screen, self.window = screen, window
-            wait_until(lambda: screen.buttons(500, 650), of=window)
+            wait_until(lambda: screen.buttons(500, 650, least=9), of=window)
             self.shown = 0
             state, given = go_through(leader, self.press)
             self.assertEqual(state, "complete")
@@ -126,7 +126,7 @@ class InTheWindow(unittest.TestCase):
     def press(self, label, step, chosen):
         """The button of this place, when all of this step are there. The mouse does not stay on one, which would change its colour."""
         labels = labels_of(step, chosen)
-        places = wait_until(lambda: (found := self.screen.buttons(500, 650)) and len(found) == len(labels) and found, of=self.window)
+        places = wait_until(lambda: (found := self.screen.buttons(500, 650, least=9)) and len(found) == len(labels) and found, of=self.window)
         self.picture(f"study_window_{self.shown:02}")
         self.shown += 1
         self.screen.do("mousemove", *places[labels.index(label)], "click", 1, "mousemove", 900, 300)

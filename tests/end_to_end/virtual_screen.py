@@ -77,7 +77,7 @@ class VirtualScreen:
         blue_green_red = bytes(reversed(color))
         return sum(row[x:x + 3] == blue_green_red for row in self.pixels(left, top, width, height) for x in range(0, len(row), 4)) >= least
 
-    def buttons(self, width, height):
+    def buttons(self, width, height, least=21):
         """Middles of the panels' buttons, a little below their upper edges, from top to bottom and left to right."""
         color = bytes((84, 66, 52))
         boxes = []  # [left, right, top, last row]
@@ -95,10 +95,12 @@ class VirtualScreen:
                 box = next((b for b in boxes if b[0] - 3 <= x and end <= b[1] + 3 and y - b[3] <= 2), None)
                 if box:
                     box[:] = min(box[0], x), max(box[1], end), box[2], y
-                elif end - x > 8:
+                elif end - x >= least:
                     boxes.append([x, end, y, y])
                 x = end
         found = [((left + right) // 2, top + 3) for left, right, top, last in boxes if last - top > 10]
+        if least > 20:
+            return sorted(found, key=lambda place: (round(place[1] / 30), place[0]))
         rows = []  # buttons of one row have the same upper edge, nearly
         for place in sorted(found, key=lambda place: place[1]):
             if rows and place[1] - rows[-1][0][1] <= 8:
