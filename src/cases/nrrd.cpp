@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "base/outside_text.h"
+#include "base/small_letters.h"
 #include "cases/label_map.h"
 #include "cases/nrrd_grid.h"
 #include "cases/nrrd_header.h"
@@ -15,10 +16,10 @@
 namespace theatron::cases {
 namespace {
 
-using nrrd::bad_field, nrrd::field, nrrd::Fields, nrrd::lower, nrrd::whole_number;
+using nrrd::bad_field, nrrd::field, nrrd::Fields, nrrd::whole_number;
 
 std::optional<SampleType> sample_type(std::string name) {
-    name = lower(name);
+    name = in_small_letters(name);
     static const std::map<std::string_view, SampleType> types{
         {"char", SampleType::i8},       {"int8", SampleType::i8},    {"int8_t", SampleType::i8},
         {"uchar", SampleType::u8},      {"uint8", SampleType::u8},   {"uint8_t", SampleType::u8},
@@ -119,7 +120,7 @@ ParsedLabels parse_nrrd(ByteView file, std::size_t layer, ByteView data) {
     if (!type)
         return other_content("has samples of the type '" + clean_text(field(fields, "type"), 30) +
                              "', which is no label's");
-    const std::string encoding = lower(field(fields, "encoding"));
+    const std::string encoding = in_small_letters(field(fields, "encoding"));
     std::optional<Packing> packing;
     if (encoding == "gzip" || encoding == "gz")
         packing = Packing::gzip;
@@ -131,7 +132,7 @@ ParsedLabels parse_nrrd(ByteView file, std::size_t layer, ByteView data) {
                              "', which is not read; save it raw or with gzip");
     SampleLayout layout;
     layout.type = *type;
-    const std::string order = lower(field(fields, "endian"));
+    const std::string order = in_small_letters(field(fields, "endian"));
     if (!order.empty() && order != "little" && order != "big")
         return other_content(bad_field(fields, "endian", "order of bytes (little, big)"));
     layout.big_endian = order == "big";

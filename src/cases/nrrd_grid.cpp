@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "base/outside_text.h"
+#include "base/small_letters.h"
 #include "base/trimmed.h"
 #include "cases/label_map.h"
 #include "cases/text_words.h"
@@ -42,7 +43,7 @@ std::optional<std::vector<double>> sizes_of(const std::string& text) {
 
 // Signs that take the file's axes to LPS.
 std::optional<Vec3> lps_signs(const std::string& written) {
-    const std::string space = lower(written);
+    const std::string space = in_small_letters(written);
     if (space == "left-posterior-superior" || space == "lps")
         return Vec3{1, 1, 1};
     if (space == "right-anterior-superior" || space == "ras")
@@ -62,7 +63,7 @@ std::optional<Vec3> millimetres(const std::string& units) {
         const std::size_t end = units.find('"', at + 1);
         if (end == std::string::npos)
             return std::nullopt;
-        const std::string unit = lower(units.substr(at + 1, end - at - 1));
+        const std::string unit = in_small_letters(units.substr(at + 1, end - at - 1));
         at = end + 1;
         if (unit == "mm" || unit == "millimeter" || unit == "millimeters" || unit.empty())
             found.push_back(1);
@@ -97,7 +98,7 @@ std::optional<Directions> directions_of(const std::string& text) {
             if (!axes.back())
                 return std::nullopt;
             at = end + 1;
-        } else if (lower(text.substr(at, 4)) == "none") {
+        } else if (in_small_letters(text.substr(at, 4)) == "none") {
             axes.emplace_back();
             at += 4;
         } else if (text[at] == ' ' || text[at] == '\t') {
@@ -148,7 +149,7 @@ std::string read_axes(const Fields& fields, Axes& axes) {
                 axes.before_layers *= std::size_t(sizes[k]);
         }
     }
-    std::istringstream kinds(lower(field(fields, "kinds")));
+    std::istringstream kinds(in_small_letters(field(fields, "kinds")));
     for (std::string kind; axes.layers > 1 && kinds >> kind;)
         if (is_of_parts(kind) && field(fields, "Segment0_Name").empty())
             return "has the kind '" + clean_text(kind, 40) +

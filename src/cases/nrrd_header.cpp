@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/outside_text.h"
+#include "base/small_letters.h"
 #include "base/trimmed.h"
 #include "cases/text_words.h"
 
@@ -14,13 +15,6 @@ constexpr std::size_t max_header_bytes = 1 << 20;
 constexpr std::size_t max_fields = 8192;
 
 }  // namespace
-
-std::string lower(std::string_view text) {
-    std::string small(text);
-    for (char& c : small)
-        c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
-    return small;
-}
 
 std::optional<Header> read_header(ByteView file) {
     Header header;
@@ -54,7 +48,7 @@ std::optional<Header> read_header(ByteView file) {
         const bool is_key = line[colon + 1] == '=';
         const std::string_view name = trimmed(line.substr(0, colon)),
                                value = trimmed(line.substr(colon + (is_key ? 2 : 1)));
-        std::string known = is_key ? std::string(name) : lower(name);
+        std::string known = is_key ? std::string(name) : in_small_letters(name);
         if (known == "datafile")
             known = "data file";
         if (known == "lineskip" || known == "byteskip")

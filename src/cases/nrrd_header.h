@@ -24,8 +24,6 @@ struct Header {
 // Nothing: no header, or no end of it.
 std::optional<Header> read_header(ByteView file);
 
-std::string lower(std::string_view text);
-
 // Empty where there is none.
 std::string field(const Fields& fields, std::string_view name);
 

@@ -53,7 +53,7 @@ TEST_F(KeptCertificateTest, KeepsTheOldOneAndSaysSoUntilTheFilesAreRight) {
     write(second, first);
     EXPECT_FALSE(settle(kept));
     EXPECT_EQ(kept.current().fingerprint, first.fingerprint);
-    EXPECT_THAT(kept.problem(now, "theatron"), HasSubstr("no certificate with its key"));
+    EXPECT_THAT(kept.problem(now, "theatron"), HasSubstr("was made for another key than"));
     EXPECT_THAT(kept.problem(now, "theatron"), HasSubstr("stays in use"));
     std::filesystem::remove(folder.path() / "crt");
     EXPECT_FALSE(settle(kept));

@@ -9,6 +9,9 @@ namespace {
 using study::Step;
 using wire::StudyKind;
 
+// The host takes each condition that a protocol may have.
+static_assert(std::chrono::milliseconds(study::max_added_latency_ms) == wire::max_added_latency);
+
 StudyKind kind_of(Step::Kind kind) {
     switch (kind) {
         case Step::Kind::consent:

@@ -72,10 +72,10 @@ class Https(unittest.TestCase):
             self.assertEqual(Link.parse(new_link).fingerprint, second)
 
             self.install("first", key="second")
-            wait_until(lambda: "no certificate with its key" in status(new_link)["problem"])
+            wait_until(lambda: "was made for another key than" in status(new_link)["problem"])
             self.assertEqual(shown_fingerprint(link), second)
             self.assertIn("stays in use", run("status", new_link)[1])
-            self.assertTrue(any("no certificate with its key" in line for line in h.errors), h.errors)
+            self.assertTrue(any("was made for another key than" in line for line in h.errors), h.errors)
             # A pipe is not waited for: links are still revoked, and good files are read again.
             (self.folder / "or.pem").unlink()
             os.mkfifo(self.folder / "or.pem")
@@ -83,7 +83,7 @@ class Https(unittest.TestCase):
             self.install("second")
             wait_until(lambda: status(new_link)["problem"] == "")
             self.install("first", key="second")
-            wait_until(lambda: "no certificate with its key" in status(new_link)["problem"])
+            wait_until(lambda: "was made for another key than" in status(new_link)["problem"])
             token = (self.state / "metrics.token").read_text().strip()
             metrics = https_request(link, "GET", "/metrics", headers=[f"Authorization: Bearer {token}"])[2].decode()
             self.assertIn('theatron_certificate_problem{of="host"} 1', metrics)
