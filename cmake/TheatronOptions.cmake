@@ -16,6 +16,8 @@ find_program(CCACHE ccache)
 if(CCACHE)
   # Paths below the base are kept as relative ones, so every clone finds what another has compiled.
   set(launcher ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${CMAKE_SOURCE_DIR} CCACHE_NOHASHDIR=1)
+  # Without them it keeps nothing that is compiled with precompiled headers. No source uses __TIME__ or __DATE__.
+  list(APPEND launcher CCACHE_SLOPPINESS=pch_defines,time_macros)
   if(THEATRON_SANITIZE)
     list(APPEND launcher CCACHE_EXTRAFILES=${CMAKE_SOURCE_DIR}/cmake/sanitizer_ignorelist.txt)
   endif()
@@ -31,6 +33,8 @@ add_compile_options(-Wall -Wextra -Wshadow -Wnon-virtual-dtor -Wno-missing-field
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # GCC 12 reports overlapping copies inside std::string where there are none (its bug 105651).
   add_compile_options(-Wno-restrict)
+  # GCC collects its garbage less often, which takes a twentieth of its time from it and gives it half a gigabyte.
+  add_compile_options(--param=ggc-min-heapsize=700000)
 endif()
 if(THEATRON_SANITIZE)
   # Assertions are part of what these builds check, also the fuzz targets, which are optimised.

@@ -12,7 +12,7 @@
 namespace theatron {
 namespace {
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
     return "'" + std::string(text) + "'";
 }
 
@@ -24,7 +24,7 @@ Options Options::parse(std::string_view text) {
     const auto colon = text.find(':');
     options.kind_ = text.substr(0, colon);
     if (options.kind_.empty())
-        options.note("The specification " + quoted(options.text_) +
+        options.note("The specification " + in_quotes(options.text_) +
                      " names no kind; write it as kind:value,key=value.");
     if (colon == std::string_view::npos)
         return options;
@@ -52,12 +52,12 @@ Options Options::parse(std::string_view text) {
             options.value_ = part;
         } else if (!is_key || equals == 0) {
             // It may be the rest of an address.
-            options.note("In " + quoted(options.text_) + ", " +
-                         (options.text_ == text ? quoted(part) : "the end") +
+            options.note("In " + in_quotes(options.text_) + ", " +
+                         (options.text_ == text ? in_quotes(part) : "the end") +
                          " is not a key=value pair.");
         } else if (!options.keys_.emplace(part.substr(0, equals), part.substr(equals + 1)).second) {
-            options.note("In " + quoted(options.text_) + ", the key " +
-                         quoted(part.substr(0, equals)) + " is given twice.");
+            options.note("In " + in_quotes(options.text_) + ", the key " +
+                         in_quotes(part.substr(0, equals)) + " is given twice.");
         }
         first = false;
     }
@@ -83,7 +83,7 @@ double Options::take_number(std::string_view key, double fallback, double min, d
         return number;
     char range[64];
     std::snprintf(range, sizeof(range), "%g to %g", min, max);
-    note("In " + quoted(text_) + ", " + std::string(key) + "=" + value + " is not a number from " +
+    note("In " + in_quotes(text_) + ", " + std::string(key) + "=" + value + " is not a number from " +
          range + ".");
     return fallback;
 }
@@ -92,7 +92,7 @@ int Options::take_int(std::string_view key, int fallback, int min, int max) {
     const double number = take_number(key, fallback, min, max);
     if (number == std::floor(number))
         return int(number);
-    note("In " + quoted(text_) + ", " + std::string(key) + " must be a whole number.");
+    note("In " + in_quotes(text_) + ", " + std::string(key) + " must be a whole number.");
     return fallback;
 }
 
@@ -102,7 +102,7 @@ bool Options::take_flag(std::string_view key, bool fallback) {
 
 std::string Options::problem() const {
     if (problem_.empty() && !keys_.empty())
-        return "In " + quoted(text_) + ", the key " + quoted(keys_.begin()->first) + " is unknown.";
+        return "In " + in_quotes(text_) + ", the key " + in_quotes(keys_.begin()->first) + " is unknown.";
     return problem_;
 }
 
