@@ -102,7 +102,9 @@ public:
         else
             steps.push_back(step);
         if (steps.size() > max_steps)
-            note("A chain has at most " + std::to_string(max_steps) + " filters.");
+            note(std::string("A chain has at most ")
+                     .append(std::to_string(max_steps))
+                     .append(" filters."));
     }
 
     void set_background_file(std::string file) { parsed_.settings.background_file = file; }

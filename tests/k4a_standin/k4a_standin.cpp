@@ -52,7 +52,8 @@ struct Device {
     bool running = false;
     Configuration configuration{};
     Clock::time_point started;
-    int step = 0;  // captures given; two per frame if colour comes separately
+    int step = 0;     // captures given; two per frame if colour comes separately
+    int in_vain = 0;  // waits since the last capture
 };
 
 // The number of handles not released, and the calls that tests check.
@@ -256,6 +257,10 @@ STANDIN_EXPORT int k4a_device_get_capture(Device* device, Capture** capture, std
     const long forever = 1L << 40;
     if (!device->running || frame >= b.number("unplug_after", forever))
         return failed;
+    if (device->in_vain < b.number("in_vain", 0)) {
+        ++device->in_vain;
+        return timed_out;
+    }
     const auto deadline = Clock::now() + std::chrono::milliseconds(ms);
     const std::chrono::microseconds period(
         b.number("period_us", periods_us[device->configuration.fps]));
@@ -267,6 +272,7 @@ STANDIN_EXPORT int k4a_device_get_capture(Device* device, Capture** capture, std
     std::this_thread::sleep_until(due);
     *capture = capture_of(*device, frame, device->step % captures_a_frame);
     ++device->step;
+    device->in_vain = 0;
     return ok;
 }
 

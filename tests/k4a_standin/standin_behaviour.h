@@ -17,6 +17,7 @@ public:
     //   refuse_open, refuse_start, refuse_controls
     //   calibration=none|garbage|long|FILE
     //   unplug_after=N      from frame N on, waiting fails
+    //   in_vain=N           before each capture, N waits end at once without one
     //   stall_after=N       from frame N on, no captures come
     //   no_color            captures without colour
     //   no_depth            captures without depth
