@@ -396,5 +396,19 @@ TEST_F(StudiesOfAHost, AProgramThatOnlyWatchesIsNobodyInTheRoomAndChangesNothing
     EXPECT_TRUE(sent<wire::RoomChange>(taker, session.take_actions()).empty());
 }
 
+TEST_F(StudiesOfAHost, AReplyThatIsOneTooManyIsAskedForAgain) {
+    EXPECT_EQ(show(lead, taker, step(1)), ManageRefusal::none);
+    const auto limit = RequestBudget::limits[std::size_t(RequestBudget::Kind::room)];
+    std::size_t kept = 0, again = 0;
+    for (int i = 0; i <= int(limit.at_once); ++i) {  // at one moment
+        say(taker, wire::StudyReply{1, wire::StudyAction::answer, 3});
+        taken = session.take_actions();
+        kept += sent<wire::StudyReplied>(lead, taken).size();
+        again += sent<wire::StudyStep>(taker, taken).size();
+    }
+    EXPECT_EQ(kept, std::size_t(limit.at_once));
+    EXPECT_EQ(again, 1u);
+}
+
 }  // namespace
 }  // namespace theatron::session
