@@ -211,7 +211,7 @@ std::optional<std::size_t> follow_focus(xr::WindowInput& input, const xr::Overla
     return pressed;
 }
 
-// Of the panel to which the keyboard comes first; 0: there is none.
+// The number of the panel to which the keyboard comes first; 0: there is none.
 std::uint64_t keyboard_of(const xr::OverlayContent& content) {
     for (const xr::Panel& panel : content.panels)
         if (panel.keyboard != 0)
