@@ -45,6 +45,17 @@ item = c2
 text = How often?
 choices = never | often
 """
+# A condition whose renderer has no meaning where nothing is drawn.
+DRAWN = f"""study = Drawn
+condition = splats
+renderer = splat
+
+{AGREE}
+phase = look
+kind = instruction
+each-condition = yes
+text = Look around.
+"""
 
 
 def make_short_study(folder):
@@ -113,6 +124,27 @@ class InThePage(PageCase):
                 self.assertEqual(page.problems, [])
                 self.leave(page)
                 page.close()
+
+    def test_a_condition_with_a_renderer_waits_while_the_participant_has_the_2d_view(self):
+        (self.study / "study.conf").write_text(DRAWN)
+        page = self.browser.open(self.links["expert"], (400, 700))
+        page.enter("Ada", way="flat")
+        page.wait_for("theatron.state.phase === 'joined'")
+        with lead(self.place, self.study, self.links["operator"], 4) as leader:
+            hand = PageSurface(page, "page_drawn")
+            agree, look = ({"step": number, "kind": kind} for number, kind in ((1, "consent"), (3, "read")))
+            for label in ("Yes", "Go on"):
+                hand.press(label, agree)
+            self.assertIn("2D view", leader.wait_for(lambda line: line["event"] == "waits")["why"])
+            self.assertEqual(list(replies(self.study, 4)), ["agree.consent"])
+            self.leave(page)
+            page.close()
+            page = self.browser.open(self.links["expert"], (1280, 720))
+            page.enter("Ada", way="room")
+            PageSurface(page, "page_drawn").press("Go on", look)
+            self.assertEqual(leader.wait_for(lambda line: line["event"] == "end")["state"], "complete")
+        self.assertEqual(list(replies(self.study, 4)), ["agree.consent", "look.splats.condition", "look.splats"])
+        self.leave(page)
 
     def test_with_a_headset_on_a_plate(self):
         page = self.browser.open("about:blank", (320, 180))
