@@ -46,8 +46,6 @@ void check_condition(const study::Condition& condition, std::vector<ConfigMistak
         if (const auto parsed = video::parse_depth_setting(condition.depth_codec);
             !parsed.problem.empty())
             refuse("depth-codec", parsed.problem);
-    if (!condition.room.empty() && condition.room != "on" && condition.room != "off")
-        refuse("room", "'" + condition.room + "' is neither on nor off");
 }
 
 void add_lines(std::string& all, const std::string& lines) {

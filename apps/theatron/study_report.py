@@ -253,6 +253,7 @@ def compared(scores, conditions):
     if len(table):
         for _, places in table.groupby("test").groups.items():
             table.loc[places, "p_holm"] = holm(list(table.loc[places, "p"]))
+            table.loc[places, "tests"] = len(places)
     return table
 
 
@@ -265,7 +266,8 @@ def conclusion(row):
     if row.p_holm < LEVEL:
         return "a difference"
     if row.p < LEVEL:
-        return "a hint, which does not hold after Holm's correction"
+        return "a hint, which does not hold after Holm's correction" + \
+            (f"; with {int(row.nonzero)} pairs and {int(row.tests)} tests none could" if row.tests * 2 * 0.5 ** row.nonzero > LEVEL else "")
     return "too small to conclude: no difference was found, which does not show that there is none"
 
 
@@ -284,6 +286,7 @@ def task_scores(tasks):
 
 # Figures
 
+UNITS = {("task", "correct"): "%", ("task", "seconds"): "s"}
 COLORS = ["#2c6fbb", "#d9822b", "#3a9a5b", "#8d5bb0", "#b5435a", "#6b6b6b"]
 
 
@@ -328,6 +331,7 @@ def box_plots(group, conditions, path):
         else:
             axis.set_ylim(bottom=0)
         axis.set_title(wrapped(title, 24), fontsize=9)
+        axis.set_ylabel(UNITS.get((part.questionnaire.iloc[0], part.scale.iloc[0]), "Score"), fontsize=8)
         axis.grid(axis="y", alpha=0.3)
         axis.spines[["top", "right"]].set_visible(False)
     figure.tight_layout()
@@ -405,6 +409,7 @@ def choice_plot(replies, item, path):
     axis.set_xlim(0, max([*counts, 1]) * 1.25)
     axis.invert_yaxis()
     axis.xaxis.set_major_locator(matplotlib.ticker.MaxNLocator(integer=True))
+    axis.set_xlabel("Participants", fontsize=8)
     axis.spines[["top", "right"]].set_visible(False)
     axis.set_title(item.text, fontsize=9, loc="left")
     return saved(figure, path)
@@ -469,8 +474,14 @@ def comparison_tables(rows):
     return lines
 
 
-def size_note(n):
+def size_note(n, conditions):
     """A sentence on what this number of participants can tell at all."""
+    if n == 0:
+        return "Nobody has agreed to take part yet, so there is nothing to describe."
+    if conditions < 2:
+        half = stats.binomtest(n // 2, n).proportion_ci(method="exact")
+        return (f"{n} participants and no two conditions: this report describes and compares nothing. A share of so few people is inexact: where "
+                f"{n // 2} of {n} say something, {100 * half.low:.0f} to {100 * half.high:.0f} % of all may do so (95 % interval of Clopper and Pearson).")
     if n < 6:
         return (f"{n} participants: no comparison of two conditions can reach p &lt; {LEVEL}, whatever they reply. "
                 "The study is too small to conclude; this report describes.")
@@ -515,8 +526,8 @@ def write_report(folder):
     agreed = int((participants.state != "declined").sum())
     page = [f"<h1>{html.escape(study['title'])}</h1>",
             f"<p>{agreed} participants agreed, {int((participants.state == 'complete').sum())} of them completed the study. "
-            f"Order of conditions: {html.escape(study['order'])}, seed {study['seed']}.</p>",
-            f"<p class='note'>{size_note(agreed)}</p>"]
+            + (f"Order of conditions: {html.escape(study['order'])}, seed {study['seed']}.</p>" if conditions else "</p>"),
+            f"<p class='note'>{size_note(agreed, len(conditions))}</p>"]
     if study["left_out"]:
         page.append(f"<p class='note'>Left out, because they began with another text of the protocol: {html.escape(', '.join(study['left_out']))}.</p>")
     if conditions:
@@ -532,7 +543,8 @@ def write_report(folder):
             page.extend(comparison_tables(comparisons[comparisons.questionnaire == key] if len(comparisons) else comparisons))
         page.extend(figures)
 
-    for key, of_it in items.groupby("questionnaire", sort=False):
+    asked = {key: place for place, key in enumerate(dict.fromkeys(replies.questionnaire))}
+    for key, of_it in sorted(items.groupby("questionnaire", sort=False), key=lambda part: asked.get(part[0], len(asked))):
         figures, replied = [], replies[replies.questionnaire == key]
         points = of_it[of_it.choices == ""]
         if len(points) and (points.highest - points.lowest).max() <= 10 and (figure := likert_plot(replied, points, conditions, folder / f"likert-{key}.svg")):

@@ -43,7 +43,6 @@ std::string join_words(const study::Condition& condition) {
     add("--renderer", condition.renderer);
     add("--color-codec", condition.color_codec);
     add("--depth-codec", condition.depth_codec);
-    add("--room", condition.room);
     return words;
 }
 
@@ -162,9 +161,6 @@ void StudyTerminal::show(const StudyRun& run, bool asks) const {
         std::printf("%s ", asked_for(step).c_str());
     } else {
         std::printf("%s\n", step.id.c_str());
-        if (step.kind == Step::Kind::condition &&
-            !study_.protocol.conditions[std::size_t(step.condition)].room.empty())
-            std::printf("  The participant's own program has --room; the host does not set it.\n");
     }
     std::fflush(stdout);
 }

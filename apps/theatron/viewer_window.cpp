@@ -173,8 +173,9 @@ void follow_sound(VoiceLine& voice, sound::DeviceWatch& devices, viewer::Viewer&
 
 // The keyboard's way through the buttons. Takes the keys that it uses out of `input`; returns the
 // button that was pressed.
-std::optional<std::size_t> follow_focus(xr::WindowInput& input, std::size_t controls,
+std::optional<std::size_t> follow_focus(xr::WindowInput& input, const xr::Overlay& overlay,
                                         std::optional<std::size_t>& focus) {
+    const std::size_t controls = overlay.controls();
     std::optional<std::size_t> pressed;
     const auto step_of = [&](const xr::KeyPress& key) -> std::optional<xr::FocusStep> {
         using Action = xr::Action;
@@ -194,7 +195,9 @@ std::optional<std::size_t> follow_focus(xr::WindowInput& input, std::size_t cont
     };
     std::erase_if(input.keys, [&](const xr::KeyPress& key) {
         if (const auto step = step_of(key)) {
-            focus = xr::moved_focus(focus, *step, controls);
+            const bool begins = !focus && *step == xr::FocusStep::next;
+            focus = begins && overlay.keyboard_begin() ? overlay.keyboard_begin()
+                                                       : xr::moved_focus(focus, *step, controls);
             return true;
         }
         const bool presses =
@@ -206,6 +209,14 @@ std::optional<std::size_t> follow_focus(xr::WindowInput& input, std::size_t cont
     // The key that presses buttons is that of push to talk.
     input.talks = input.talks && !focus;
     return pressed;
+}
+
+// The number of the panel to which the keyboard comes first; 0: there is none.
+std::uint64_t keyboard_of(const xr::OverlayContent& content) {
+    for (const xr::Panel& panel : content.panels)
+        if (panel.keyboard != 0)
+            return panel.keyboard;
+    return 0;
 }
 
 void print_end(viewer::Viewer& viewer, const client::Participant& participant,
@@ -317,7 +328,7 @@ WindowEnd show(xr::DesktopWindow& window, ViewerWindow options) {
         const TimePoint now = steady_now();
         if (input.close)
             break;
-        if (const auto pressed = follow_focus(input, overlay.controls(), focus)) {
+        if (const auto pressed = follow_focus(input, overlay, focus)) {
             viewer.press(overlay.command_of(*pressed), now);
             next_texts = now;
         }
@@ -427,8 +438,9 @@ WindowEnd show(xr::DesktopWindow& window, ViewerWindow options) {
             xr::OverlayContent content = viewer::overlay_of(facts, address, host::shown_filter);
             content.hovered = hovered;
             // Another button may stand where the keyboard was.
-            if (content.tools && texts.tools &&
-                content.tools->tools.size() != texts.tools->tools.size())
+            if ((content.tools && texts.tools &&
+                 content.tools->tools.size() != texts.tools->tools.size()) ||
+                keyboard_of(content) != keyboard_of(texts))
                 focus.reset();
             content.focused = focus;
             texts_changed = texts_changed || content != texts;

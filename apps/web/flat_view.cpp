@@ -18,6 +18,7 @@ client::Participant::Options FlatView::options(client::Participant::Options join
     // Nothing until a camera is known: then ask() does.
     join.depth_codec = join.color_codec = wire::no_codec;
     join.takes_color_alone = true;
+    join.draws_flat = true;
     join.delivery.max_kbit_per_s = most_kbit_per_s;
     join.keeps_cases = false;  // nothing of them is drawn
     return join;

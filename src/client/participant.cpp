@@ -44,6 +44,8 @@ std::vector<wire::Feature> features_of(const Participant::Options& options) {
         features.push_back(wire::Feature::shows_screen);
     if (options.knows_studies)
         features.push_back(wire::Feature::study);
+    if (options.draws_flat)
+        features.push_back(wire::Feature::draws_flat);
     if (options.direct && DirectReception::is_possible())
         features.push_back(wire::Feature::direct);
     return features;

@@ -97,6 +97,8 @@ public:
         bool voice_may_record = false;
         // Shows steps of a study to this person, or leads one as an operator's program.
         bool knows_studies = false;
+        // Shows the colour of one camera as it is, without depth and renderer.
+        bool draws_flat = false;
         // Takes pictures directly from their publishers, and sends its own directly, where the host
         // allows it. Not in a browser.
         bool direct = false;

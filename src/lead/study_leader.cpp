@@ -190,11 +190,13 @@ void StudyLeader::take_answers(TimePoint now) {
             continue;
         }
         if (answer->refusal == ManageRefusal::too_often ||
-            answer->refusal == ManageRefusal::other_study) {
+            answer->refusal == ManageRefusal::other_study ||
+            answer->refusal == ManageRefusal::draws_flat) {
             shown_.reset();
             set_.reset();
             next_try_ = now + retry_after;
-            if (answer->refusal == ManageRefusal::other_study)
+            // Without its condition no step is shown.
+            if (answer->refusal != ManageRefusal::too_often)
                 wait_for(wire::text_of(answer->refusal));
             continue;
         }

@@ -76,6 +76,8 @@ void HostSession::on_control(ParticipantId id, ByteView bytes, TimePoint now) {
                 carry_out(id, std::get<wire::Unpublish>(*message), now);
             else if (message && std::holds_alternative<wire::RoomRequest>(*message))
                 room_.refuse(id, std::get<wire::RoomRequest>(*message), Refusal::too_often);
+            else if (message && std::holds_alternative<wire::StudyReply>(*message))
+                studies_.tell_again(id);  // otherwise the participant waits for ever
             else if (message && decision_number(*message) != 0)
                 send(id, wire::Managed{decision_number(*message), wire::ManageRefusal::too_often});
             else if (message)

@@ -33,6 +33,9 @@ wire::ManageRefusal HostSession::set_condition(ParticipantId by,
         return refusal;
     if (!depth.problem.empty() || !color.problem.empty())
         return ManageRefusal::no_such_codec;
+    if ((!condition.renderer.empty() || !depth.codec.empty()) &&
+        admission_.find(id)->has(wire::Feature::draws_flat))
+        return ManageRefusal::draws_flat;
     const bool has_codecs = !depth.codec.empty() || !color.codec.empty();
     const bool is_usual =
         !has_codecs && condition.renderer.empty() && condition.latency == Duration(0);

@@ -20,7 +20,8 @@ protected:
         come(lead, "operate");
         come(taker, "secret");
     }
-    void come(ParticipantId id, const std::string& token, bool knows_studies = true) {
+    void come(ParticipantId id, const std::string& token, bool knows_studies = true,
+              bool draws_flat = false) {
         session.on_connected(id, now);
         wire::Join hello;
         hello.token = token;
@@ -30,6 +31,8 @@ protected:
         hello.features = {wire::Feature::room};
         if (knows_studies)
             hello.features.push_back(wire::Feature::study);
+        if (draws_flat)
+            hello.features.push_back(wire::Feature::draws_flat);
         say(id, hello);
         taken = session.take_actions();
     }
@@ -394,6 +397,34 @@ TEST_F(StudiesOfAHost, AProgramThatOnlyWatchesIsNobodyInTheRoomAndChangesNothing
     EXPECT_EQ(show(carol, taker, step(1)), ManageRefusal::none);
     session.on_closed(carol);
     EXPECT_TRUE(sent<wire::RoomChange>(taker, session.take_actions()).empty());
+}
+
+TEST_F(StudiesOfAHost, AReplyThatIsOneTooManyIsAskedForAgain) {
+    EXPECT_EQ(show(lead, taker, step(1)), ManageRefusal::none);
+    const auto limit = RequestBudget::limits[std::size_t(RequestBudget::Kind::room)];
+    std::size_t kept = 0, again = 0;
+    for (int i = 0; i <= int(limit.at_once); ++i) {  // at one moment
+        say(taker, wire::StudyReply{1, wire::StudyAction::answer, 3});
+        taken = session.take_actions();
+        kept += sent<wire::StudyReplied>(lead, taken).size();
+        again += sent<wire::StudyStep>(taker, taken).size();
+    }
+    EXPECT_EQ(kept, std::size_t(limit.at_once));
+    EXPECT_EQ(again, 1u);
+}
+
+TEST_F(StudiesOfAHost, TheFlatViewHasNoConditionOfRendererOrDepth) {
+    come(carol, "secret", true, true);
+    const auto set_for_carol = [&](const std::string& renderer, const std::string& depth,
+                                   Duration latency) {
+        tell(lead, wire::SetCondition{8, carol, renderer, depth, "", latency, true});
+        return answer(lead);
+    };
+    EXPECT_EQ(set_for_carol("mesh", "", 0ms), ManageRefusal::draws_flat);
+    EXPECT_EQ(set_for_carol("", "rvl", 0ms), ManageRefusal::draws_flat);
+    EXPECT_TRUE(sent<wire::SetRenderer>(carol, taken).empty());
+    EXPECT_EQ(set_for_carol("", "", 80ms), ManageRefusal::none);
+    EXPECT_EQ(show(lead, carol, step(1)), ManageRefusal::none);
 }
 
 }  // namespace

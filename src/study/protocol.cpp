@@ -135,11 +135,13 @@ private:
         std::string* const value = line.key == "renderer"      ? &condition_->renderer
                                    : line.key == "color-codec" ? &condition_->color_codec
                                    : line.key == "depth-codec" ? &condition_->depth_codec
-                                   : line.key == "room"        ? &condition_->room
                                                                : nullptr;
+        if (line.key == "room")
+            return "no condition sets the room; take this line away, and start the participant's "
+                   "program with 'theatron join --room on' or 'off'";
         if (!value)
-            return "there is no such line; a condition has renderer, color-codec, depth-codec, "
-                   "room and latency-ms";
+            return "there is no such line; a condition has renderer, color-codec, depth-codec and "
+                   "latency-ms";
         if (!is_value(line.value))
             return quote(line.value) + " is no value that an option takes";
         *value = line.value;
@@ -316,7 +318,6 @@ std::string values_text(const Condition& condition) {
     add("renderer", condition.renderer);
     add("color-codec", condition.color_codec);
     add("depth-codec", condition.depth_codec);
-    add("room", condition.room);
     add("latency-ms", condition.latency_ms > 0 ? std::to_string(condition.latency_ms) : "");
     return text.empty() ? "as usual" : text;
 }

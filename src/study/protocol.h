@@ -42,7 +42,7 @@ inline constexpr int max_added_latency_ms = 5000;
 struct Condition {
     std::string id;
     // Values that a session takes; empty or 0: as usual.
-    std::string renderer, color_codec, depth_codec, room;
+    std::string renderer, color_codec, depth_codec;
     int latency_ms = 0;  // added to that of the session
     int line = 0;
 };

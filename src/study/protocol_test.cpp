@@ -46,6 +46,8 @@ TEST(Protocol, MistakesHaveLineAndReason) {
                 HasSubstr("p:3: condition: the condition in line 2 has the same name"));
     EXPECT_THAT(mistakes_of(head + "condition = a\n" + consent),
                 HasSubstr("p:2: condition: no phase has the line 'each-condition = yes'"));
+    EXPECT_THAT(mistakes_of(head + "condition = a\nroom = off\n" + consent),
+                HasSubstr("p:3: room: no condition sets the room"));
     EXPECT_THAT(mistakes_of(head + "wish = 1\n" + consent), HasSubstr("p:2: wish: there is no"));
 }
 

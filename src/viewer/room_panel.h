@@ -91,8 +91,10 @@ struct LookBackTo {  // for this person alone; 0: the present
 };
 struct StudyPress {  // in the panel of a study
     enum class What {
+        // Up to leave_out: of a reply that is not sent yet.
         choose,  // `value`
         digit,   // of a number: `value`
+        minus,   // of a number: the other sign
         erase,   // the last digit
         go_on,   // with what is chosen
         leave_out,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer/study_panel.h"
 
+#include <cstdlib>
 #include <utility>
 
 #include "phrases/phrase.h"
@@ -33,7 +34,7 @@ bool StudyPanel::take(const std::optional<client::Participant::Study>& study, Ti
     version_ = study->version;
     step_ = study->step;
     shown_ = now;
-    sent_.reset();
+    sent_ = false;
     if (step_->kind == StudyKind::interrupted)
         return false;
     const std::pair now_shown{step_->step, step_->kind};
@@ -41,7 +42,7 @@ bool StudyPanel::take(const std::optional<client::Participant::Study>& study, Ti
     if (is_same && step_->problem.empty())  // told again: what the person has chosen stays
         return false;
     chosen_.reset();
-    aside_ = asks_end_ = false;
+    negative_ = aside_ = asks_end_ = false;
     return true;
 }
 
@@ -67,32 +68,53 @@ bool StudyPanel::is_typed() const {
             (std::int64_t(step_->highest) - step_->lowest) / step_->step_size >= most_points);
 }
 
+bool StudyPanel::is_point(std::int64_t value) const {
+    const auto [lowest, highest] = bounds();
+    return value >= lowest && value <= highest &&
+           (step_->kind != StudyKind::rating || (value - lowest) % step_->step_size == 0);
+}
+
+bool StudyPanel::takes_replies() const {
+    return step_ && !aside_ && !sent_ && !asks_end_ && step_->kind != StudyKind::interrupted &&
+           step_->kind != StudyKind::over;
+}
+
 bool StudyPanel::may_go_on(TimePoint now) const {
     if (is_question())
-        return chosen_ && *chosen_ >= bounds().first && *chosen_ <= bounds().second;
+        return chosen_ && is_point(*chosen_);
     return step_->kind != StudyKind::watch || seen_for(now) >= step_->watch;
 }
 
 std::optional<wire::StudyReply> StudyPanel::carry_out(const StudyPress& press, TimePoint now) {
-    if (!step_)
+    // Keys, and buttons of a picture that is older than the reply.
+    if (!step_ || (sent_ && press.what <= What::leave_out))
         return std::nullopt;
     using wire::StudyAction;
     const auto send = [&](StudyAction action, int value = 0) {
-        sent_ = now;
+        sent_ = true;
         asks_end_ = false;
         return wire::StudyReply{step_->step, action, value};
     };
     constexpr int most_digits_value = 99'999;
     switch (press.what) {
         case What::choose:
-            chosen_ = press.value;
+            if (is_point(press.value))
+                chosen_ = press.value;
             break;
         case What::digit:
-            if (chosen_.value_or(0) <= most_digits_value)
-                chosen_ = chosen_.value_or(0) * 10 + press.value;
+            if (const int before = std::abs(chosen_.value_or(0)); before <= most_digits_value)
+                chosen_ = (before * 10 + press.value) * (negative_ ? -1 : 1);
+            break;
+        case What::minus:
+            negative_ = !negative_;
+            if (chosen_)
+                chosen_ = -*chosen_;
             break;
         case What::erase:
-            chosen_ = chosen_ && *chosen_ >= 10 ? std::optional(*chosen_ / 10) : std::nullopt;
+            if (!chosen_)
+                negative_ = false;
+            chosen_ =
+                chosen_ && std::abs(*chosen_) >= 10 ? std::optional(*chosen_ / 10) : std::nullopt;
             break;
         case What::go_on:
             if (may_go_on(now))
@@ -121,6 +143,40 @@ std::optional<wire::StudyReply> StudyPanel::carry_out(const StudyPress& press, T
     return std::nullopt;
 }
 
+std::optional<StudyPress> StudyPanel::press_of(const StudyKey& key, TimePoint now) const {
+    using Key = StudyKey::What;
+    // A digit that comes twice, or is no point, must not move the person away from the question.
+    if (step_ && sent_ && !aside_ && key.what == Key::digit)
+        return StudyPress{What::choose, key.digit};
+    if (!takes_replies())
+        return std::nullopt;
+    switch (key.what) {
+        case Key::digit:
+            if (is_typed())
+                return StudyPress{What::digit, key.digit};
+            if (step_->kind == StudyKind::rating || step_->kind == StudyKind::choice)
+                return StudyPress{What::choose, key.digit};
+            break;
+        case Key::minus:
+            if (bounds().first >= 0)
+                break;
+            if (is_typed())
+                return StudyPress{What::minus};
+            if (chosen_)
+                return StudyPress{What::choose, -*chosen_};
+            break;
+        case Key::erase:
+            if (is_typed())
+                return StudyPress{What::erase};
+            break;
+        case Key::go_on:
+            if (may_go_on(now))
+                return StudyPress{What::go_on};
+            break;
+    }
+    return std::nullopt;
+}
+
 void StudyPanel::add_texts(xr::Panel& rows) const {
     for (const wire::StudyText& text : step_->texts)
         rows.rows.push_back({text.text, "", {}});
@@ -132,11 +188,15 @@ xr::PanelButton StudyPanel::answer(const std::string& label, int value, RoomPane
     return panel.button(marked(label, chosen_ == value), StudyPress{What::choose, value});
 }
 
+std::string StudyPanel::typed_text() const {
+    if (!chosen_ && !negative_)
+        return say(Phrase::study_no_reply_yet);
+    const std::string digits = chosen_ ? std::to_string(std::abs(*chosen_)) : "";
+    return say(Phrase::study_reply_is, (negative_ ? "-" : "") + digits);
+}
+
 void StudyPanel::add_keys(xr::Panel& rows, RoomPanel& panel) const {
-    rows.rows.push_back({chosen_ ? say(Phrase::study_reply_is, std::to_string(*chosen_))
-                                 : say(Phrase::study_no_reply_yet),
-                         "",
-                         {}});
+    rows.rows.push_back({typed_text(), "", {}});
     for (const auto& [first, last] : {std::pair{1, 5}, std::pair{6, 10}}) {
         xr::PanelRow keys;
         for (int key = first; key <= last; ++key)
@@ -144,8 +204,11 @@ void StudyPanel::add_keys(xr::Panel& rows, RoomPanel& panel) const {
                 panel.button(std::to_string(key % 10), StudyPress{What::digit, key % 10}));
         rows.rows.push_back(std::move(keys));
     }
-    rows.rows.push_back(
-        {"", "", {panel.button(say(Phrase::study_erase), StudyPress{What::erase})}});
+    xr::PanelRow last;
+    if (bounds().first < 0)
+        last.buttons.push_back(panel.button("-", StudyPress{What::minus}));
+    last.buttons.push_back(panel.button(say(Phrase::study_erase), StudyPress{What::erase}));
+    rows.rows.push_back(std::move(last));
 }
 
 void StudyPanel::add_answers(xr::Panel& rows, RoomPanel& panel) const {
@@ -215,6 +278,12 @@ void StudyPanel::add_ways_on(xr::Panel& rows, RoomPanel& panel, TimePoint now) c
          {button(Phrase::study_aside, What::aside), button(Phrase::study_end, What::ask_end)}});
 }
 
+// Never 0. Another one where the keyboard has to find its button anew.
+std::uint64_t StudyPanel::keyboard_number() const {
+    constexpr std::uint64_t states = 8;
+    return states * version_ + 1 + (sent_ ? 1 : aside_ ? 2 : asks_end_ ? 3 : 0);
+}
+
 void StudyPanel::add_panel(RoomPanel& panel, TimePoint now) const {
     if (!step_)
         return;
@@ -222,6 +291,8 @@ void StudyPanel::add_panel(RoomPanel& panel, TimePoint now) const {
         return panel.button(say(label), StudyPress{what});
     };
     xr::Panel rows{say(Phrase::study), {}};
+    rows.keyboard = keyboard_number();
+    rows.large = true;
     if (aside_) {
         rows.rows.push_back(
             {say(Phrase::study_step, std::to_string(step_->step), std::to_string(step_->steps)),
@@ -235,8 +306,9 @@ void StudyPanel::add_panel(RoomPanel& panel, TimePoint now) const {
         rows.rows.push_back({say(Phrase::study_is_over), "", {button(Phrase::close, What::close)}});
     } else {
         add_texts(rows);
-        if (sent_ && now - *sent_ < again_after) {
-            rows.rows.push_back({say(Phrase::study_is_kept), "", {}});
+        if (sent_) {
+            rows.rows.push_back({say(Phrase::study_is_sent), "", {}});
+            rows.rows.push_back({"", "", {button(Phrase::study_aside, What::aside)}});
         } else {
             add_answers(rows, panel);
             add_time(rows, now);

@@ -2,8 +2,10 @@
 // The panel of a person who takes part in a study: the step that the study's program shows, and the
 // buttons of the reply. The same in the window, the page and the headset.
 //
-// A reply is chosen first and sent by a second button, because it cannot be taken back. The panel
-// may be put aside, and comes back with the next step.
+// A reply is chosen first and sent by a second button, because it cannot be taken back. A sent one
+// has no buttons any more, until the study's program asks again or the connection has been lost: a
+// reply takes as long as the latency that a condition adds. The panel may be put aside, and comes
+// back with the next step.
 //
 // Pure: time is an argument.
 #pragma once
@@ -17,11 +19,15 @@
 
 namespace theatron::viewer {
 
+// A key of a keyboard, as far as it may reply.
+struct StudyKey {
+    enum class What { digit, minus, erase, go_on } what{};
+    int digit = 0;
+};
+
 // Use from one thread.
 class StudyPanel {
 public:
-    // After this time without another step a reply can be given once more.
-    static constexpr Duration again_after = std::chrono::seconds(4);
     // Buttons of points beside each other; of more points than `most_points` the number is typed.
     static constexpr int points_in_row = 7, most_points = 21;
 
@@ -34,6 +40,9 @@ public:
 
     // Returns the reply that is to be sent, if the press makes one.
     std::optional<wire::StudyReply> carry_out(const StudyPress& press, TimePoint now);
+    // The press that a key stands for; nullopt: the step takes no such key, which means what it
+    // means elsewhere.
+    std::optional<StudyPress> press_of(const StudyKey& key, TimePoint now) const;
 
     // Rows and buttons, if there is a step.
     void add_panel(RoomPanel& panel, TimePoint now) const;
@@ -43,6 +52,10 @@ private:
     std::pair<int, int> bounds() const;
     bool is_question() const;
     bool is_typed() const;
+    bool is_point(std::int64_t value) const;
+    bool takes_replies() const;
+    std::string typed_text() const;
+    std::uint64_t keyboard_number() const;
     bool may_go_on(TimePoint now) const;
     Duration seen_for(TimePoint now) const { return now - shown_; }
     void add_texts(xr::Panel& rows) const;
@@ -58,7 +71,8 @@ private:
     std::pair<std::uint32_t, wire::StudyKind> last_{};
     TimePoint shown_;
     std::optional<int> chosen_;
-    std::optional<TimePoint> sent_;
+    bool negative_ = false;  // the number that is typed, also before its first digit
+    bool sent_ = false;
     bool aside_ = false;
     bool asks_end_ = false;
 };

@@ -11,6 +11,7 @@ namespace {
 using ::testing::ElementsAre;
 using wire::StudyAction;
 using wire::StudyKind;
+using Key = StudyKey::What;
 
 class StudyPanelOfAPerson : public ::testing::Test {
 protected:
@@ -57,6 +58,12 @@ protected:
                         std::get<StudyPress>(commands_.at(std::size_t(button.command))), now);
         ADD_FAILURE() << "there is no button " << label;
         return std::nullopt;
+    }
+
+    bool takes(Key what) { return panel.press_of({what, 0}, now).has_value(); }
+    std::optional<wire::StudyReply> key(Key what, int digit = 0) {
+        const auto press = panel.press_of({what, digit}, now);
+        return press ? panel.carry_out(*press, now) : std::nullopt;
     }
 
     TimePoint now = from_us(1'000'000);
@@ -153,13 +160,93 @@ TEST_F(StudyPanelOfAPerson, TheTimeToReplyIsShown) {
     EXPECT_TRUE(has("Go on"));
 }
 
-TEST_F(StudyPanelOfAPerson, AReplyThatIsNotAnsweredCanBeGivenAgain) {
-    show(step(StudyKind::read));
+TEST_F(StudyPanelOfAPerson, ASentReplyIsOnItsWayUntilTheProgramAsksAgain) {
+    const wire::StudyStep read = step(StudyKind::read);
+    show(read);
     EXPECT_TRUE(press("Go on"));
-    EXPECT_TRUE(says("Your reply is being kept."));
-    EXPECT_TRUE(labels().empty());
-    now += StudyPanel::again_after;
+    EXPECT_TRUE(says("Sent; waiting for the study's program."));
+    EXPECT_THAT(labels(), ElementsAre("Put aside"));
+    now += 1h;  // however long the way is
+    EXPECT_THAT(labels(), ElementsAre("Put aside"));
+    EXPECT_EQ(key(Key::go_on), std::nullopt);
+    EXPECT_TRUE(takes(Key::digit)) << "it would show another camera";
+    EXPECT_EQ(panel.carry_out({StudyPress::What::go_on}, now), std::nullopt);
+    show(read);  // asked again
     EXPECT_TRUE(press("Go on"));
+}
+
+TEST_F(StudyPanelOfAPerson, ASentReplyCanBeGivenAgainAfterALostConnection) {
+    const wire::StudyStep rating = step(StudyKind::rating);
+    show(rating);
+    press("4");
+    EXPECT_TRUE(press("Go on"));
+    EXPECT_FALSE(panel.take(std::nullopt, now));
+    show(rating);
+    EXPECT_EQ(press("Go on"), (wire::StudyReply{1, StudyAction::answer, 4}));
+}
+
+TEST_F(StudyPanelOfAPerson, DigitsChooseAPointAndReturnGoesOn) {
+    show(step(StudyKind::rating));
+    EXPECT_EQ(key(Key::go_on), std::nullopt) << "nothing is chosen";
+    EXPECT_EQ(key(Key::digit, 9), std::nullopt);
+    EXPECT_FALSE(has("Go on")) << "9 is no point";
+    EXPECT_EQ(key(Key::digit, 5), std::nullopt);
+    key(Key::digit, 9);
+    EXPECT_TRUE(has("[5]"));
+    EXPECT_FALSE(takes(Key::erase) || takes(Key::minus));
+    EXPECT_EQ(key(Key::go_on), (wire::StudyReply{1, StudyAction::answer, 5}));
+}
+
+TEST_F(StudyPanelOfAPerson, KeysThatAStepDoesNotTakeMeanWhatTheyMeanElsewhere) {
+    EXPECT_FALSE(takes(Key::digit)) << "there is no study";
+    show(step(StudyKind::consent));
+    EXPECT_FALSE(takes(Key::digit) || takes(Key::minus) || takes(Key::erase));
+    show(step(StudyKind::rating));
+    press("Put aside");
+    EXPECT_FALSE(takes(Key::digit) || takes(Key::go_on));
+    show(step(StudyKind::interrupted));
+    EXPECT_FALSE(takes(Key::digit) || takes(Key::go_on));
+}
+
+TEST_F(StudyPanelOfAPerson, NegativeNumbersAreTypedWhereTheyAreAllowed) {
+    wire::StudyStep number = step(StudyKind::rating);
+    number.lowest = -50;
+    number.highest = 50;
+    show(number);
+    press("-");
+    EXPECT_TRUE(says("Your reply: -"));
+    press("1");
+    press("2");
+    EXPECT_TRUE(says("Your reply: -12"));
+    press("-");
+    EXPECT_TRUE(says("Your reply: 12"));
+    key(Key::minus);
+    press("Erase");
+    EXPECT_TRUE(says("Your reply: -1"));
+    EXPECT_EQ(press("Go on"), (wire::StudyReply{1, StudyAction::answer, -1}));
+    show(step(StudyKind::number));
+    EXPECT_FALSE(has("-") || takes(Key::minus)) << "0 is its lowest number";
+    wire::StudyStep scale = step(StudyKind::rating);
+    scale.lowest = -3;
+    scale.highest = 3;
+    show(scale);
+    key(Key::digit, 2);
+    key(Key::minus);
+    EXPECT_TRUE(has("[-2]"));
+}
+
+TEST_F(StudyPanelOfAPerson, TheKeyboardFindsItsButtonAnewWithEachStep) {
+    EXPECT_EQ(shown().keyboard, 0u);
+    show(step(StudyKind::rating));
+    const std::uint64_t first = shown().keyboard;
+    EXPECT_NE(first, 0u);
+    press("3");
+    EXPECT_EQ(shown().keyboard, first) << "the button that has the keyboard stays";
+    press("Go on");
+    EXPECT_NE(shown().keyboard, first);
+    show(step(StudyKind::rating));
+    EXPECT_NE(shown().keyboard, first);
+    EXPECT_TRUE(shown().large);
 }
 
 TEST_F(StudyPanelOfAPerson, PutAsideItComesBackWithTheNextStep) {

@@ -90,7 +90,33 @@ void Viewer::tell_refusals(TimePoint now) {
             note(text, now);
 }
 
+namespace {
+
+std::optional<StudyKey> study_key(const xr::KeyPress& key) {
+    using What = StudyKey::What;
+    switch (key.action) {
+        case xr::Action::view_camera:
+            return StudyKey{What::digit, key.camera + 1};
+        case xr::Action::from_above:
+            return StudyKey{What::digit, 0};
+        case xr::Action::smaller_points:
+            return StudyKey{What::minus};
+        case xr::Action::undo_mark:
+            return StudyKey{What::erase};
+        case xr::Action::press_control:
+            return StudyKey{What::go_on};
+        default:
+            return std::nullopt;
+    }
+}
+
+}  // namespace
+
 void Viewer::on_key(const xr::KeyPress& key, Size picture, TimePoint now) {
+    // Digits and Return reply to a step of a study while it is shown.
+    if (const auto of_study = study_key(key))
+        if (const auto press = study_.press_of(*of_study, now))
+            return on(*press, now);
     const Sheet before = sheet();
     carry_out(key, picture, now);
     keep_one_panel(before);

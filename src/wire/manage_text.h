@@ -32,7 +32,8 @@ static_assert(code_of(ManageRefusal::shows_no_study) == TextCode::shows_no_study
 static_assert(code_of(ManageRefusal::other_study) == TextCode::other_study);
 static_assert(code_of(ManageRefusal::no_such_codec) == TextCode::condition_codec);
 static_assert(code_of(ManageRefusal::large_step) == TextCode::large_step);
-static_assert(last_manage_refusal == ManageRefusal::large_step);
+static_assert(code_of(ManageRefusal::draws_flat) == TextCode::draws_flat);
+static_assert(last_manage_refusal == ManageRefusal::draws_flat);
 
 // A sentence, in the language of the program's person; empty for `none`.
 inline std::string text_of(ManageRefusal refusal) {

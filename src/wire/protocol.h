@@ -49,6 +49,7 @@ enum class Feature : std::uint16_t {
     asks_patient = 13,  // may ask whose case it is before it is opened: AskPatient, AskedPatient
     shows_screen = 14,  // may offer a screen as JPEG pictures: CameraKind::screen
     study = 15,         // shows steps of a study: StudyStep, StudyReply
+    draws_flat = 16,  // shows the colour of one camera as it is: it has neither depth nor renderer
 };
 inline constexpr std::size_t max_features = 32;
 inline constexpr std::size_t person_id_size = 16;

@@ -332,6 +332,12 @@ constexpr Row rows[] = {
     {TextCode::large_step,
      {"This step of the study has too much text to be sent; shorten it.",
       "Dieser Schritt der Studie hat zu viel Text, um gesendet zu werden; kürzen Sie ihn."}},
+    {TextCode::draws_flat,
+     {"The participant has the 2D view, where a condition's renderer and depth codec mean nothing; "
+      "let the participant enter the room.",
+      "Der Teilnehmer hat die 2D-Ansicht, in der Darstellung und Tiefencodec einer Bedingung "
+      "nichts "
+      "bedeuten; er muss den Raum betreten."}},
 };
 
 constexpr bool is_in_order() {

@@ -130,6 +130,7 @@ enum class TextCode : std::uint16_t {
     other_study = 613,
     condition_codec = 614,
     large_step = 615,
+    draws_flat = 616,
 };
 
 inline constexpr std::size_t max_text_arguments = 4;

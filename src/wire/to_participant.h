@@ -301,8 +301,9 @@ enum class ManageRefusal : std::uint8_t {
     other_study = 14,      // the participant takes part in one that another operator leads
     no_such_codec = 15,    // in a condition
     large_step = 16,       // of a study: it does not fit into a message
+    draws_flat = 17,       // a condition names what the participant's view does not have
 };
-inline constexpr ManageRefusal last_manage_refusal = ManageRefusal::large_step;
+inline constexpr ManageRefusal last_manage_refusal = ManageRefusal::draws_flat;
 
 // The host has decided on the sender's Manage, AdjustCamera, Play, LookBack, ShowStudy or
 // SetCondition of this number.

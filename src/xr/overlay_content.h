@@ -3,6 +3,7 @@
 // middle, notices, and the help.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -46,6 +47,10 @@ struct PanelRow {
 struct Panel {
     std::string title;
     std::vector<PanelRow> rows;
+    // Not 0: the keyboard comes to this panel first. With another number its buttons are others,
+    // and the keyboard leaves the one that it was on.
+    std::uint64_t keyboard = 0;
+    bool large = false;  // buttons are large enough for a person in a hurry, or a finger
 
     bool operator==(const Panel&) const = default;
 };

@@ -27,6 +27,9 @@ constexpr float panel_padding = 1.4f, slider_units = 22;
 // A panel has this width whatever its texts say, so that its buttons stay in their places; it is
 // wider only for its buttons. Longer texts have several lines.
 constexpr float panel_units = 33, least_text_units = 12, slider_text_units = 21;
+// Height and least width of buttons in a panel with large ones: in pixels, and in half text
+// heights.
+constexpr float least_large_button = 32, large_button_units = 3.6f;
 // Least size of the bar's labels, as a factor of other small texts.
 constexpr float least_label_scale = 0.6f;
 
@@ -79,13 +82,18 @@ struct Overlay::Parts {
             return place.x >= from.x && place.x < to.x && place.y >= from.y && place.y < to.y;
         }
     };
-    float button_width(const PanelButton& button) const;
-    float controls_width(const PanelRow& row) const;
+    // 0: no larger than its text.
+    float least_button(const Panel& panel) const {
+        return panel.large ? std::max(least_large_button, large_button_units * unit) : 0;
+    }
+    float button_width(const PanelButton& button, float least = 0) const;
+    float controls_width(const PanelRow& row, float least = 0) const;
     float wanted_width(const Panel& panel) const;
     float panels(const std::vector<Panel>& panels, const Area& free);
     std::vector<Area> panel_areas;
     std::vector<std::string> panel_titles;  // of each of them
     std::vector<std::pair<Area, int>> buttons;
+    std::optional<std::size_t> keyboard_begin;  // in `buttons`
     std::vector<std::pair<Area, PanelSlider>> sliders;
     void slider(const PanelSlider& slider, const Area& place);
     float bar(const PanelRow& row, float bottom);
@@ -378,15 +386,15 @@ float Overlay::Parts::bar(const PanelRow& row, float bottom) {
     return bottom + height;
 }
 
-float Overlay::Parts::button_width(const PanelButton& button) const {
-    return measure(small, button.label).x + 1.4f * unit;
+float Overlay::Parts::button_width(const PanelButton& button, float least) const {
+    return std::max(measure(small, button.label).x + 1.4f * unit, least);
 }
 
 // The width of a row's slider and buttons, with the gaps.
-float Overlay::Parts::controls_width(const PanelRow& row) const {
+float Overlay::Parts::controls_width(const PanelRow& row, float least) const {
     float width = row.slider ? slider_units * unit + 1.4f * unit : 0;
     for (const PanelButton& button : row.buttons)
-        width += button_width(button) + 0.7f * unit;
+        width += button_width(button, least) + 0.7f * unit;
     return width;
 }
 
@@ -398,7 +406,7 @@ float Overlay::Parts::wanted_width(const Panel& panel) const {
         const float text_units = row.text.empty() ? 0
                                  : row.slider     ? slider_text_units
                                                   : least_text_units;
-        width = std::max(width, controls_width(row) + text_units * unit);
+        width = std::max(width, controls_width(row, least_button(panel)) + text_units * unit);
     }
     return width;
 }
@@ -409,7 +417,10 @@ float Overlay::Parts::wanted_width(const Panel& panel) const {
 // widest panel; 0: there is none.
 float Overlay::Parts::panels(const std::vector<Panel>& shown, const Area& free) {
     const float padding = panel_padding * unit, gap = 0.7f * unit, left = free.from.x;
-    const float button_height = normal->FontSize + gap, slider_width = slider_units * unit;
+    const float slider_width = slider_units * unit;
+    const auto height_of_buttons = [&](const Panel& panel) {
+        return std::max(normal->FontSize + gap, least_button(panel));
+    };
     const float least_text_width = least_text_units * unit;
     const auto panel_width = [&](const Panel& panel) {
         return std::min(wanted_width(panel), free.to.x - left - 2 * padding);
@@ -420,8 +431,10 @@ float Overlay::Parts::panels(const std::vector<Panel>& shown, const Area& free) 
         float text_width, text_height, height;
         bool buttons_below;
     };
-    const auto place_of = [&](const PanelRow& row, float width) {
-        RowPlace place{width - controls_width(row), 0, 0, false};
+    const auto place_of = [&](const Panel& panel, const PanelRow& row, float width) {
+        const float button_height =
+            row.buttons.empty() ? normal->FontSize + gap : height_of_buttons(panel);
+        RowPlace place{width - controls_width(row, least_button(panel)), 0, 0, false};
         const float wanted = measure(normal, row.text).x;
         place.buttons_below = wanted > place.text_width && place.text_width < least_text_width;
         if (place.buttons_below)
@@ -442,7 +455,7 @@ float Overlay::Parts::panels(const std::vector<Panel>& shown, const Area& free) 
     for (const Panel& panel : shown) {
         heights.push_back(frame);
         for (const PanelRow& row : panel.rows) {
-            const float height = place_of(row, panel_width(panel)).height;
+            const float height = place_of(panel, row, panel_width(panel)).height;
             heights.back() += height;
             highest_row = std::max(highest_row, height);
         }
@@ -476,7 +489,7 @@ float Overlay::Parts::panels(const std::vector<Panel>& shown, const Area& free) 
         // The first row as far down as the wheel wants, and the last rows fill the panel.
         std::size_t last_first = panel.rows.size();
         for (float height = 0; last_first > 0; --last_first) {
-            height += place_of(panel.rows[last_first - 1], width).height;
+            height += place_of(panel, panel.rows[last_first - 1], width).height;
             if (!fits(height, panel.rows.size() - last_first + 1))
                 break;
         }
@@ -486,7 +499,7 @@ float Overlay::Parts::panels(const std::vector<Panel>& shown, const Area& free) 
         float height = 0;
         std::size_t end = first;
         for (; end < panel.rows.size(); ++end) {
-            const float more = place_of(panel.rows[end], width).height;
+            const float more = place_of(panel, panel.rows[end], width).height;
             if (!fits(height + more, end + 1 - first))
                 break;
             height += more;
@@ -499,22 +512,29 @@ float Overlay::Parts::panels(const std::vector<Panel>& shown, const Area& free) 
         panel_titles.push_back(panel.title);
         list->AddRectFilled(area.from, area.to, colors::panel, unit);
         list->PushClipRect(area.from, area.to);
+        const float button_height = height_of_buttons(panel), least_width = least_button(panel);
+        const std::size_t first_button = buttons.size();
         float y = top + padding;
         text(small, {left + padding, y}, colors::label, panel.title);
         y += normal->FontSize + gap;
         for (std::size_t i = first; i < end; ++i) {
             const PanelRow& row = panel.rows[i];
-            const RowPlace place = place_of(row, width);
+            const RowPlace place = place_of(panel, row, width);
             const float beside = place.buttons_below ? y + place.text_height : y;
             float x = area.to.x - padding;
-            for (auto button = row.buttons.rbegin(); button != row.buttons.rend(); ++button) {
-                const float wide = button_width(*button);
-                const Area at{{x - wide, beside}, {x, beside + button_height}};
+            for (const PanelButton& button : row.buttons)
+                x -= button_width(button, least_width) + gap;
+            float button_left = x + gap;
+            for (const PanelButton& button : row.buttons) {
+                const float wide = button_width(button, least_width);
+                const Area at{{button_left, beside}, {button_left + wide, beside + button_height}};
                 list->AddRectFilled(at.from, at.to, colors::button, 0.5f * unit);
-                text(small, {at.from.x + gap, beside + (button_height - small->FontSize) / 2},
-                     colors::key, button->label);
-                buttons.push_back({at, button->command});
-                x -= wide + gap;
+                text(small,
+                     {(at.from.x + at.to.x - measure(small, button.label).x) / 2,
+                      beside + (button_height - small->FontSize) / 2},
+                     colors::key, button.label);
+                buttons.push_back({at, button.command});
+                button_left += wide + gap;
             }
             if (row.slider) {
                 x -= gap;
@@ -528,6 +548,8 @@ float Overlay::Parts::panels(const std::vector<Panel>& shown, const Area& free) 
                 text(small, {left + padding, below}, colors::label, row.detail, width + rounding);
             y += place.height;
         }
+        if (panel.keyboard != 0 && !keyboard_begin && buttons.size() > first_button)
+            keyboard_begin = first_button;
         if (left_out > 0)
             text(small, {left + padding, y}, colors::label,
                  say(Phrase::more_rows, std::to_string(left_out)));
@@ -562,6 +584,10 @@ std::optional<int> Overlay::command_at(Vec2 place) const {
 
 std::size_t Overlay::controls() const {
     return parts_->buttons.size();
+}
+
+std::optional<std::size_t> Overlay::keyboard_begin() const {
+    return parts_->keyboard_begin;
 }
 
 std::optional<std::size_t> Overlay::control_at(Vec2 place) const {
@@ -603,6 +629,7 @@ void Overlay::draw(const OverlayContent& content, Size window, double text_pixel
     p.panel_areas.clear();
     p.panel_titles.clear();
     p.buttons.clear();
+    p.keyboard_begin.reset();
     p.sliders.clear();
     float bottom = content.tools ? p.tool_bar(*content.tools, content.hovered) : 0;
     bottom = p.facts(content.facts, bottom);

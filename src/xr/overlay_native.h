@@ -27,8 +27,10 @@ public:
     std::optional<int> command_at(Vec2 place) const;  // of a panel's button or a plain picture
 
     // All buttons of the last picture in the order of the keyboard: those of the bar at the bottom,
-    // of offers, of panels.
+    // of offers, of panels; in each of them as they are read.
     std::size_t controls() const;
+    // The first button of the panel to which the keyboard comes first; nullopt: there is none.
+    std::optional<std::size_t> keyboard_begin() const;
     std::optional<std::size_t> control_at(Vec2 place) const;
     int command_of(std::size_t control) const;  // below controls()
 

@@ -15,6 +15,7 @@ r-cran-exactranktests); the command that made each stands beside it. In R the da
 """
 import importlib.util
 import pathlib
+import types
 import unittest
 
 try:
@@ -87,6 +88,21 @@ class Statistics(unittest.TestCase):
     def test_holm(self):
         # p.adjust(c(0.01,0.04,0.03,0.005,0.5), "holm")
         self.same(report.holm([0.01, 0.04, 0.03, 0.005, 0.5]), (0.04, 0.09, 0.09, 0.025, 0.5))
+
+    def test_a_hint_says_if_no_difference_could_have_held(self):
+        row = types.SimpleNamespace(test="signed-rank", n=7, nonzero=7, p=2 / 128, p_holm=8 / 128, tests=4)
+        self.assertEqual(report.conclusion(row), "a hint, which does not hold after Holm's correction; with 7 pairs and 4 tests none could")
+        row.nonzero = row.n = 12
+        self.assertEqual(report.conclusion(row), "a hint, which does not hold after Holm's correction")
+        row.nonzero = row.n = 5
+        self.assertIn("too small to conclude", report.conclusion(row))
+
+    def test_the_first_lines_of_a_study_without_comparisons_speak_of_shares(self):
+        # binom.test(6, 12)$conf.int: 0.2109446 0.7890554
+        self.assertIn("where 6 of 12 say something, 21 to 79 % of all may do so", report.size_note(12, 0))
+        self.assertIn("Nobody has agreed", report.size_note(0, 2))
+        self.assertIn("too small to conclude", report.size_note(5, 2))
+        self.assertIn("differences of at least", report.size_note(7, 2))
 
     def test_friedman(self):
         # friedman.test(cbind(a12, b12, c12)); friedman.test(cbind(a7, b7, c7))

@@ -189,7 +189,8 @@ class Studies(unittest.TestCase):
             self.assertEqual(row["correct"], str(int(row["reply"] == row["expected"])))
         self.look_for_people()
         if page:
-            for part in ("Spatial presence", "12 participants", "Task with bricks", "Networked Minds", "<svg"):
+            self.assertNotIn("Order of conditions", page)
+            for part in ("Spatial presence", "12 participants and no two conditions", "21 to 79 %", "Task with bricks", "Networked Minds", "<svg"):
                 self.assertIn(part, page)
 
     def test_seven_participants_compare_two_conditions(self):
