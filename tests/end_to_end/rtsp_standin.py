@@ -244,7 +244,7 @@ def play_and_ask(peer, pictures, asked):
 
 
 class LineFeeds:
-    """A connection that ends its lines with a line feed alone; only its text is sent by this."""
+    """A connection that ends the lines of its answers with a line feed alone."""
 
     def __init__(self, peer):
         self.peer = peer
@@ -253,7 +253,8 @@ class LineFeeds:
         return self.peer.recv(count)
 
     def sendall(self, data):
-        self.peer.sendall(data if data[:1] == b"$" else data.replace(b"\r\n", b"\n"))
+        head, _, body = data.partition(b"\r\n\r\n")
+        self.peer.sendall(head.replace(b"\r\n", b"\n") + b"\n\n" + body if data.startswith(b"RTSP") else data)
 
 
 def play_with_line_feeds(peer, pictures):
