@@ -7,6 +7,7 @@
 #include <cstring>
 #include <new>
 
+#include "capture/av_complaints.h"
 #include "capture/av_input.h"
 #include "geometry/calibration.h"
 
@@ -174,6 +175,8 @@ VideoAnswer AvVideo::open(AVFormatContext& file, Size wanted) {
     if (track_ < 0)
         return {.kind = why_no_track()};
     const AVStream& track = *file_->streams[track_];
+    if (track.disposition & AV_DISPOSITION_ATTACHED_PIC)  // the cover of a file with sound alone
+        return {.kind = Kind::no_video};
     const Size own{track.codecpar->width, track.codecpar->height};
     if (own == Size{})
         return {.kind = Kind::damaged};
@@ -192,6 +195,8 @@ VideoAnswer AvVideo::open(AVFormatContext& file, Size wanted) {
     if (failed)
         return {.kind = Kind::no_decoder};
     const AVRational rate = av_guess_frame_rate(file_, file_->streams[track_], nullptr);
+    // Damage of the beginning shows in the tracks and their pictures.
+    complaints_ = av_complaints();
     if (const double fps = rate.num > 0 && rate.den > 0 ? av_q2d(rate) : 0;
         fps >= 0.1 && fps <= 240)
         frames_per_second_ = fps;
@@ -210,6 +215,18 @@ VideoAnswer::Kind AvVideo::why_no_track() const {
     return has_codec ? Kind::no_decoder : Kind::damaged;
 }
 
+// Counts damage between packets as one picture: how many were there is not known.
+int AvVideo::read_packet() {
+    av_packet_unref(packet_);
+    const int failed = av_read_frame(file_, packet_);
+    check_av_memory(failed);
+    const std::uint64_t complaints = av_complaints();
+    const bool is_cut_off = failed < 0 && failed != AVERROR_EOF;
+    lost_ += is_cut_off || complaints != complaints_;
+    complaints_ = complaints;
+    return failed;
+}
+
 bool AvVideo::decode() {
     while (decoder_) {
         const int got = avcodec_receive_frame(decoder_, frame_);
@@ -224,12 +241,8 @@ bool AvVideo::decode() {
                 return false;
             continue;
         }
-        av_packet_unref(packet_);
-        const int failed = av_read_frame(file_, packet_);
-        check_av_memory(failed);
+        const int failed = read_packet();
         if (failed < 0) {
-            // The rest of a file that is cut off.
-            lost_ += failed != AVERROR_EOF;
             draining_ = true;
             check_av_memory(avcodec_send_packet(decoder_, nullptr));
         } else if (packet_->stream_index == track_) {

@@ -107,6 +107,7 @@ public:
 private:
     PictureShape shape(AVFrame* frame) const;
     VideoAnswer::Kind why_no_track() const;
+    int read_packet();
 
     AVFormatContext* file_ = nullptr;
     AVCodecContext* decoder_ = nullptr;
@@ -116,6 +117,7 @@ private:
     int track_ = -1;
     bool draining_ = false;
     std::uint32_t lost_ = 0;
+    std::uint64_t complaints_ = 0;  // until now
     double frames_per_second_ = 30;
     std::optional<Duration> last_;
     std::function<std::int64_t()> stamps_;

@@ -52,6 +52,9 @@ std::vector<fs::path> pictures(const fs::path& folder,
     std::vector<fs::path> found;
     std::error_code problem;
     for (const auto& entry : fs::directory_iterator(folder, problem)) {
+        // macOS writes one beside each picture on a disc of another system, as "._00000.png".
+        if (entry.path().filename().string().starts_with('.'))
+            continue;
         const std::string ending = in_small_letters(entry.path().extension().string());
         if (std::find(endings.begin(), endings.end(), ending) != endings.end())
             found.push_back(entry.path());
@@ -124,18 +127,31 @@ std::optional<PairedFrames> pair_by_time(const std::vector<fs::path>& depth,
     return paired;
 }
 
+// The folder of this name in `folder`, also in capital letters; empty: there is none.
+fs::path folder_named(const fs::path& folder, std::string_view name) {
+    if (fs::is_directory(folder / name))
+        return folder / name;
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(folder, ignored))
+        if (entry.is_directory(ignored) &&
+            in_small_letters(entry.path().filename().string()) == name)
+            return entry.path();
+    return {};
+}
+
 // The folder with the colour pictures; empty: there is none.
 fs::path color_folder(const fs::path& folder) {
     for (const char* name : {"color", "rgb", "colour", "image"})
-        if (fs::is_directory(folder / name))
-            return folder / name;
+        if (const fs::path found = folder_named(folder, name); !found.empty())
+            return found;
     return {};
 }
 
 void warn_of_other_folders(const fs::path& folder) {
     std::error_code ignored;
     for (const auto& entry : fs::directory_iterator(folder, ignored))
-        if (entry.is_directory(ignored) && entry.path().filename() != "depth" &&
+        if (entry.is_directory(ignored) &&
+            in_small_letters(entry.path().filename().string()) != "depth" &&
             !color_pictures(entry.path()).empty())
             log::warning("capture",
                          "the folder is not read; colour pictures belong into a folder 'color'",
@@ -167,6 +183,13 @@ bool precedes_naturally(const std::string& a, const std::string& b) {
 }
 
 std::optional<Duration> time_in_name(const std::string& stem) {
+    // "0000001-000000033369": a number, and microseconds since the beginning.
+    constexpr std::size_t us_since_begin = 12;
+    if (const auto dash = stem.find_first_not_of(digits);
+        dash != std::string::npos && dash > 0 && stem[dash] == '-' &&
+        stem.size() == dash + 1 + us_since_begin &&
+        stem.find_first_not_of(digits, dash + 1) == std::string::npos)
+        return seconds_to_duration(std::strtod(stem.c_str() + dash + 1, nullptr) * 1e-6);
     const auto end = stem.find_first_not_of(digits);
     const bool has_fraction = end != std::string::npos && stem[end] == '.' &&
                               end + 1 < stem.size() &&
@@ -198,11 +221,12 @@ PairedFrames pair_frames(const std::vector<fs::path>& depth, const std::vector<f
 std::vector<FramePaths> folder_frames(const fs::path& folder) {
     if (!fs::is_directory(folder))
         throw Error("There is no folder '" + folder.string() + "'.");
-    if (!fs::is_directory(folder / "depth"))
+    const fs::path depths = folder_named(folder, "depth");
+    if (depths.empty())
         throw Error("'" + folder.string() + "' holds no folder 'depth' with 16-bit PNG pictures.");
-    const auto depth = pictures(folder / "depth", {".png"});
+    const auto depth = pictures(depths, {".png"});
     if (depth.empty())
-        throw Error("'" + (folder / "depth").string() + "' holds no PNG pictures.");
+        throw Error("'" + depths.string() + "' holds no PNG pictures.");
 
     const fs::path colors = color_folder(folder);
     if (colors.empty())

@@ -58,13 +58,20 @@ TEST(FolderFiles, OrOfTheNearestTime) {
               (Names{"1305031102.175304.png", "1305031102.208637.png", ""}));
     EXPECT_EQ(colors_of({"1403636579763555584.png"}, {"1403636579773555584.png"}),
               (Names{"1403636579773555584.png"}));
+    // A number and a time, as of Redwood's scans: the numbers of the two cameras have nothing to do
+    // with each other.
+    EXPECT_EQ(colors_of({"0000001-000000000000.png", "0000002-000000033369.png"},
+                        {"0000001-000000027000.jpg", "0000002-000000061000.jpg"}),
+              (Names{"", "0000001-000000027000.jpg"}));
 }
 
 TEST(FolderFiles, TimesInNamesHaveTheUnitThatTheirLengthTells) {
     EXPECT_EQ(time_in_name("12.5"), 12500ms);
     EXPECT_EQ(time_in_name("1305031102123"), 1305031102123ms);
     EXPECT_EQ(time_in_name("1305031102123456"), Duration(1305031102123456));
-    for (const char* none : {"", "12", "00012", "a12.5", "12.5a", "12.", ".5", "123456789012.5"})
+    EXPECT_EQ(time_in_name("0000007-000000033369"), Duration(33369));
+    for (const char* none : {"", "12", "00012", "a12.5", "12.5a", "12.", ".5", "123456789012.5",
+                             "7-33369", "-000000033369", "a7-000000033369"})
         EXPECT_EQ(time_in_name(none), std::nullopt) << none;
 }
 

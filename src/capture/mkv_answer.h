@@ -25,7 +25,7 @@ enum class MkvRequest : std::uint8_t {
 struct MkvDescription {
     Size depth, color;  // colour 0 x 0: no JPEG track
     double frames_per_second = 0;
-    std::string other_color;  // format of a colour track that is not JPEG
+    std::string other_color;  // format of a colour track that is not JPEG or not called so
     std::string calibration;
 };
 

@@ -107,7 +107,10 @@ private:
             if (!packet) {
                 pairing_.finish();
                 note_left_out();
-                return take_pair();
+                const bool is_pair = take_pair();
+                if (!is_pair)
+                    note_colors_alone();
+                return is_pair;
             }
             add(std::move(*packet));
         }
@@ -134,12 +137,20 @@ private:
             note(apart_noted_, "colour is too far from its depth in the file and is left out");
     }
 
+    void note_colors_alone() {
+        const std::uint64_t alone = pairing_.colors_alone();
+        if (alone > 0 && !std::exchange(alone_noted_, true))
+            log::warning("capture", "colour pictures have no depth and are left out",
+                         {{"file", path_.string()}, {"pictures", alone}});
+    }
+
     void add(MkvFile::Packet packet) {
         if (packet.track == Track::depth) {
             if (packet.bytes.size() == file_.depth_size().area() * sizeof(std::uint16_t))
                 pairing_.add_depth({packet.time, std::move(packet.bytes)});
             else
-                note_damage("a depth picture is damaged and left out");
+                note_damage(packet.bytes.empty() ? "a part of the recording is damaged and left out"
+                                                 : "a depth picture is damaged and left out");
             return;
         }
         const Result<Size> size = video::read_jpeg_size(packet.bytes);
@@ -167,12 +178,15 @@ private:
     SteadyTimes times_;
     Duration due_{};
     std::uint64_t damaged_ = 0, lost_before_ = 0;  // in this round, in those before it
-    bool damage_noted_ = false, backward_noted_ = false, apart_noted_ = false, jump_noted_ = false;
+    bool damage_noted_ = false, backward_noted_ = false, apart_noted_ = false, jump_noted_ = false,
+         alone_noted_ = false;
 };
 
 Calibration read_calibration(const fs::path& path, const MkvFile& file) {
     if (!file.other_color().empty())
-        log::warning("capture", "colour is not recorded as MJPEG and is left out",
+        log::warning("capture",
+                     "colour is not recorded as MJPEG, or in a track that is not called COLOR, and "
+                     "is left out",
                      {{"file", path.string()}, {"colour", file.other_color()}});
     if (file.calibration().empty()) {
         log::warning("capture", "the recording has no calibration and a usual lens is assumed",

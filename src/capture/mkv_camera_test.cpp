@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "capture/camera.h"
+#include "capture/cut_off.h"
 #include "capture/mkv_file.h"
 #include "capture/mkv_reader.h"
 #include "files/file_bytes.h"
@@ -109,14 +110,18 @@ TEST(MkvReader, ReadsAnyBytesToTheirEnd) {
     const auto pictures_of = [&](ByteView bytes) {
         files::write_file(path, bytes);
         const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
-        std::size_t pictures = 0;
+        std::size_t pictures = 0, answers = 0;
         {
             MkvReader reader(file);
             if (reader.kind() == MkvReader::Kind::description)
-                while (reader.read())
-                    // A valid file has fewer pictures than bytes.
-                    if (++pictures > bytes.size())
+                while (const auto picture = reader.read()) {
+                    pictures += !picture->bytes.empty();
+                    // A file has fewer pictures and damaged parts than bytes.
+                    if (++answers > bytes.size()) {
+                        ADD_FAILURE() << "does not end";
                         break;
+                    }
+                }
         }
         close(file);
         return pictures;
@@ -197,7 +202,7 @@ TEST(MkvFile, APictureLargerThanTheSharedMemoryArrivesEmpty) {
     EXPECT_EQ(empty, 1);
 }
 
-TEST(MkvFile, KnowsFromItsBeginningHowLongItShouldBe) {
+TEST(CutOff, MatroskaStatesItsSize) {
     Bytes file;
     // An empty EBML header, then a segment of 300 bytes, whose size takes two bytes.
     for (const int v : {0x1a, 0x45, 0xdf, 0xa3, 0x80, 0x18, 0x53, 0x80, 0x67, 0x41, 0x2c})
@@ -212,6 +217,44 @@ TEST(MkvFile, KnowsFromItsBeginningHowLongItShouldBe) {
     EXPECT_FALSE(is_cut_off(file, 310));
     file[4] = std::byte{0};
     EXPECT_FALSE(is_cut_off(file, 310));
+}
+
+TEST(CutOff, AviStatesItsSize) {
+    const auto avi = [](std::uint32_t size) {
+        Bytes file;
+        ByteWriter out(file);
+        out.put_bytes(as_bytes("RIFF"));
+        out.put(size);
+        out.put_bytes(as_bytes("AVI "));
+        return file;
+    };
+    EXPECT_TRUE(is_cut_off(avi(100), 107));
+    EXPECT_FALSE(is_cut_off(avi(100), 108));
+    for (const std::uint32_t unknown : {0u, 0xffffffffu})
+        EXPECT_FALSE(is_cut_off(avi(unknown), 12));
+    EXPECT_FALSE(is_cut_off(ByteView(avi(100)).first(7), 7));
+}
+
+TEST(CutOff, WindowsMediaStatesItsSize) {
+    const auto asf = [](std::uint32_t flags) {
+        Bytes file(30 + 24 + 104);
+        const auto put = [&](std::size_t at, std::initializer_list<int> bytes) {
+            for (const int byte : bytes)
+                file[at++] = std::byte(byte);
+        };
+        put(0, {0x30, 0x26, 0xb2, 0x75, 0x8e, 0x66, 0xcf, 0x11, 0xa6, 0xd9});
+        put(30, {24, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 24});  // another object
+        put(54, {0xa1, 0xdc, 0xab, 0x8c, 0x47, 0xa9, 0xcf, 0x11, 0x8e, 0xe4});
+        put(70, {104});
+        put(94, {0xe8, 3});  // 1000 bytes
+        put(142, {int(flags)});
+        return file;
+    };
+    EXPECT_TRUE(is_cut_off(asf(0), 999));
+    EXPECT_FALSE(is_cut_off(asf(0), 1000));
+    EXPECT_FALSE(is_cut_off(asf(1), 999)) << "of a stream that was going on";
+    for (std::size_t n = 0; n < 146; ++n)
+        EXPECT_FALSE(is_cut_off(ByteView(asf(0)).first(n), n)) << n;
 }
 
 TEST(MkvCamera, SaysWhatIsWrongWithTheFile) {

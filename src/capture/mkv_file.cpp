@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "capture/mkv_file.h"
 
-#include <unistd.h>
-
-#include <algorithm>
-#include <array>
-#include <bit>
 #include <utility>
 
 #include "base/error.h"
+#include "capture/cut_off.h"
 #include "capture/readable_file.h"
 #include "ffmpeg/ffmpeg.h"
 #include "sandbox/child.h"
@@ -18,47 +14,7 @@ namespace {
 
 using Kind = MkvAnswer::Kind;
 
-// An EBML number: the leading zeros of the first byte give the number of further bytes.
-std::optional<std::uint64_t> read_size(ByteReader& in) {
-    const auto first = in.get<std::uint8_t>();
-    const int more = std::countl_zero(first);
-    if (more > 7)
-        return std::nullopt;
-    std::uint64_t value = first & (0x7f >> more);
-    bool unknown = value == std::uint64_t(0x7f >> more);
-    for (int i = 0; i < more; ++i) {
-        const auto next = in.get<std::uint8_t>();
-        unknown = unknown && next == 0xff;
-        value = value << 8 | next;
-    }
-    if (unknown || !in.ok())
-        return std::nullopt;
-    return value;
-}
-
-bool begins_like_a_longer_one(const ReadableFile& file) {
-    std::array<std::byte, 128> beginning;
-    const ssize_t count = pread(file.descriptor(), beginning.data(), beginning.size(), 0);
-    return count > 0 && is_cut_off(ByteView(beginning).first(std::size_t(count)), file.bytes());
-}
-
 }  // namespace
-
-// A Matroska file is one EBML header and one segment; each has an identifier of four bytes and
-// a size.
-bool is_cut_off(ByteView beginning, std::uint64_t file_bytes) {
-    ByteReader in(beginning);
-    in.get_bytes(4);
-    const std::optional<std::uint64_t> header = read_size(in);
-    if (!header || *header > in.rest().size())
-        return false;
-    in.get_bytes(std::size_t(*header) + 4);
-    const std::optional<std::uint64_t> segment = read_size(in);
-    if (!segment)
-        return false;
-    const std::uint64_t before = beginning.size() - in.rest().size();
-    return *segment > file_bytes - std::min(before, file_bytes);
-}
 
 struct MkvFile::Process {
     Process(const std::filesystem::path& path, const sandbox::Limits& limits)
@@ -93,7 +49,7 @@ struct MkvFile::Process {
 MkvFile::MkvFile(const std::filesystem::path& path, const sandbox::Limits& limits)
     : path_(path),
       process_(std::make_unique<Process>(path, limits)),
-      cut_off_(begins_like_a_longer_one(process_->file)),
+      cut_off_(capture::is_cut_off(process_->file.descriptor(), process_->file.bytes())),
       description_(open()) {}
 
 MkvFile::~MkvFile() = default;

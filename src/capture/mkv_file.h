@@ -14,10 +14,6 @@
 
 namespace theatron::capture {
 
-// True if a Matroska file of `file_bytes` bytes is shorter than its header states. False if the
-// header states no size. Safe for untrusted input.
-bool is_cut_off(ByteView beginning, std::uint64_t file_bytes);
-
 class MkvFile {
 public:
     struct Packet {
@@ -34,7 +30,7 @@ public:
 
     Size depth_size() const { return description_.depth; }
     Size color_size() const { return description_.color; }  // 0 x 0 without a JPEG colour track
-    // The format of a colour track that is not JPEG, or empty.
+    // The format of a colour track that is not JPEG or has another name, or empty.
     const std::string& other_color() const { return description_.other_color; }
     // 0 if the file does not state it.
     double frames_per_second() const { return description_.frames_per_second; }

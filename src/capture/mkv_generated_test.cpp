@@ -3,12 +3,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 
 #include "base/error.h"
 #include "base/log.h"
 #include "capture/camera.h"
 #include "capture/mkv_file.h"
+#include "files/file_bytes.h"
 #include "record/matroska_writer.h"
 #include "testing/temporary_folder.h"
 #include "video/jpeg_encoder_native.h"
@@ -191,6 +194,33 @@ TEST_F(GeneratedMkv, AFileThatIsCutOffSaysSoAtItsEnd) {
     while ((got = camera->next(1s)).kind != Capture::Kind::end)
         ASSERT_NE(got.kind, Capture::Kind::failed) << got.problem;
     EXPECT_THAT(got.problem, HasSubstr("is cut off"));
+}
+
+// Writes zeros over the head of the cluster with the `n`th picture.
+void break_cluster(const fs::path& path, int n) {
+    Bytes file = files::read_file(path);
+    constexpr int cluster[] = {0x1f, 0x43, 0xb6, 0x75};
+    auto at = file.begin();
+    for (; n >= 0; --n)
+        at = std::search(at + 1, file.end(), std::begin(cluster), std::end(cluster),
+                         [](std::byte a, int b) { return a == std::byte(b); });
+    ASSERT_LT(file.end() - at, std::ptrdiff_t(file.size()));
+    std::fill_n(at, 8, std::byte{0});
+    files::write_file(path, file);
+}
+
+TEST_F(GeneratedMkv, ADamagedPartInItsMiddleIsCounted) {
+    Kinect file(path());
+    for (int n = 0; n < 9; ++n)
+        file.add_depth(n);
+    file.finish();
+    break_cluster(path(), 4);
+    for (const char* options : {",preload=0", ",preload=1"}) {
+        const PlayedFile played = play(options);
+        EXPECT_LT(played.depth.size(), 9u) << options;
+        EXPECT_EQ(played.depth.back(), 8) << options;
+        EXPECT_GE(played.lost, 1u) << options;
+    }
 }
 
 TEST_F(GeneratedMkv, APictureThatNeedsTooMuchMemoryDoesNotCome) {

@@ -3,7 +3,6 @@
 
 extern "C" {
 #include <libavformat/avformat.h>
-#include <libavutil/log.h>
 }
 
 #include <algorithm>
@@ -11,6 +10,7 @@ extern "C" {
 #include <string>
 #include <string_view>
 
+#include "capture/av_complaints.h"
 #include "capture/av_input.h"
 #include "ffmpeg/ffmpeg.h"
 
@@ -65,12 +65,14 @@ struct MkvReader::Library {
     int depth = -1;  // track index
     int color = -1;
     bool has_infrared = false;
+    std::uint64_t complaints = 0;  // until now
+    bool has_ended = false;
     MkvDescription description;
 };
 
 MkvReader::Kind MkvReader::Library::open() {
     ffmpeg::load_if_there();
-    av_log_set_level(AV_LOG_QUIET);
+    count_av_complaints();
     file = avformat_alloc_context();
     if (!file)
         throw std::bad_alloc();
@@ -88,6 +90,7 @@ MkvReader::Kind MkvReader::Library::open() {
         return Kind::impossible_size;
     if (color >= 0)
         description.color = size_of(stream(color));
+    complaints = av_complaints();
     const AVRational rate = stream(depth).avg_frame_rate;
     description.frames_per_second = rate.num > 0 && rate.den > 0 ? av_q2d(rate) : 0;
     return Kind::description;
@@ -112,11 +115,13 @@ void MkvReader::Library::find_tracks() {
                 has_infrared = true;
             else if (is_called(track, "COLOR") && codec.codec_id == AV_CODEC_ID_MJPEG && color < 0)
                 color = i;
-            else if (is_called(track, "COLOR"))
+            else if (color < 0)
                 description.other_color =
                     std::string(avcodec_get_name(codec.codec_id)).substr(0, max_codec_name);
         }
     }
+    if (color >= 0)
+        description.other_color.clear();
     for (const int i : {depth, color})
         if (i >= 0)
             file->streams[i]->discard = AVDISCARD_DEFAULT;
@@ -134,11 +139,19 @@ const MkvDescription& MkvReader::description() const {
 std::optional<MkvReader::Picture> MkvReader::read() {
     AVPacket& packet = *library_->packet;
     while (true) {
+        // Damage between pictures: how many were there, and of which kind, is not known.
+        if (library_->complaints != av_complaints()) {
+            library_->complaints = av_complaints();
+            return Picture{Kind::depth, {}, {}};
+        }
+        if (library_->has_ended)
+            return std::nullopt;
         av_packet_unref(&packet);
         const int failed = av_read_frame(library_->file, &packet);
         check_av_memory(failed);
+        library_->has_ended = failed < 0;
         if (failed < 0)
-            return std::nullopt;
+            continue;
         const bool is_depth = packet.stream_index == library_->depth;
         const bool is_color = packet.stream_index == library_->color;
         if (!is_depth && !is_color)

@@ -36,7 +36,7 @@ public:
         Duration time{};
         ByteView bytes;  // valid until the next call
     };
-    // The next picture; nullopt at the end.
+    // The next picture, without bytes where a part of the file is damaged; nullopt at the end.
     std::optional<Picture> read();
 
     // Serves the requests of an MkvFile until the channel closes.

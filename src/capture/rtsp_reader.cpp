@@ -42,6 +42,8 @@ constexpr Duration most_behind = 100ms;
 constexpr int most_left_out = 10;
 constexpr int rtp_ticks_per_ms = 90;  // of all video
 constexpr Duration longest_analysis = 2s;
+// A server may say nothing for this long until its stream is open: shorter than the caller waits.
+constexpr Duration longest_silence = 8s;
 
 class Connection {
 public:
@@ -61,7 +63,7 @@ public:
     }
 
     // At least `count` bytes, at most 64 KiB, are in the buffer; false at the end. `idle` is called
-    // while nothing comes, each second.
+    // while nothing comes, each second, and says whether to wait on.
     template <class Idle>
     bool need(std::size_t count, const Idle& idle) {
         if (begin_ > 0 && begin_ + count > buffer_.size()) {
@@ -72,7 +74,8 @@ public:
         }
         while (end_ - begin_ < count) {
             if (!wait(POLLIN, 1000)) {
-                idle();
+                if (!idle())
+                    return false;
                 continue;
             }
             const ssize_t got = read(descriptor_, buffer_.data() + end_, buffer_.size() - end_);
@@ -98,9 +101,11 @@ private:
     std::size_t begin_ = 0, end_ = 0;
 };
 
-void nothing() {}
-
 constexpr const char* play = "PLAY";
+
+bool is_moved(int status) {
+    return status == 301 || status == 302 || status == 303 || status == 307 || status == 308;
+}
 
 class Rtsp {
 public:
@@ -123,6 +128,8 @@ public:
     std::optional<VideoAnswer> next();
 
 private:
+    VideoAnswer begin();
+    bool waits_on();
     // The kind of data at the beginning of the connection's buffer.
     enum class Next : std::uint8_t { packet, response, request, end };
     template <class Idle>
@@ -134,6 +141,10 @@ private:
     template <class Idle>
     std::optional<RtspResponse> receive(std::string* body, const Idle& idle);
     bool take_response(const RtspResponse& response);
+    void take_challenge(const RtspResponse& response) {
+        challenge_ = response.challenge;
+        challenge_uses_ = 0;
+    }
     VideoAnswer moved(const std::string& location);
     std::optional<RtspResponse> ask(const std::string& method, const std::string& address,
                                     const std::string& headers, std::string* body = nullptr);
@@ -155,6 +166,10 @@ private:
     std::span<std::byte> area_;
     int sent_ = 0;  // requests
     std::string challenge_, session_;
+    unsigned challenge_uses_ = 0;
+    std::string aggregate_;  // the address of PLAY
+    std::optional<TimePoint> opening_since_;
+    bool silent_ = false;  // nothing came for too long
     // A request whose response comes between packets.
     struct Outstanding {
         std::string method, headers;
@@ -185,7 +200,8 @@ bool Rtsp::send(const std::string& method, const std::string& address, const std
     if (!session_.empty())
         text += "Session: " + session_ + "\r\n";
     if (!challenge_.empty() && !url_.user.empty())
-        if (const std::string answer = rtsp_authorization(url_, challenge_, method, address);
+        if (const std::string answer =
+                rtsp_authorization(url_, challenge_, method, address, ++challenge_uses_);
             !answer.empty())
             text += "Authorization: " + answer + "\r\n";
     return connection_.send(text + "\r\n");
@@ -208,7 +224,8 @@ Rtsp::Next Rtsp::find_next(const Idle& idle) {
             return Next::packet;
         if (next.starts_with("RTSP"))
             return Next::response;
-        for (const std::string_view method : {"OPTI", "SET_", "GET_"})
+        for (const std::string_view method :
+             {"OPTI", "SET_", "GET_", "ANNO", "REDI", "TEAR", "PAUS", "PLAY"})
             if (next.starts_with(method))
                 return Next::request;
         connection_.drop(1);
@@ -224,8 +241,8 @@ std::string_view Rtsp::read_head(const Idle& idle) {
         if (!connection_.need(wanted, idle))
             return {};
         const std::string_view text = connection_.buffered();
-        if (const auto end = text.find("\r\n\r\n"); end != std::string_view::npos)
-            return text.substr(0, end + 4);
+        if (const auto bytes = rtsp_head_bytes(text); bytes != std::string_view::npos)
+            return text.substr(0, bytes);
     }
     return {};
 }
@@ -284,16 +301,17 @@ std::optional<RtspResponse> Rtsp::ask(const std::string& method, const std::stri
                                       const std::string& headers, std::string* body) {
     if (!send(method, address, headers))
         return std::nullopt;
-    auto response = receive(body, nothing);
+    const auto idle = [this] { return waits_on(); };
+    auto response = receive(body, idle);
     if (!response || response->status != 401 || response->challenge.empty() || url_.user.empty())
         return response;
-    challenge_ = response->challenge;
-    return send(method, address, headers) ? receive(body, nothing) : std::nullopt;
+    take_challenge(*response);
+    return send(method, address, headers) ? receive(body, idle) : std::nullopt;
 }
 
 // The response is read with the packets, which may come before it.
 bool Rtsp::send_between(Outstanding request) {
-    const bool is_sent = send(request.method, url_.address, request.headers);
+    const bool is_sent = send(request.method, aggregate_, request.headers);
     request.sequence = sent_;
     outstanding_.push_back(std::move(request));
     if (outstanding_.size() > most_outstanding)
@@ -313,7 +331,7 @@ bool Rtsp::take_response(const RtspResponse& response) {
     outstanding_.erase(found);
     if (response.status == 401 && !response.challenge.empty() && !url_.user.empty() &&
         !request.is_repeated) {
-        challenge_ = response.challenge;
+        take_challenge(response);
         request.is_repeated = true;
         return send_between(std::move(request));
     }
@@ -334,27 +352,44 @@ VideoAnswer Rtsp::moved(const std::string& location) {
     return {.kind = Kind::moved};
 }
 
+bool Rtsp::waits_on() {
+    silent_ = opening_since_ && steady_now() - *opening_since_ > longest_silence;
+    return !silent_;
+}
+
 VideoAnswer Rtsp::open() {
     av_log_set_level(AV_LOG_QUIET);
+    opening_since_ = steady_now();
+    VideoAnswer opened = begin();
+    opening_since_.reset();
+    if (opened.kind != Kind::opened && silent_)
+        opened.kind = Kind::silent;
+    return opened;
+}
+
+VideoAnswer Rtsp::begin() {
     std::string description;
     auto response = ask("DESCRIBE", url_.address, "Accept: application/sdp\r\n", &description);
     if (!response)
         return {.kind = Kind::unreadable};
     if (response->status == 401 || response->status == 403)
         return {.kind = Kind::denied};
-    if (response->status == 301 || response->status == 302)
+    if (is_moved(response->status))
         return moved(response->location);
     if (response->status != 200)
-        return {.kind = Kind::refused};
-    const auto track =
-        find_rtsp_track(description, response->base.empty() ? url_.address : response->base);
+        return {.kind = response->status == 404 ? Kind::not_found : Kind::refused};
+    const auto track = find_rtsp_track(
+        description, response->base.starts_with("rtsp://") ? response->base : url_.address);
     if (!track)
         return {.kind = Kind::no_video};
     response = ask("SETUP", track->control, "Transport: RTP/AVP/TCP;unicast;interleaved=0-1\r\n");
     if (!response)
         return {.kind = Kind::unreadable};
+    if (response->status == 461 || (response->status == 200 && response->is_over_udp))
+        return {.kind = Kind::only_udp};
     if (response->status != 200)
         return {.kind = response->status == 401 ? Kind::denied : Kind::refused};
+    aggregate_ = track->aggregate;
     session_ = response->session;
     channel_ = response->channel.value_or(0);
     keep_alive_every_ = std::chrono::seconds(std::max(1, response->session_timeout_s / 2));
@@ -441,7 +476,10 @@ void Rtsp::note_arrival(std::string_view packet) {
 
 // One packet, or an error at the end of the connection.
 int Rtsp::read_packet(std::uint8_t* out, int size) {
-    const auto idle = [this] { keep_alive(); };
+    const auto idle = [this] {
+        keep_alive();
+        return waits_on();
+    };
     for (std::size_t passed_over = 0; passed_over < most_passed_over;) {
         keep_alive();
         const Next next = find_next(idle);

@@ -12,6 +12,7 @@ extern "C" {
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
+#include <cstdio>
 #include <utility>
 #include <vector>
 
@@ -100,10 +101,21 @@ bool is_harmless(std::string_view text) {
 }
 
 bool is_known_video(std::string_view encoding) {
+    // Some servers name a number of channels, too, which is for sound.
+    if (encoding.ends_with("/1"))
+        encoding.remove_suffix(2);
     for (const std::string_view name : {"H264/90000", "H265/90000", "JPEG/90000", "MP4V-ES/90000"})
         if (equal_without_case(encoding, name))
             return true;
     return false;
+}
+
+// A digest by another function cannot be answered.
+bool is_known_digest(std::string_view challenge) {
+    if (!begins_with_word(challenge, "Digest"))
+        return false;
+    const std::string algorithm = parameter(challenge.substr(6), "algorithm");
+    return algorithm.empty() || equal_without_case(algorithm, "MD5");
 }
 
 void read_header(std::string_view name, std::string_view value, RtspResponse& response,
@@ -123,14 +135,20 @@ void read_header(std::string_view name, std::string_view value, RtspResponse& re
     } else if (equal_without_case(name, "Content-Base")) {
         response.base = value;
     } else if (equal_without_case(name, "WWW-Authenticate")) {
-        if (response.challenge.empty() || begins_with_word(value, "Digest"))
+        const bool is_better =
+            !is_known_digest(response.challenge) && begins_with_word(value, "Basic");
+        if (response.challenge.empty() || is_known_digest(value) || is_better)
             response.challenge = value;
     } else if (equal_without_case(name, "Transport")) {
+        response.is_over_udp =
+            equal_without_case(trimmed(value.substr(0, value.find(';'))), "RTP/AVP") ||
+            begins_with_word(value, "RTP/AVP/UDP");
         while (!value.empty()) {
             std::string_view part = trimmed(cut(value, ';'));
             if (equal_without_case(cut(part, '='), "interleaved"))
                 response.channel = number(cut(part, '-'), 0, 255);
         }
+        response.is_over_udp = response.is_over_udp && !response.channel;
     }
 }
 
@@ -199,20 +217,36 @@ Result<RtspResponse> parse_rtsp_response(std::string_view head) {
     return response;
 }
 
+std::size_t rtsp_head_bytes(std::string_view text) {
+    for (auto at = text.find('\n'); at != std::string_view::npos; at = text.find('\n', at + 1)) {
+        const std::string_view next = text.substr(at + 1, 2);
+        if (next.starts_with('\n'))
+            return at + 2;
+        if (next == "\r\n")
+            return at + 3;
+    }
+    return std::string_view::npos;
+}
+
 std::string answer_to_rtsp_request(std::string_view head) {
     std::string_view first = trimmed(cut(head, '\n'));
     const std::string_view method = cut(first, ' ');
     cut(first, ' ');
-    if (!first.starts_with("RTSP/1.") ||
-        (method != "OPTIONS" && method != "SET_PARAMETER" && method != "GET_PARAMETER"))
+    const bool is_method = !method.empty() && std::all_of(method.begin(), method.end(), [](char c) {
+        return (c >= 'A' && c <= 'Z') || c == '_';
+    });
+    if (!first.starts_with("RTSP/1.") || !is_method)
         return "";
+    const bool is_known =
+        method == "OPTIONS" || method == "SET_PARAMETER" || method == "GET_PARAMETER";
     while (!head.empty()) {
         std::string_view line = trimmed(cut(head, '\n'));
         if (const std::string_view name = trimmed(cut(line, ':'));
             !equal_without_case(name, "CSeq"))
             continue;
         const auto sequence = number(trimmed(line), 0, max_sequence);
-        return sequence ? "RTSP/1.0 200 OK\r\nCSeq: " + std::to_string(*sequence) +
+        return sequence ? std::string("RTSP/1.0 ") + (is_known ? "200 OK" : "501 Not Implemented") +
+                              "\r\nCSeq: " + std::to_string(*sequence) +
                               "\r\nPublic: OPTIONS, SET_PARAMETER, GET_PARAMETER\r\n\r\n"
                         : "";
     }
@@ -266,19 +300,21 @@ std::optional<RtspTrack> find_rtsp_track(std::string_view description, std::stri
         track.description += line + "\r\n";
     if (session_control.starts_with(scheme))
         base = session_control;
+    track.aggregate = base;
     if (media.control.starts_with(scheme))
         track.control = media.control;
     else if (media.control.empty() || media.control == "*")
         track.control = base;
     else
         track.control = std::string(base) + (base.ends_with('/') ? "" : "/") + media.control;
-    return is_printable(track.control) && track.control.size() <= 2 * max_rtsp_url
-               ? std::optional(track)
-               : std::nullopt;
+    for (const std::string* address : {&track.control, &track.aggregate})
+        if (!is_printable(*address) || address->size() > 2 * max_rtsp_url)
+            return std::nullopt;
+    return track;
 }
 
 std::string rtsp_authorization(const RtspUrl& url, std::string_view challenge,
-                               std::string_view method, std::string_view address) {
+                               std::string_view method, std::string_view address, unsigned count) {
     if (begins_with_word(challenge, "Basic")) {
         ffmpeg::load_if_there();
         const std::string plain = url.user + ":" + url.password;
@@ -289,33 +325,45 @@ std::string rtsp_authorization(const RtspUrl& url, std::string_view challenge,
             return "";
         return "Basic " + std::string(coded.c_str());
     }
-    if (!begins_with_word(challenge, "Digest"))
+    if (!is_known_digest(challenge))
         return "";
     challenge.remove_prefix(6);
     const std::string realm = parameter(challenge, "realm"), nonce = parameter(challenge, "nonce"),
                       opaque = parameter(challenge, "opaque"),
-                      algorithm = parameter(challenge, "algorithm"),
                       quality = parameter(challenge, "qop");
     for (const std::string* text : {&realm, &nonce, &opaque})
         if (!is_harmless(*text))
             return "";
-    if (!algorithm.empty() && !equal_without_case(algorithm, "MD5"))
-        return "";
     const std::string person = md5(url.user + ":" + realm + ":" + url.password);
     const std::string what = md5(std::string(method) + ":" + std::string(address));
     // RFC 2617. The nonce of the client protects passwords from chosen ones of the server, which
     // may as well ask for them in plain text (Basic).
-    const std::string own = "00000001:theatron:auth:";
+    char number_text[16];
+    std::snprintf(number_text, sizeof(number_text), "%08x", count);
+    const std::string own = std::string(number_text) + ":theatron:auth:";
     const std::string response =
         md5(person + ":" + nonce + ":" + (quality.empty() ? "" : own) + what);
     std::string text = "Digest username=\"" + url.user + "\", realm=\"" + realm + "\", nonce=\"" +
                        nonce + "\", uri=\"" + std::string(address) + "\", response=\"" + response +
                        "\"";
     if (!quality.empty())
-        text += ", qop=auth, nc=00000001, cnonce=\"theatron\"";
+        text += ", qop=auth, nc=" + std::string(number_text) + ", cnonce=\"theatron\"";
     if (!opaque.empty())
         text += ", opaque=\"" + opaque + "\"";
     return text;
+}
+
+std::string moved_rtsp_address(std::string_view address, std::string_view location) {
+    if (location.find("://") != std::string_view::npos)
+        return std::string(location);
+    // Behind the host, or behind the last folder of the path.
+    const auto host_end = std::min(address.find('/', scheme.size()), address.size());
+    const auto folder_end = std::max(address.substr(0, address.find('?')).rfind('/') + 1, host_end);
+    const bool is_whole = location.starts_with('/');
+    std::string moved(address.substr(0, is_whole ? host_end : folder_end));
+    if (!is_whole && !moved.ends_with('/'))
+        moved += '/';
+    return moved + std::string(location);
 }
 
 }  // namespace theatron::capture

@@ -35,25 +35,36 @@ struct RtspResponse {
     std::string base;            // Content-Base, may be empty
     std::string challenge;       // the strongest known of WWW-Authenticate: digest, then basic
     std::optional<int> channel;  // of Transport: interleaved, the first
-    std::string location;        // of a server that has moved
+    bool is_over_udp = false;    // Transport names another way than this connection
+    std::string location;        // of a server that has moved; may be relative
 };
 // `head` ends behind the empty line. Refuses what is no response, and bodies that are too long.
 Result<RtspResponse> parse_rtsp_response(std::string_view head);
 
-// The answer to a request of the server, which wants to know whether this client is still there.
-// `head` as above. Empty: it is no request, or one that a client of one video track does not know.
+// The number of bytes up to the end of the empty line, which has or lacks carriage returns; npos:
+// there is none.
+std::size_t rtsp_head_bytes(std::string_view text);
+
+// The answer to a request of the server: that this client is still there, or that it does not know
+// the method. `head` as above. Empty: it is no request.
 std::string answer_to_rtsp_request(std::string_view head);
 
 // The first video track of a description that is H.264, H.265, MPEG-4 or JPEG, as a description of
 // its own: of the server's lines only the payload's name and parameters. nullopt: there is none.
 struct RtspTrack {
     std::string description;
-    std::string control;  // the URL for SETUP
+    std::string control;    // the URL for SETUP
+    std::string aggregate;  // the URL for PLAY
 };
 std::optional<RtspTrack> find_rtsp_track(std::string_view description, std::string_view base);
 
-// The value of the header Authorization that answers the challenge; empty if this one is unknown.
+// The value of the header Authorization that answers the challenge, for the `count`th time; empty
+// if this one is unknown.
 std::string rtsp_authorization(const RtspUrl& url, std::string_view challenge,
-                               std::string_view method, std::string_view address);
+                               std::string_view method, std::string_view address,
+                               unsigned count = 1);
+
+// The address that a server of `address` has moved to, where it may name the path alone.
+std::string moved_rtsp_address(std::string_view address, std::string_view location);
 
 }  // namespace theatron::capture

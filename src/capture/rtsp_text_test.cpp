@@ -61,8 +61,51 @@ TEST(RtspText, AnswersRequestsOfTheServer) {
                   "");
     for (const char* none :
          {"", "OPTIONS", "OPTIONS * HTTP/1.1\r\nCSeq: 1\r\n\r\n", "OPTIONS * RTSP/1.0\r\n\r\n",
-          "OPTIONS * RTSP/1.0\r\nCSeq: x\r\n\r\n", "TEARDOWN * RTSP/1.0\r\nCSeq: 1\r\n\r\n"})
+          "OPTIONS * RTSP/1.0\r\nCSeq: x\r\n\r\n", "two words RTSP/1.0\r\nCSeq: 1\r\n\r\n"})
         EXPECT_EQ(answer_to_rtsp_request(none), "") << none;
+    for (const char* method : {"ANNOUNCE", "TEARDOWN", "PLAY_NOTIFY"})
+        EXPECT_THAT(answer_to_rtsp_request(std::string(method) + " * RTSP/1.0\r\nCSeq: 7\r\n\r\n"),
+                    HasSubstr("RTSP/1.0 501 Not Implemented\r\nCSeq: 7\r\n"));
+}
+
+TEST(RtspText, AHeadEndsWithAnEmptyLineOfEitherKind) {
+    EXPECT_EQ(rtsp_head_bytes("RTSP/1.0 200 OK\r\nCSeq: 1\r\n\r\nv=0"), 28u);
+    EXPECT_EQ(rtsp_head_bytes("RTSP/1.0 200 OK\nCSeq: 1\n\nv=0"), 25u);
+    for (const char* open : {"", "\n", "RTSP/1.0 200 OK\r\nCSeq: 1\r\n", "a\r\n\r"})
+        EXPECT_EQ(rtsp_head_bytes(open), std::string_view::npos) << open;
+}
+
+TEST(RtspText, TakesTheStrongestChallengeThatItKnows) {
+    const std::string
+        sha = "WWW-Authenticate: Digest realm=\"r\", nonce=\"n\", algorithm=SHA-256\r\n",
+        md5 = "WWW-Authenticate: Digest realm=\"r\", nonce=\"m\"\r\n",
+        basic = "WWW-Authenticate: Basic realm=\"r\"\r\n";
+    const auto taken = [](const std::string& headers) {
+        return parse_rtsp_response("RTSP/1.0 401 Unauthorized\r\n" + headers + "\r\n")->challenge;
+    };
+    for (const std::string& headers : {sha + md5, md5 + sha, basic + md5 + sha, md5 + basic})
+        EXPECT_EQ(taken(headers), "Digest realm=\"r\", nonce=\"m\"") << headers;
+    for (const std::string& headers : {sha + basic, basic + sha})
+        EXPECT_EQ(taken(headers), "Basic realm=\"r\"") << headers;
+}
+
+TEST(RtspText, TellsATransportThatIsNotThisConnection) {
+    const auto over_udp = [](const std::string& transport) {
+        return parse_rtsp_response("RTSP/1.0 200 OK\r\nTransport: " + transport + "\r\n\r\n")
+            ->is_over_udp;
+    };
+    EXPECT_TRUE(over_udp("RTP/AVP;unicast;client_port=5000-5001"));
+    EXPECT_TRUE(over_udp("RTP/AVP/UDP;unicast"));
+    EXPECT_FALSE(over_udp("RTP/AVP/TCP;unicast;interleaved=0-1"));
+    EXPECT_FALSE(over_udp("RTP/AVP/TCP;unicast"));
+    EXPECT_FALSE(over_udp("RTP/AVP;interleaved=0-1"));
+}
+
+TEST(RtspText, AServerMayMoveToAPathAlone) {
+    EXPECT_EQ(moved_rtsp_address("rtsp://h:5/a/b?c=/d", "/x"), "rtsp://h:5/x");
+    EXPECT_EQ(moved_rtsp_address("rtsp://h:5/a/b?c=/d", "x"), "rtsp://h:5/a/x");
+    EXPECT_EQ(moved_rtsp_address("rtsp://h", "x"), "rtsp://h/x");
+    EXPECT_EQ(moved_rtsp_address("rtsp://h/a", "rtsp://i/x"), "rtsp://i/x");
 }
 
 TEST(RtspText, RefusesWhatIsNoResponseOrTooLong) {
@@ -82,11 +125,17 @@ TEST(RtspText, TakesTheFirstVideoTrackAndNothingElseOfADescription) {
         "rtsp://h/x/");
     ASSERT_TRUE(track);
     EXPECT_EQ(track->control, "rtsp://h/x/track2");
+    EXPECT_EQ(track->aggregate, "rtsp://h/x/");
     EXPECT_THAT(track->description,
                 HasSubstr("m=video 0 RTP/AVP 97\r\na=rtpmap:97 H264/90000\r\n"));
     EXPECT_THAT(track->description, HasSubstr("a=fmtp:97 "));
     for (const char* other : {"evil", "10.0.0.1", "audio", "98", "a=x"})
         EXPECT_THAT(track->description, Not(HasSubstr(other)));
+    EXPECT_EQ(find_rtsp_track("a=control:rtsp://h/all/\r\nm=video 0 RTP/AVP 9\r\na=control:1\r\n"
+                              "a=rtpmap:9 h264/90000/1\r\n",
+                              "rtsp://h/")
+                  ->aggregate,
+              "rtsp://h/all/");
     EXPECT_FALSE(find_rtsp_track("v=0\r\nm=audio 0 RTP/AVP 0\r\n", "rtsp://h/"));
     EXPECT_FALSE(
         find_rtsp_track("m=video 0 RTP/AVP 96\r\na=rtpmap:96 X-ODD/90000\r\n", "rtsp://h/"));
@@ -102,6 +151,9 @@ TEST(RtspText, AnswersChallenges) {
     EXPECT_EQ(rtsp_authorization(url, "Digest realm=\"r\", nonce=\"n\", algorithm=SHA-256",
                                  "DESCRIBE", "rtsp://h/"),
               "");
+    EXPECT_THAT(rtsp_authorization(url, "Digest realm=\"r\", nonce=\"n\", qop=\"auth\"", "PLAY",
+                                   "rtsp://h/", 26),
+                HasSubstr("qop=auth, nc=0000001a, "));
     EXPECT_EQ(rtsp_authorization(url, "Negotiate", "DESCRIBE", "rtsp://h/"), "");
 }
 

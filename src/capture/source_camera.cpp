@@ -125,6 +125,18 @@ private:
                             " needs the right user and password, as in rtsp://USER:PASSWORD@HOST.");
             case Kind::hidden:
                 throw Error(subject_at_start() + " is closed or minimised.");
+            case Kind::not_found:
+                throw Error(
+                    subject_at_start() +
+                    " is not there: its server knows no such path. Look for the path in the "
+                    "manual of the camera.");
+            case Kind::only_udp:
+                throw Error(
+                    subject_at_start() +
+                    " comes over UDP only, which is not read; let its server send over TCP.");
+            case Kind::silent:
+                throw Error(subject_at_start() +
+                            " has been without an answer or a picture for 8 s.");
             case Kind::moved: {
                 std::string address;
                 for (const std::byte byte : child_.area().first(max_rtsp_url)) {
@@ -261,7 +273,7 @@ std::unique_ptr<Camera> open_rtsp_camera(Options& options, const Progress&) {
         return open(url->port);
     } catch (const Moved& moved) {
         // Once, and never to another host, which would get the password.
-        const auto other = parse_rtsp_url(moved.address);
+        const auto other = parse_rtsp_url(moved_rtsp_address(url->address, moved.address));
         if (!other || other->host != url->host)
             throw Error("The server of " + subject +
                         " has moved it to another host; give the stream's new address.");

@@ -55,10 +55,10 @@ public:
         depth_.pop_front();
         const Duration time = pair.depth.time;
         while (!color_.empty() && color_.front().time < time - tolerance_)
-            color_.pop_front();
+            drop_color();
         while (color_.size() > 1 &&
                distance(color_[1].time, time) <= distance(color_[0].time, time))
-            color_.pop_front();
+            drop_color();
         if (!color_.empty() && distance(color_.front().time, time) <= tolerance_) {
             pair.color = std::move(color_.front());
             color_.pop_front();
@@ -76,6 +76,10 @@ public:
         std::uint64_t apart = 0;     // colour that came too long before or after its depth
     };
     const LeftOut& left_out() const { return left_out_; }
+    // Colour that belongs to no depth, as a faster track has it; at the end those that wait, too.
+    std::uint64_t colors_alone() const {
+        return colors_alone_ + (finished_ && depth_.empty() ? color_.size() : 0);
+    }
 
 private:
     static constexpr std::size_t most_remembered = 1024;
@@ -100,6 +104,10 @@ private:
             remember(colors_dropped_, color_.front().time);
             color_.pop_front();
         }
+    }
+    void drop_color() {
+        ++colors_alone_;
+        color_.pop_front();
     }
     static void remember(std::deque<Duration>& times, Duration time) {
         times.push_back(time);
@@ -134,6 +142,7 @@ private:
     std::deque<Duration> depth_alone_,
         colors_dropped_;  // their times: taken without colour, unused
     LeftOut left_out_;
+    std::uint64_t colors_alone_ = 0;
     bool finished_ = false;
 };
 

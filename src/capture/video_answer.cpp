@@ -36,7 +36,7 @@ Result<VideoAnswer> decode_video_answer(ByteView message, std::size_t shared_byt
         return Status::trailing_bytes;
     // Limits times, so that sums do not overflow.
     constexpr Duration longest = std::chrono::hours(1'000'000);
-    if (kind < 1 || kind > std::uint8_t(Kind::moved) || answer.time < -longest ||
+    if (kind < 1 || kind > std::uint8_t(Kind::names_files) || answer.time < -longest ||
         answer.time > longest || !std::isfinite(answer.frames_per_second))
         return Status::malformed;
     if (answer.kind != Kind::opened)

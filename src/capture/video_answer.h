@@ -28,11 +28,15 @@ struct VideoAnswer {
         no_video = 5,
         no_decoder = 6,
         impossible_size = 7,
-        refused = 8,   // by the server or the device
-        denied = 9,    // user and password are missing or wrong
-        hidden = 10,   // the window is closed or minimised
-        damaged = 11,  // the track has neither codec nor size
-        moved = 12,    // the new address is in the shared memory, before a zero byte
+        refused = 8,       // by the server or the device
+        denied = 9,        // user and password are missing or wrong
+        hidden = 10,       // the window is closed or minimised
+        damaged = 11,      // the track has neither codec nor size
+        moved = 12,        // the new address is in the shared memory, before a zero byte
+        not_found = 13,    // the server has no such stream
+        only_udp = 14,     // the server does not send over its connection
+        silent = 15,       // the server
+        names_files = 16,  // a list of other files, which are not opened
     };
     Kind kind{};
     Duration time{};  // of the picture; of a live one, of the steady clock

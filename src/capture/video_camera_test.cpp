@@ -118,7 +118,7 @@ TEST(VideoAnswer, PicturesFitIntoTheSharedMemory) {
               Status::too_large);
     for (const Size size : {Size{0, 0}, Size{-1, -1}, Size{1 << 30, 1 << 30}})
         EXPECT_FALSE(decode_video_answer(encode(VideoAnswer{good.kind, {}, size, 30}), 1 << 25));
-    EXPECT_FALSE(decode_video_answer(encode(VideoAnswer{VideoAnswer::Kind(13), {}, {}, 30}), 1000));
+    EXPECT_FALSE(decode_video_answer(encode(VideoAnswer{VideoAnswer::Kind(17), {}, {}, 30}), 1000));
     EXPECT_FALSE(decode_video_answer({}, 1000));
 }
 

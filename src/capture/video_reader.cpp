@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "capture/video_reader.h"
 
-extern "C" {
-#include <libavutil/log.h>
-}
-
 #include <memory>
 #include <new>
 #include <optional>
+#include <string_view>
 
+#include "capture/av_complaints.h"
 #include "capture/av_input.h"
 #include "capture/av_video.h"
 
@@ -20,6 +18,14 @@ using Kind = VideoAnswer::Kind;
 // Playlists and other containers that name files get none.
 int refuse_io(AVFormatContext*, AVIOContext**, const char*, int, AVDictionary**) {
     return AVERROR(EACCES);
+}
+
+bool names_other_files(const AVInputFormat& format) {
+    const std::string_view own = format.name;
+    for (const std::string_view name : {"hls", "concat", "dash", "imf", "sdp"})
+        if (own == name)
+            return true;
+    return false;
 }
 
 class Video {
@@ -39,13 +45,19 @@ private:
 };
 
 VideoAnswer Video::open() {
-    av_log_set_level(AV_LOG_QUIET);
+    count_av_complaints();
     file_ = avformat_alloc_context();
     if (!file_)
         throw std::bad_alloc();
     file_->pb = input_.context();
     file_->io_open = refuse_io;
-    const int failed = avformat_open_input(&file_, "", nullptr, nullptr);
+    const AVInputFormat* format = nullptr;
+    check_av_memory(av_probe_input_buffer2(file_->pb, &format, "", nullptr, 0, 0));
+    if (!format)
+        return {.kind = Kind::unreadable};
+    if (names_other_files(*format))
+        return {.kind = Kind::names_files};
+    const int failed = avformat_open_input(&file_, "", format, nullptr);
     check_av_memory(failed);
     return failed ? VideoAnswer{.kind = Kind::unreadable} : video_.open(*file_);
 }

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "capture/cut_off.h"
 #include "ffmpeg/ffmpeg.h"
 #include "geometry/screen.h"
 
@@ -17,6 +18,9 @@ VideoRecording::VideoRecording(const std::filesystem::path& path)
       file_(path),
       child_(ffmpeg::needed_by("video"), file_.descriptor(), "the file " + quoted(path)) {
     opened_ = open();
+    if (is_cut_off(file_.descriptor(), file_.bytes()))
+        log::warning("capture", "the video is cut off and plays as far as it goes",
+                     {{"file", path.string()}});
 }
 
 std::optional<Duration> VideoRecording::offset() {
@@ -52,6 +56,12 @@ void VideoRecording::rewind() {
         throw Error(quoted(path_) + " has changed while it was played.");
 }
 
+std::string VideoRecording::problem_at_end() const {
+    return is_cut_off(file_.descriptor(), file_.bytes())
+               ? "The video " + quoted(path_) + " is cut off."
+               : "";
+}
+
 VideoAnswer VideoRecording::answer() {
     waiting_ = false;
     const auto answer = decode_video_answer(child_.receive(), child_.area().size());
@@ -76,6 +86,9 @@ VideoAnswer VideoRecording::open() {
         case Kind::unreadable:
             throw Error(quoted(path_) +
                         " is no video that FFmpeg reads, or is damaged at its beginning.");
+        case Kind::names_files:
+            throw Error(quoted(path_) +
+                        " is a list of other files, which are not opened; give the video itself.");
         case Kind::no_video:
             throw Error(quoted(path_) + " has no video track.");
         case Kind::no_decoder:

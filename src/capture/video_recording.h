@@ -29,6 +29,7 @@ public:
     bool read(Frame& out) override;
     std::uint64_t lost_pictures() const override;
     void rewind() override;
+    std::string problem_at_end() const override;
 
 private:
     VideoAnswer answer();

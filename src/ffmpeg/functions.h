@@ -19,6 +19,7 @@
     X(av_frame_unref)                \
     X(av_freep)                      \
     X(av_image_get_linesize)         \
+    X(av_log_set_callback)           \
     X(av_log_set_level)              \
     X(av_malloc)                     \
     X(av_md5_sum)                    \
@@ -51,6 +52,7 @@
     X(av_find_input_format)            \
     X(av_guess_frame_rate)             \
     X(av_guess_sample_aspect_ratio)    \
+    X(av_probe_input_buffer2)          \
     X(av_read_frame)                   \
     X(av_stream_get_side_data)         \
     X(avformat_alloc_context)          \

@@ -91,6 +91,25 @@ def answer(peer, fields, status="200 OK", headers="", body=""):
     peer.sendall(f"RTSP/1.0 {status}\r\nCSeq: {fields.get('CSeq', 0)}\r\n{headers}{length}\r\n{body}".encode())
 
 
+class Counted:
+    """Reads requests as a camera does whose one nonce must be used with a number that grows."""
+
+    def __init__(self, password):
+        self.password, self.last = password, 0
+
+    def read_request(self, peer):
+        def md5(text):
+            return hashlib.md5(text.encode()).hexdigest()
+        while True:
+            method, url, fields = read_request(peer)
+            given = dict(re.findall(r'(\w+)="?([^",]*)"?', fields.get("Authorization", "")))
+            rest = f"n0nce:{given.get('nc')}:{given.get('cnonce')}:auth:{md5(method + ':' + given.get('uri', ''))}"
+            if given.get("response") == md5(f"{md5(f'cart:or:{self.password}')}:{rest}") and int(given["nc"], 16) > self.last:
+                self.last = int(given["nc"], 16)
+                return method, url, fields
+            answer(peer, fields, "401 Unauthorized", 'WWW-Authenticate: Digest realm="or", nonce="n0nce", qop="auth,auth-int"\r\n')
+
+
 def is_allowed(method, fields, password, nonce="n0nce"):
     """Digest (RFC 2617) of the user `cart`."""
     given = dict(re.findall(r'(\w+)="([^"]*)"', fields.get("Authorization", "")))
@@ -117,25 +136,28 @@ class NewNonces:
             answer(peer, fields, "401 Unauthorized", f'WWW-Authenticate: Digest realm="or", nonce="n{self.number}"\r\n')
 
 
-def shake_hands(peer, pictures, password=None, read=read_request):
+def shake_hands(peer, pictures, password=None, read=read_request, session="a=control:*", encoding="H264/90000", base="", play_at=""):
     units = [unit for picture in pictures[:1] for unit in picture if unit[0] & 31 in (7, 8)]
     sets = ",".join(base64.b64encode(unit).decode() for unit in units)
-    description = ("v=0\r\no=- 1 1 IN IP4 127.0.0.1\r\ns=stand-in\r\nc=IN IP4 0.0.0.0\r\nt=0 0\r\na=control:*\r\n"
+    description = (f"v=0\r\no=- 1 1 IN IP4 127.0.0.1\r\ns=stand-in\r\nc=IN IP4 0.0.0.0\r\nt=0 0\r\n{session}\r\n"
                    "m=audio 0 RTP/AVP 0\r\na=control:trackID=7\r\n"
-                   "m=video 0 RTP/AVP 96\r\na=rtpmap:96 H264/90000\r\n"
+                   f"m=video 0 RTP/AVP 96\r\na=rtpmap:96 {encoding}\r\n"
                    f"a=fmtp:96 packetization-mode=1;sprop-parameter-sets={sets}\r\na=control:{TRACK}\r\n")
     while True:
         method, url, fields = read(peer)
         if password and not is_allowed(method, fields, password):
             answer(peer, fields, "401 Unauthorized",
-                   'WWW-Authenticate: Basic realm="or"\r\nWWW-Authenticate: Digest realm="or", nonce="n0nce"\r\n')
+                   'WWW-Authenticate: Basic realm="or"\r\nWWW-Authenticate: Digest realm="or", nonce="n0nce"\r\n'
+                   'WWW-Authenticate: Digest realm="or", nonce="n0nce", algorithm=SHA-256\r\n')
             continue
         if method == "DESCRIBE":
-            answer(peer, fields, headers="Content-Type: application/sdp\r\n", body=description)
+            answer(peer, fields, headers=f"Content-Type: application/sdp\r\n{base}", body=description)
         elif method == "SETUP":
             assert url.endswith(TRACK), url
             answer(peer, fields, headers="Transport: RTP/AVP/TCP;unicast;interleaved=0-1\r\n"
                                          "Session: 12345678;timeout=2\r\n")
+        elif method == "PLAY" and not url.endswith(play_at):
+            answer(peer, fields, "460 Only Aggregate Operation Allowed")
         elif method == "PLAY":
             answer(peer, fields, headers="Session: 12345678\r\n")
             return
@@ -173,10 +195,10 @@ def answer_all(peer, read):
         pass
 
 
-def play(peer, pictures, fps=30, count=None, password=None, read=read_request, between=b""):
+def play(peer, pictures, fps=30, count=None, password=None, read=read_request, between=b"", **hands):
     """A good server, which also answers keep-alives; after `count` pictures it says nothing more. `between` comes before
     each packet."""
-    shake_hands(peer, pictures, password, read)
+    shake_hands(peer, pictures, password, read, **hands)
     begin, number = time.monotonic(), 0
     threading.Thread(target=answer_all, args=(peer, read), daemon=True).start()
     n = 0
@@ -219,6 +241,46 @@ def play_and_ask(peer, pictures, asked):
                 asked.append(int(re.search(rb"CSeq: (\d+)", head)[1]))
             else:
                 answer(peer, dict(re.findall(r"(?m)^([\w-]+): *(.*?)\r?$", head.decode())))
+
+
+class LineFeeds:
+    """A connection that ends the lines of its answers with a line feed alone."""
+
+    def __init__(self, peer):
+        self.peer = peer
+
+    def recv(self, count):
+        return self.peer.recv(count)
+
+    def sendall(self, data):
+        head, _, body = data.partition(b"\r\n\r\n")
+        self.peer.sendall(head.replace(b"\r\n", b"\n") + b"\n\n" + body if data.startswith(b"RTSP") else data)
+
+
+def play_with_line_feeds(peer, pictures):
+    play(LineFeeds(peer), pictures)
+
+
+def refuse(peer, pictures, at, status, headers=""):
+    """Answers the requests of the method `at` with `status`."""
+    def read(peer):
+        while True:
+            method, url, fields = read_request(peer)
+            if method != at:
+                return method, url, fields
+            answer(peer, fields, status, headers)
+    play(peer, pictures, read=read)
+
+
+def move_to_a_path(peer, pictures):
+    """The stream is at another path, of which the server says the path alone."""
+    def read(peer):
+        while True:
+            method, url, fields = read_request(peer)
+            if "/live" not in url:
+                return method, url, fields
+            answer(peer, fields, "307 Temporary Redirect", "Location: /other\r\n")
+    play(peer, pictures, read=read)
 
 
 def move(peer, to):

@@ -78,6 +78,32 @@ class Sources(unittest.TestCase):
                 self.assert_plays(h, asks, asks.url)
                 self.assertGreater(len(asked), 5)
                 self.assertTrue(all(number >= 1000 for number in asked), asked)
+            counted = rtsp_standin.Counted("kn")
+            announced = b"ANNOUNCE rtsp://127.0.0.1/live RTSP/1.0\r\nCSeq: 9\r\n\r\n"
+            for name, options in (("a number that grows", {"read": counted.read_request}),
+                                  ("requests that nobody knows", {"between": announced}),
+                                  ("played at the session's address", {"session": "a=control:rtsp://127.0.0.1/all/", "play_at": "/all/"}),
+                                  ("played at the base", {"base": "Content-Base: rtsp://127.0.0.1/base/\r\n", "play_at": "/base/"}),
+                                  ("a number of channels", {"encoding": "h264/90000/1"})):
+                with self.subTest(name):
+                    server = serve(rtsp_standin.play, pictures=self.pictures, **options)
+                    self.assert_plays(h, server, server.url.replace("rtsp://", "rtsp://cart:kn@"), 30)
+            feeds = serve(rtsp_standin.play_with_line_feeds, pictures=self.pictures)
+            with self.subTest("line feeds"):
+                self.assert_plays(h, feeds, feeds.url, 30)
+            path = serve(rtsp_standin.move_to_a_path, pictures=self.pictures)
+            with self.subTest("moved to a path"), Process("publish", h.greeting["publish_link"], "--share", path.url + ",name=tower",
+                                                          "--every", "0.2") as cart:
+                cart.wait_for(shown("tower", 30))
+            udp = "Transport: RTP/AVP;unicast;client_port=5000-5001\r\nSession: 1\r\n"
+            for at, status, headers, words in (("DESCRIBE", "404 Not Found", "", "knows no such path"),
+                                               ("SETUP", "461 Unsupported Transport", "", "comes over UDP only"),
+                                               ("SETUP", "200 OK", udp, "comes over UDP only")):
+                with self.subTest(status + headers):
+                    server = serve(rtsp_standin.refuse, pictures=self.pictures, at=at, status=status, headers=headers)
+                    code, _, errors = run("publish", h.greeting["publish_link"], "--share", server.url)
+                    self.assertEqual(code, 1)
+                    self.assertIn(words, errors)
             target = serve(rtsp_standin.play, pictures=self.pictures, password="kn")
             moved = serve(rtsp_standin.move, to=target.url)
             with self.subTest("moved"):

@@ -6,6 +6,7 @@ compared with what went in. Generated are also the files with which the fuzz tar
     python3 tests/foreign/foreign_test.py --write FOLDER [PART OF A NAME]
 """
 
+import json
 import os
 import pathlib
 import re
@@ -26,6 +27,7 @@ import mesh_inputs  # noqa: E402
 import more_inputs  # noqa: E402
 import own_seeds  # noqa: E402
 import packed_glb  # noqa: E402
+import played_inputs  # noqa: E402
 import unusual_inputs  # noqa: E402
 from expected import problem  # noqa: E402
 
@@ -155,6 +157,23 @@ class ForeignFiles(unittest.TestCase):
             seeded = {path.name for path in pathlib.Path(folder).iterdir()}
         seeded |= {path.name.removesuffix(".tar.gz") for path in (root / "tests/corpus").iterdir()}
         self.assertEqual(seeded, {path.stem for folder in ("src", "apps", "tests") for path in root.glob(f"{folder}/*/*_fuzz.cpp")})
+
+
+class PlayedFiles(unittest.TestCase):
+    def test_what_is_given_and_what_is_said(self):
+        left_out = [one.name for one in played_inputs.inputs() if not played_inputs.is_possible(one)]
+        for one in played_inputs.inputs():
+            if one.name in left_out:
+                continue
+            with self.subTest(one.name), tempfile.TemporaryDirectory() as temporary:
+                folder = pathlib.Path(temporary)
+                played_inputs.write(one, folder / "source")
+                done = subprocess.run([os.environ["THEATRON"], "record", "--camera", one.camera % (folder / "source"), folder / "r.mkv",
+                                       "--json"], capture_output=True, text=True, timeout=120)
+                figures = json.loads(done.stdout) if done.stdout.startswith("{") else {}
+                self.assertIsNone(played_inputs.problem(one, done.returncode, figures, done.stderr.replace(str(folder), "")))
+        if left_out:
+            self.skipTest("without ffmpeg no videos can be made: " + ", ".join(left_out))
 
 
 def main():

@@ -245,6 +245,12 @@ def numbered(texts):
     return ((str(number), one.encode()) for number, one in enumerate(texts))
 
 
+def windows_media():
+    """The beginning of a file of 1000 bytes."""
+    properties = bytes.fromhex("a1dcab8c47a9cf118ee400c00c205365") + struct.pack("<Q16xQ40xI", 104, 1000, 0) + bytes(12)
+    return bytes.fromhex("3026b2758e66cf11a6d900aa0062ce6c") + struct.pack("<QIBB", 134, 1, 1, 2) + properties
+
+
 def seeds():
     """(fuzz target, name, bytes)"""
     page_calibration = blocks("docs/formats/camera_folder.md", "json")[0].encode()
@@ -266,6 +272,8 @@ def seeds():
         "calibration_fuzz": [("page", page_calibration), ("azure", azure_calibration()), ("matrix", b"525 0 319.5 0 525 239.5 0 0 1")],
         "calibration_bytes_fuzz": calibration_bytes(),
         "places_fuzz": [("file", (VECTORS / "places.json").read_bytes()), ("place", b"0.4:1.6:2:-30:15:0")],
+        "cut_off_fuzz": [("matroska", bytes.fromhex("1a45dfa3801853806741 2c")), ("avi", b"RIFF\x64\0\0\0AVI "),
+                         ("windows_media", windows_media())],
         "video_answer_fuzz": [("opened", answer), ("picture", b"\2" + answer[1:])],
         "receiver_fuzz": [("h264", received_h264())],
         "background_fuzz": [("empty", background), ("small", background[:8] + struct.pack("<2H", 1, 2) + background[12:28])],
