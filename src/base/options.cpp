@@ -83,8 +83,8 @@ double Options::take_number(std::string_view key, double fallback, double min, d
         return number;
     char range[64];
     std::snprintf(range, sizeof(range), "%g to %g", min, max);
-    note("In " + in_quotes(text_) + ", " + std::string(key) + "=" + value + " is not a number from " +
-         range + ".");
+    note("In " + in_quotes(text_) + ", " + std::string(key) + "=" + value +
+         " is not a number from " + range + ".");
     return fallback;
 }
 
@@ -102,7 +102,8 @@ bool Options::take_flag(std::string_view key, bool fallback) {
 
 std::string Options::problem() const {
     if (problem_.empty() && !keys_.empty())
-        return "In " + in_quotes(text_) + ", the key " + in_quotes(keys_.begin()->first) + " is unknown.";
+        return "In " + in_quotes(text_) + ", the key " + in_quotes(keys_.begin()->first) +
+               " is unknown.";
     return problem_;
 }
 
