@@ -56,6 +56,8 @@ void require_size(const fs::path& file, std::size_t limit, const char* advice) {
     const std::uintmax_t size = fs::file_size(file, failed);
     if (failed)
         throw Error("The size of " + quoted_path(file) + " cannot be found out.");
+    if (size == 0)
+        throw NotForUs(file, "is empty; copy it again if it should hold something");
     if (size > limit)
         throw Error(quoted_path(file) + " is " + in_gigabytes(size) + " large, and at most " +
                     std::to_string(limit >> 20) + " MiB are read; " + advice + ".");

@@ -15,8 +15,8 @@ namespace theatron::cases {
 
 std::string lower_extension(const std::filesystem::path& file);
 
-// Throws Error where this is no file, or one of more than `limit` bytes; `advice` is what to do
-// then.
+// Throws NotForUs where the file is empty, and Error where this is no file, or one of more than
+// `limit` bytes; `advice` is what to do then.
 void require_size(const std::filesystem::path& file, std::size_t limit, const char* advice);
 
 struct Reply {

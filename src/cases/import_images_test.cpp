@@ -197,6 +197,8 @@ TEST_F(Import, AnImageWhoseValuesMeanNothingIsNamed) {
     EXPECT_THAT(refusal(), HasSubstr("flat.dcm' has a rescale slope of 0"));
     std::ofstream(source() / "flat.dcm") << "hello";
     EXPECT_THAT(refusal(), HasSubstr("flat.dcm' is left out: it is too short for a DICOM file"));
+    std::ofstream(source() / "flat.dcm", std::ios::trunc).close();
+    EXPECT_THAT(refusal(), HasSubstr("flat.dcm' is left out: it is empty; copy it again"));
 }
 
 TEST_F(Import, ATruncatedImageIsNamed) {
