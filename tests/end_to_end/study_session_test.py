@@ -11,7 +11,7 @@ import stat
 import tempfile
 import unittest
 
-from study_test import COMPARISON, CONSENT, PRESENCE, Participant, make_study
+from study_test import COMPARISON, CONSENT, PRESENCE, Participant, make_study, wait_for_reason
 from theatron_process import Process, host, run, wait_until
 
 NOBODY = "Anna Participant"  # a name that is to be in no file
@@ -193,7 +193,7 @@ class StudiesInASession(unittest.TestCase):
     def test_a_participant_who_comes_back_goes_on_and_stop_ends_the_study(self):
         make_study(self.study, CONSENT.join(["study = Short\nbreak-off = Take the headset off.\n", "\nphase = opinion\nkind = questionnaire\nquestionnaire = own-presence\n"]))
         with self.session() as h, self.lead(h.greeting["links"]["operator"], 3, "--person", NOBODY) as lead:
-            lead.wait_for(lambda event: event["event"] == "waits")
+            wait_for_reason(lead, "not in the session")
             home = self.folder / "home"
             with Surface(h.greeting["links"]["expert"], 3, home=home) as anna, \
                     Surface(h.greeting["links"]["expert"], 4, "Ben") as ben:
@@ -201,10 +201,10 @@ class StudiesInASession(unittest.TestCase):
                     anna.reply(anna.next_step())
                 last = anna.next_step()
                 self.assertEqual(ben.seen, [])
-            lead.wait_for(lambda event: event["event"] == "waits")
+            wait_for_reason(lead, "not in the session")
             # The same name from another computer gets no question.
             with Surface(h.greeting["links"]["expert"], 5) as other:
-                self.assertIn("Somebody else", lead.wait_for(lambda event: event["event"] == "waits")["why"])
+                wait_for_reason(lead, "Somebody else")
                 self.assertEqual(other.seen, [])
             with Surface(h.greeting["links"]["observer"], 3, home=home) as anna:
                 self.assertEqual(anna.next_step(), last)

@@ -7,7 +7,7 @@ import unittest
 
 from page_case import PageCase
 from study_surfaces import CAMERA, IWER, WINDOW, HeadsetSurface, PageSurface, WindowKeys, WindowSurface, go_through, lead, replies
-from study_test import make_study
+from study_test import make_study, wait_for_reason
 from theatron_process import Process, host, wait_until
 from virtual_screen import VirtualScreen
 
@@ -135,7 +135,7 @@ class InThePage(PageCase):
             agree, look = ({"step": number, "kind": kind} for number, kind in ((1, "consent"), (3, "read")))
             for label in ("Yes", "Go on"):
                 hand.press(label, agree)
-            leader.wait_for(lambda line: line["event"] == "waits" and "2D view" in line["why"])
+            wait_for_reason(leader, "2D view")
             self.assertEqual(list(replies(self.study, 4)), ["agree.consent"])
             self.leave(page)
             page.reload()  # the tab knows its person

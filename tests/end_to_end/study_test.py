@@ -115,6 +115,11 @@ def next_event(process, kinds):
     return process.wait_for(lambda event: event.get("event") in kinds)
 
 
+def wait_for_reason(process, part):
+    """It waits and says why: other reasons may come before, such as a connection that is not there yet."""
+    process.wait_for(lambda line: line["event"] == "waits" and part in line["why"])
+
+
 def run_participant(folder, number, stop_after=None, **options):
     """Runs one from consent to the end; returns its steps. `stop_after`: kills the program after this number of replies."""
     participant, steps = Participant(number), []
