@@ -14,6 +14,7 @@
 #include "base/line_writer.h"
 #include "base/log_format.h"
 #include "base/log_scope.h"
+#include "testing/log_capture.h"
 
 namespace theatron {
 namespace {
@@ -77,8 +78,8 @@ TEST(LineWriter, KeepsAResultHoweverMuchWaitsAndLinesOnlyUpToABoundOfTheirBytes)
     EXPECT_TRUE(writer.keeps());
     freed.set_value();
     EXPECT_TRUE(writer.flush(std::chrono::minutes(1)));
-    EXPECT_THAT(written, testing::ElementsAre("first\n", half, "... 1 lines were left out.\n", half,
-                                              "result\n"));
+    EXPECT_THAT(written, ::testing::ElementsAre("first\n", half, "... 1 lines were left out.\n",
+                                                half, "result\n"));
     EXPECT_FALSE(writer.keeps() || writer.has_lost_kept());
 }
 
@@ -100,11 +101,11 @@ TEST(LineWriter, LinesThatCannotBeWrittenAreCountedAndToldOnceTheyCan) {
     works = true;
     writer.put("again\n");
     ASSERT_TRUE(writer.flush(std::chrono::minutes(1)));
-    EXPECT_THAT(written, testing::ElementsAre("again\n", "... 4 lines were left out.\n"));
+    EXPECT_THAT(written, ::testing::ElementsAre("again\n", "... 4 lines were left out.\n"));
 }
 
 TEST(SessionScope, LinesAndSentencesNameTheirSession) {
-    testing::internal::CaptureStderr();
+    testing::LogCapture capture;
     const auto write = log::in_session("OR 4", std::function<void(int)>([](int id) {
                                            log::info("host", "one", {{"id", id}});
                                            {
@@ -115,15 +116,14 @@ TEST(SessionScope, LinesAndSentencesNameTheirSession) {
                                        }));
     write(7);
     log::info("host", "four");
-    log::flush(std::chrono::minutes(1));
-    std::string lines = testing::internal::GetCapturedStderr();
+    const std::string lines = capture.end();
     for (const std::string expected : {"info host: one id=7 session=\"OR 4\"\n", "info host: two\n",
                                        "OR 4: Three.\n", "info host: four\n"})
         EXPECT_NE(lines.find(expected), std::string::npos) << expected << lines;
 }
 
 TEST(LogFormat, JsonHasQuotesAndTheSession) {
-    testing::internal::CaptureStderr();
+    testing::LogCapture capture;
     log::set_json_lines(true);
     {
         const log::SessionScope scope("OR \"4\"");
@@ -133,8 +133,7 @@ TEST(LogFormat, JsonHasQuotesAndTheSession) {
     log::flush(std::chrono::minutes(1));
     log::set_json_lines(false);
     log::say("Three.");
-    log::flush(std::chrono::minutes(1));
-    std::istringstream written(testing::internal::GetCapturedStderr());
+    std::istringstream written(capture.end());
     std::string first, second, third;
     std::getline(written, first);
     std::getline(written, second);
@@ -187,12 +186,11 @@ TEST(LineLimit, ManySourcesShareWhatOneHas) {
 }
 
 TEST(Log, CutsAndCleansWhatItRepeats) {
-    testing::internal::CaptureStderr();
+    testing::LogCapture capture;
     const std::string wild = "\x1b]0;owned\x07 \xc2\x9b" + std::string(1000, 'x');
     log::info("test", "said", {log::outside("text", wild), {"own", wild}, {"quote", "a \"b\""}});
     log::say("a\nb\x1b[2J");
-    log::flush(std::chrono::minutes(1));
-    const std::string line = testing::internal::GetCapturedStderr();
+    const std::string line = capture.end();
     EXPECT_EQ(line.find('\x1b'), std::string::npos);
     EXPECT_EQ(line.find('\x07'), std::string::npos);
     EXPECT_EQ(line.find('\xc2'), std::string::npos);

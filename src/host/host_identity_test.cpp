@@ -10,9 +10,9 @@
 #include <optional>
 
 #include "base/error.h"
-#include "base/log.h"
 #include "files/private_file.h"
 #include "testing/full_disk.h"
+#include "testing/log_capture.h"
 #include "testing/temporary_folder.h"
 
 namespace theatron::host {
@@ -104,10 +104,9 @@ TEST(Token, AStartThatWasCutOffIsCompletedByTheNext) {
 TEST(Token, OfAnEmptyFileIsNewAndTheLogTells) {
     const theatron::testing::TemporaryFolder folder;
     const auto said_at_start = [&] {
-        ::testing::internal::CaptureStderr();
+        testing::LogCapture capture;
         load_or_make_token(folder.path(), "join.token");
-        log::flush(std::chrono::minutes(1));
-        return ::testing::internal::GetCapturedStderr();
+        return capture.end();
     };
     EXPECT_EQ(said_at_start(), "") << "the first start";
     EXPECT_EQ(said_at_start(), "");
