@@ -349,7 +349,7 @@ def beside():
         files["other.dcm"] = file_of(elements)
         yield Input(name + " beside", files, [series()], remarks=[words_, "other.dcm' is left out"])
         yield Input(name + " alone", {"other.dcm": file_of(elements)}, refused=words_)
-    for name, data, words_ in [("empty", b"", "too short"), ("short", b"x" * 100, "too short"),
+    for name, data, words_ in [("empty", b"", "is empty; copy it again"), ("short", b"x" * 100, "too short"),
                                ("words", b"hello world " * 50, "no DICOM file"),
                                ("a picture", b"\x89PNG\r\n\x1a\n" + b"\0" * 200, "no DICOM file")]:
         files = good()

@@ -60,7 +60,7 @@ def stl_inputs():
     for name, data, words in (("no facets", stl_binary(triangles=[]), "holds no triangles"),
                               ("no facets in text", b"solid x\nendsolid x\n", "holds no triangles"),
                               ("words", b"hello world\n" * 20, "no surface of the format"),
-                              ("nothing", b"", "no surface of the format")):
+                              ("nothing", b"", "is empty; copy it again")):
         yield Input(name + " beside", dict(good, **{"empty.stl": data}), parts=[box("liver")],
                     remarks=["empty.stl' is left out", words])
         yield Input(name + " alone", {"empty.stl": data}, refused=words)
