@@ -7,9 +7,9 @@
 # the size of what it compiles at once, so a source that is added elsewhere must not change how a loop is compiled.
 set(THEATRON_FAST_MODULES image geometry codec filter video render medical)
 
-# Loops over pixels, points or samples are not in these: they decide, count and tell. The compiler takes a third less
-# time for them with few optimisations.
-set(THEATRON_LOGIC_MODULES client host lead or_screen publish session study viewer wire)
+# These decide, count and tell; a loop over pixels, as of a thumbnail, runs in them once in a while. The compiler takes
+# a third less time for them with few optimisations.
+set(THEATRON_LOGIC_MODULES app client demo_command host lead or_screen publish session study viewer wire)
 
 # Inline functions of headers take most of the time of these.
 set(THEATRON_LONG_TESTS registration_test synthetic_test)
@@ -145,7 +145,7 @@ function(theatron_compile_together target)
       target_compile_options(${target} PRIVATE -fno-sanitize=fuzzer-no-link)
     endif()
   endif()
-  if(module IN_LIST THEATRON_LOGIC_MODULES AND NOT THEATRON_SANITIZE AND NOT EMSCRIPTEN)
+  if(module IN_LIST THEATRON_LOGIC_MODULES AND NOT EMSCRIPTEN)
     target_compile_options(${target} PRIVATE $<$<AND:$<CONFIG:Release>,$<COMPILE_LANGUAGE:CXX>>:-O1>)
   endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)

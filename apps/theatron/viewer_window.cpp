@@ -195,9 +195,7 @@ std::optional<std::size_t> follow_focus(xr::WindowInput& input, const xr::Overla
     };
     std::erase_if(input.keys, [&](const xr::KeyPress& key) {
         if (const auto step = step_of(key)) {
-            const bool begins = !focus && *step == xr::FocusStep::next;
-            focus = begins && overlay.keyboard_begin() ? overlay.keyboard_begin()
-                                                       : xr::moved_focus(focus, *step, controls);
+            focus = xr::moved_focus(focus, *step, controls, overlay.keyboard_begin());
             return true;
         }
         const bool presses =

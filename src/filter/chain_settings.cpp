@@ -102,6 +102,7 @@ public:
         else
             steps.push_back(step);
         if (steps.size() > max_steps)
+            // GCC 12 warns of a sum of texts here where headers are precompiled.
             note(std::string("A chain has at most ")
                      .append(std::to_string(max_steps))
                      .append(" filters."));

@@ -336,8 +336,7 @@ constexpr Row rows[] = {
      {"The participant has the 2D view, where a condition's renderer and depth codec mean nothing; "
       "let the participant enter the room.",
       "Der Teilnehmer hat die 2D-Ansicht, in der Darstellung und Tiefencodec einer Bedingung "
-      "nichts "
-      "bedeuten; er muss den Raum betreten."}},
+      "nichts bedeuten; er muss den Raum betreten."}},
 };
 
 constexpr bool is_in_order() {

@@ -586,8 +586,8 @@ std::size_t Overlay::controls() const {
     return parts_->buttons.size();
 }
 
-std::optional<std::size_t> Overlay::keyboard_begin() const {
-    return parts_->keyboard_begin;
+std::size_t Overlay::keyboard_begin() const {
+    return parts_->keyboard_begin.value_or(0);
 }
 
 std::optional<std::size_t> Overlay::control_at(Vec2 place) const {

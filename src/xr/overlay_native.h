@@ -29,8 +29,8 @@ public:
     // All buttons of the last picture in the order of the keyboard: those of the bar at the bottom,
     // of offers, of panels; in each of them as they are read.
     std::size_t controls() const;
-    // The first button of the panel to which the keyboard comes first; nullopt: there is none.
-    std::optional<std::size_t> keyboard_begin() const;
+    // The first button of the panel to which the keyboard comes first; 0 without such a panel.
+    std::size_t keyboard_begin() const;
     std::optional<std::size_t> control_at(Vec2 place) const;
     int command_of(std::size_t control) const;  // below controls()
 

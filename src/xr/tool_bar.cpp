@@ -35,7 +35,7 @@ ToolBarLayout tool_bar_layout(std::size_t tools, Size window, double text_pixels
 }
 
 std::optional<std::size_t> moved_focus(std::optional<std::size_t> focus, FocusStep step,
-                                       std::size_t controls) {
+                                       std::size_t controls, std::size_t begin) {
     if (controls == 0 || step == FocusStep::none)
         return std::nullopt;
     const std::size_t last = controls - 1;
@@ -44,7 +44,7 @@ std::optional<std::size_t> moved_focus(std::optional<std::size_t> focus, FocusSt
         focus = std::min(*focus, last);
     switch (step) {
         case FocusStep::next:
-            return !focus || *focus == last ? 0 : *focus + 1;
+            return !focus ? std::min(begin, last) : *focus == last ? 0 : *focus + 1;
         case FocusStep::previous:
             return !focus || *focus == 0 ? last : *focus - 1;
         case FocusStep::left:

@@ -45,6 +45,9 @@ TEST(ToolBar, TheToolsStandInTheMiddleOfAWideWindow) {
 
 TEST(Focus, TabGoesRoundAndArrowsStayAtTheEnds) {
     EXPECT_EQ(moved_focus({}, FocusStep::next, 3), 0u);
+    EXPECT_EQ(moved_focus({}, FocusStep::next, 3, 1), 1u);
+    EXPECT_EQ(moved_focus({}, FocusStep::next, 3, 7), 2u) << "controls have gone";
+    EXPECT_EQ(moved_focus(2, FocusStep::next, 3, 1), 0u);
     EXPECT_EQ(moved_focus({}, FocusStep::previous, 3), 2u);
     EXPECT_EQ(moved_focus(2, FocusStep::next, 3), 0u);
     EXPECT_EQ(moved_focus(0, FocusStep::previous, 3), 2u);
