@@ -34,12 +34,14 @@ std::string order_text(const Study& study, int participant) {
 
 void check_study(const std::string& place, bool json) {
     const Study study = load_study(place);
+    const std::vector<std::string> others = begun_with_another_text(study);
     const auto steps = study::steps_of(study.protocol, study.questionnaires, 1);
     if (json) {
         nlohmann::ordered_json out{{"study", study.protocol.title},
                                    {"phases", study.protocol.phases.size()},
                                    {"steps", steps.size()},
-                                   {"orders", nlohmann::ordered_json::array()}};
+                                   {"orders", nlohmann::ordered_json::array()},
+                                   {"begun_with_another_text", others}};
         for (int p = 1; p <= shown_orders; ++p)
             out["orders"].push_back(order_text(study, p));
         std::cout << files::json_text(out) << std::endl;
@@ -53,6 +55,8 @@ void check_study(const std::string& place, bool json) {
     if (study.protocol.conditions.size() > 1)
         for (int p = 1; p <= shown_orders; ++p)
             std::printf("P%02d: %s\n", p, order_text(study, p).c_str());
+    if (const std::string note = another_text_note(others); !note.empty())
+        std::printf("%s\n", note.c_str());
     std::printf("The study can be run.\n");
 }
 

@@ -20,6 +20,7 @@ namespace fs = std::filesystem;
 constexpr const char* protocol_name = "study.conf";
 constexpr const char* journals_name = "journals";
 constexpr const char* journal_ending = ".journal";
+constexpr const char* texts_name = "texts";
 
 std::string text_of_file(const fs::path& path) {
     const Bytes bytes = files::read_file(path, max_config_bytes);
@@ -53,6 +54,22 @@ void add_lines(std::string& all, const std::string& lines) {
         all += (all.empty() ? "" : "\n") + lines;
 }
 
+// In the order of their names.
+std::vector<fs::path> journal_paths(const Study& study) {
+    std::vector<fs::path> paths;
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator(study.folder / journals_name, none))
+        if (entry.path().extension() == journal_ending)
+            paths.push_back(entry.path());
+    std::sort(paths.begin(), paths.end());
+    return paths;
+}
+
+study::ReadJournal read_journal(const fs::path& path) {
+    const Bytes bytes = files::read_file(path, study::max_journal_bytes);
+    return study::parse_journal({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
 }  // namespace
 
 fs::path Study::journal_of(const std::string& participant) const {
@@ -74,6 +91,7 @@ Study load_study(const fs::path& place) {
     study::ReadProtocol read = study::parse_protocol(text);
     Study study;
     study.folder = file.parent_path();
+    study.texts.push_back({file.filename().string(), text});
     study.hash = read.protocol.hash;
     std::string mistakes = mistakes_text(file.string(), read.mistakes);
     study.questionnaires = study::built_in_questionnaires();
@@ -85,6 +103,7 @@ Study load_study(const fs::path& place) {
             continue;
         }
         const std::string questions = text_of_file(other);
+        study.texts.push_back({name, questions});
         study.hash = study::text_hash(questions, study.hash);
         add_lines(mistakes, mistakes_text(other.string(), study::add_questionnaires(
                                                               questions, study.questionnaires)));
@@ -102,17 +121,9 @@ Study load_study(const fs::path& place) {
 }
 
 std::vector<study::Journal> load_journals(const Study& study, std::vector<std::string>& others) {
-    std::vector<fs::path> paths;
-    std::error_code none;
-    for (const auto& entry : fs::directory_iterator(study.folder / journals_name, none))
-        if (entry.path().extension() == journal_ending)
-            paths.push_back(entry.path());
-    std::sort(paths.begin(), paths.end());
     std::vector<study::Journal> journals;
-    for (const fs::path& path : paths) {
-        const Bytes bytes = files::read_file(path, study::max_journal_bytes);
-        study::ReadJournal read =
-            study::parse_journal({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    for (const fs::path& path : journal_paths(study)) {
+        study::ReadJournal read = read_journal(path);
         if (!read.problem.empty())
             throw Error("'" + path.string() + "', line " + std::to_string(read.line) + ": " +
                         read.problem + "; move the file away to go on without it.");
@@ -121,7 +132,7 @@ std::vector<study::Journal> load_journals(const Study& study, std::vector<std::s
             if (read.line == 0)
                 continue;
             throw Error("'" + path.string() + "' is the journal of " + read.journal.participant +
-                        "; give it that name.");
+                        "; move it away, or give it that name if there is no such file.");
         }
         if (read.journal.hash != study.hash) {
             others.push_back(read.journal.participant);
@@ -135,6 +146,46 @@ std::vector<study::Journal> load_journals(const Study& study, std::vector<std::s
         journals.push_back(std::move(read.journal));
     }
     return journals;
+}
+
+std::vector<std::string> begun_with_another_text(const Study& study) {
+    std::vector<std::string> found;
+    for (const fs::path& path : journal_paths(study)) {
+        const study::ReadJournal read = read_journal(path);
+        if (read.line > 0 && !read.journal.participant.empty() && read.journal.hash != study.hash)
+            found.push_back(read.journal.participant);
+    }
+    return found;
+}
+
+void keep_texts(const Study& study) {
+    const fs::path kept = study.folder / texts_name / study::hash_text(study.hash);
+    files::open_private_folder(kept);
+    for (const Study::Text& one : study.texts)
+        files::write_private_file(kept / one.name, one.text);
+}
+
+std::string another_text_note(const std::vector<std::string>& participants) {
+    std::string names;
+    for (const std::string& name : participants)
+        names += (names.empty() ? "" : ", ") + name;
+    return names.empty() ? ""
+                         : names +
+                               " began with another text of the protocol or its questionnaires, "
+                               "and the report leaves them out. A comment is part of the text. To "
+                               "go on with their study, put their text back; the folder 'texts' "
+                               "keeps it, under the number in the first line of a journal.";
+}
+
+void require_other_number(const Study& study, const std::string& participant) {
+    const auto number = study::participant_number(participant);
+    for (const fs::path& path : journal_paths(study)) {
+        const std::string other = path.stem().string();
+        if (other != participant && study::participant_number(other) == number)
+            throw Error("'" + participant + "' has the same number as " + other +
+                        ", who has begun already; write " + other +
+                        " to go on with that run, or take another number.");
+    }
 }
 
 void make_study(const fs::path& folder) {

@@ -43,6 +43,12 @@ nlohmann::json texts_json(const std::vector<wire::StudyText>& texts) {
     return list;
 }
 
+bool takes_value(wire::StudyKind kind) {
+    using Kind = wire::StudyKind;
+    return kind != Kind::read && kind != Kind::watch && kind != Kind::interrupted &&
+           kind != Kind::over;
+}
+
 }  // namespace
 
 const char* study_lines_help() {
@@ -71,6 +77,8 @@ bool obey_study_line(client::Participant& participant, const std::string& line) 
         log::say(std::string("Say ") + study_lines_help() + ".");
     else if (!study)
         log::say("You take part in no study at present.");
+    else if (action == "done" && takes_value(study->step.kind))
+        log::say("This step asks for a reply: 'study reply NUMBER'.");
     else if (reply.step = study->step.step; !participant.reply_to_study(reply))
         log::say("You have not joined yet.");
     return true;

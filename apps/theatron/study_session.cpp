@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/log.h"
 #include "base/steady_clock.h"
 #include "files/journal_file.h"
 #include "files/private_file.h"
@@ -59,15 +60,22 @@ std::optional<StudyRun> begun(const Study& study, const std::string& participant
     if (!read.problem.empty())
         throw Error("'" + path + "', line " + std::to_string(read.line) + ": " + read.problem +
                     "; the run cannot go on.");
+    if (read.line > 0 && read.journal.participant != participant)
+        throw Error("'" + path + "' is the journal of " + read.journal.participant +
+                    "; move it away, or give it that name if there is no such file.");
     if (read.line > 0 && read.journal.hash != study.hash)
-        throw Error("The protocol or its questionnaires were changed since " + participant +
-                    " began; put their earlier text back, or take another pseudonym.");
+        throw Error(
+            "The protocol or its questionnaires were changed since " + participant +
+            " began; put their earlier text back (the folder 'texts' keeps it), or take another "
+            "pseudonym.");
     StudyRun run(study.protocol, study.questionnaires, *study::participant_number(participant));
     if (const std::string problem = run.resume(read.journal); !problem.empty())
         throw Error("'" + path + "': " + problem);
     if (run.state() != StudyRun::State::running)
         throw Error("The run of " + participant + " is " + study::text_of(run.state()) +
                     " already; another participant needs another pseudonym.");
+    if (read.line == 0)
+        keep_texts(study);
     if (read.journal.whole_bytes < text.size())
         file.keep(read.journal.whole_bytes);
     file.append(read.line == 0 ? study::journal_head(participant, study.hash) : run.resumed_line());
@@ -83,8 +91,11 @@ void run_study(const StudyRunFlags& flags) {
                     "' is no pseudonym; write a capital letter and a number, such as P07, and "
                     "never a name.");
     files::open_private_folder(study.journal_of(flags.participant).parent_path());
+    require_other_number(study, flags.participant);
     files::JournalFile file(study.journal_of(flags.participant));
     const bool is_resumed = !file.text(study::max_journal_bytes).empty();
+    if (const auto others = begun_with_another_text(study); !is_resumed && !others.empty())
+        log::say(another_text_note(others));
     StudyRun run = *begun(study, flags.participant, file);
     const StudyTerminal surface(study, flags.json);
     surface.begin(run, flags.participant, is_resumed);

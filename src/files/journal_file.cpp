@@ -76,6 +76,12 @@ void JournalFile::keep(std::size_t bytes) {
 }
 
 void JournalFile::append(std::string_view line) {
+    // Otherwise the lines would go into a file that nobody finds.
+    struct stat info {};
+    if (fstat(file_, &info) != 0)
+        refuse("write to");
+    if (info.st_nlink == 0)
+        throw Error("'" + path_.string() + "' was deleted while it was written; put it back.");
     while (!line.empty()) {
         const ssize_t count = write(file_, line.data(), line.size());
         if (count < 0 && errno == EINTR)

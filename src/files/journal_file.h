@@ -22,7 +22,7 @@ public:
     std::string text(std::size_t max_bytes) const;
     // The bytes behind these, half a line of a program that was killed, are taken away.
     void keep(std::size_t bytes);
-    // Returns when the line is on the disk.
+    // Returns when the line is on the disk. Throws Error also if the file was deleted.
     void append(std::string_view line);
 
 private:

@@ -47,6 +47,13 @@ TEST_F(JournalFileTest, HasOneWriter) {
     EXPECT_THROW(JournalFile(folder_ / "none" / "a"), Error);
 }
 
+TEST_F(JournalFileTest, TellsThatItsFileWasDeleted) {
+    JournalFile file(folder_ / "a");
+    file.append("one\n");
+    std::filesystem::remove(folder_ / "a");
+    EXPECT_THROW(file.append("two\n"), Error);
+}
+
 TEST_F(JournalFileTest, DoesNotFollowALink) {
     std::filesystem::create_symlink(folder_ / "other", folder_ / "a");
     EXPECT_THROW(JournalFile(folder_ / "a"), Error);

@@ -91,12 +91,15 @@ ReadJournal parse_journal(std::string_view text) {
     }
 }
 
-std::string journal_head(const std::string& participant, std::uint64_t hash) {
+std::string hash_text(std::uint64_t hash) {
     char digits[16];
     const auto end = std::to_chars(digits, digits + sizeof(digits), hash, 16).ptr;
     const std::string hex(digits, end);
-    return std::string(journal_word) + "\t" + participant + "\t" +
-           std::string(16 - hex.size(), '0') + hex + "\n";
+    return std::string(16 - hex.size(), '0') + hex;
+}
+
+std::string journal_head(const std::string& participant, std::uint64_t hash) {
+    return std::string(journal_word) + "\t" + participant + "\t" + hash_text(hash) + "\n";
 }
 
 std::string journal_line(const JournalEntry& entry) {

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <map>
+#include <string>
 
 #include "base/outside_text.h"
 
@@ -49,10 +51,22 @@ public:
             return "the value is longer than " + std::to_string(max_text_bytes) + " bytes";
         if (clean_text(line.value, line.value.size()) != line.value)
             return "the value is no plain UTF-8 text";
-        if (line.key == "condition")
-            return begin_condition(line);
-        if (line.key == "phase")
-            return begin_phase(line);
+        const bool begins = line.key == "condition" || line.key == "phase";
+        if (begins)
+            given_.clear();
+        std::string problem = line.key == "condition" ? begin_condition(line)
+                              : line.key == "phase"   ? begin_phase(line)
+                                                      : take_part(line);
+        const bool may_repeat = begins || line.key == "text" || line.key == "questionnaire" ||
+                                line.key == "questionnaires";
+        if (const auto [first, is_new] = given_.emplace(line.key, line.line);
+            problem.empty() && !is_new && !may_repeat)
+            problem = "line " + std::to_string(first->second) + " says it already";
+        return problem;
+    }
+
+private:
+    std::string take_part(const ConfigLine& line) {
         if (phase_)
             return take_of_phase(line);
         if (condition_)
@@ -60,9 +74,11 @@ public:
         return take_of_study(line);
     }
 
-private:
     std::string begin_condition(const ConfigLine& line) {
-        condition_ = nullptr;
+        // The lines below a refused one are read as its own.
+        refused_condition_ = {};
+        condition_ = &refused_condition_;
+        phase_ = nullptr;
         if (!protocol_.phases.empty())
             return "conditions stand before the first phase";
         if (!is_id(line.value))
@@ -79,8 +95,8 @@ private:
     }
 
     std::string begin_phase(const ConfigLine& line) {
-        condition_ = nullptr;
-        phase_ = nullptr;
+        refused_phase_ = {};
+        phase_ = &refused_phase_;
         if (!is_id(line.value))
             return quote(line.value) + " is no name of letters, digits, '-' and '_'";
         for (const Phase& other : protocol_.phases)
@@ -204,6 +220,9 @@ private:
     }
 
     Protocol& protocol_;
+    std::map<std::string, int> given_;  // keys of this part, and their lines
+    Condition refused_condition_;
+    Phase refused_phase_;
     Condition* condition_ = nullptr;
     Phase* phase_ = nullptr;
 };

@@ -48,6 +48,15 @@ TEST(Protocol, MistakesHaveLineAndReason) {
                 HasSubstr("p:2: condition: no phase has the line 'each-condition = yes'"));
     EXPECT_THAT(mistakes_of(head + "condition = a\nroom = off\n" + consent),
                 HasSubstr("p:3: room: no condition sets the room"));
+    EXPECT_THAT(mistakes_of(head + "seed = 1\nseed = 2\n" + consent),
+                HasSubstr("p:3: seed: line 2 says it already"));
+    // The lines below a refused one belong to it and are no further mistakes.
+    EXPECT_EQ(mistakes_of(head + consent +
+                          "phase = say\nkind = instruction\ntext = a\n"
+                          "phase = say\nkind = break\ntext = b\n"
+                          "condition = late\nrenderer = mesh\n"),
+              "p:8: phase: the phase in line 5 has the same name.\n"
+              "p:11: condition: conditions stand before the first phase.");
     EXPECT_THAT(mistakes_of(head + "wish = 1\n" + consent), HasSubstr("p:2: wish: there is no"));
 }
 

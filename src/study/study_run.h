@@ -94,6 +94,9 @@ struct ReadJournal {
 // Half a line at the end, which was being written when the program was killed, counts as not there.
 ReadJournal parse_journal(std::string_view text);
 
+// 16 hexadecimal digits, as in the first line of a journal.
+std::string hash_text(std::uint64_t hash);
+
 // The first line of a journal, and the others, with their ends.
 std::string journal_head(const std::string& participant, std::uint64_t hash);
 std::string journal_line(const JournalEntry& entry);

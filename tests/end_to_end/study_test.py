@@ -14,7 +14,7 @@ import subprocess
 import tempfile
 import unittest
 
-from theatron_process import Process, run
+from theatron_process import Process, run, wait_until
 
 CONSENT = "phase = agree\nkind = consent\ntext = Do you agree to take part?\n"
 # One phase, as in a study of presence with twelve participants.
@@ -257,6 +257,35 @@ class Studies(unittest.TestCase):
         code, _, errors = run("study", "run", self.study, "--participant", "P01")
         self.assertEqual(code, 1)
         self.assertIn("were changed since P01 began", errors)
+        # Their text is kept under the number that their journal has.
+        number = (self.study / "journals/P01.journal").read_text().split()[2]
+        kept = {one.name: one.read_text() for one in (self.study / "texts" / number).iterdir()}
+        self.assertEqual(kept, {"study.conf": COMPARISON, "texts.conf": (self.study / "texts.conf").read_text()})
+        # The next one is told that the study begins anew.
+        note = "P01 began with another text of the protocol"
+        code, output, _ = run("study", "check", self.study)
+        self.assertIn(note, output)
+        self.assertEqual(json.loads(run("study", "check", self.study, "--json")[1])["begun_with_another_text"], ["P01"])
+        with Process("study", "run", self.study, "--participant", "P02", "--json") as process:
+            next_event(process, ("step",))
+            wait_until(lambda: note in "".join(process.errors))
+        (self.study / "study.conf").write_text(COMPARISON)
+        self.assertIn("P02 began with another text", run("study", "check", self.study)[1])
+
+    def test_a_number_belongs_to_one_participant(self):
+        make_study(self.study, COMPARISON)
+        run_participant(self.study, 1, stop_after=3)
+        for other in ("P1", "P001", "A1"):
+            code, _, errors = run("study", "run", self.study, "--participant", other)
+            self.assertEqual(code, 1)
+            self.assertIn(f"'{other}' has the same number as P01", errors)
+        journals = self.study / "journals"
+        self.assertEqual([one.name for one in journals.glob("*.journal")], ["P01.journal"])
+        # A copy under another name is nobody's run.
+        shutil.copy(journals / "P01.journal", journals / "P06.journal")
+        code, _, errors = run("study", "run", self.study, "--participant", "P06")
+        self.assertEqual(code, 1)
+        self.assertIn("is the journal of P01; move it away", errors)
 
     def test_mistakes_are_told_with_line_and_reason(self):
         make_study(self.study, COMPARISON.replace("renderer = mesh", "renderer = marble").replace("kind = bricks", "kind = stones"))
