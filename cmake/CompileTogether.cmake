@@ -28,7 +28,7 @@ set(THEATRON_COMPILED_ALONE
   bench/theatron_bench/bench_view_scene.cpp
   bench/theatron_bench/bench_web.cpp
   bench/theatron_bench/browser_page.cpp
-  src/xr/x11_window_native.cpp
+  src/window/x11_window_native.cpp
   src/capture/camera.cpp
   src/capture/mkv_answer.cpp
   src/capture/mkv_answer_test.cpp
@@ -115,8 +115,8 @@ set(THEATRON_COMPILED_ALONE
   src/viewer/meeting.cpp
   src/viewer/monitor.cpp
   src/wire/control.cpp
-  src/xr/drawing_rest_test.cpp
-  src/xr/overlay_native.cpp
+  src/pace/drawing_rest_test.cpp
+  src/window/overlay_native.cpp
 )
 
 # Options, JSON and handshakes: what they do takes no time, and the compiler takes the longest of all with them.

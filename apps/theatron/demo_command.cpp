@@ -132,11 +132,11 @@ bool is_compiled_later(const std::string& program) {
 }
 
 // Null where none can be opened, for whatever reason: the demo then writes pictures.
-std::unique_ptr<xr::DesktopWindow> open_window(const DemoFlags& flags) {
+std::unique_ptr<window::DesktopWindow> open_window(const DemoFlags& flags) {
     if (flags.no_window || !has_display())
         return nullptr;
     try {
-        return std::make_unique<xr::DesktopWindow>("Theatron", window_size);
+        return std::make_unique<window::DesktopWindow>("Theatron", window_size);
     } catch (const Error&) {
         log::say("No window can be opened on this display.");
         return nullptr;

@@ -68,23 +68,23 @@ ReadLink read_link(const std::string& typed) {
     }
 }
 
-xr::EntryFacts problem_facts(const std::string& problem) {
-    xr::EntryFacts facts;
+window::EntryFacts problem_facts(const std::string& problem) {
+    window::EntryFacts facts;
     facts.hint = problem;
     facts.is_problem = true;
     return facts;
 }
 
-xr::EntryFacts facts_without_answer(const ReadLink& read) {
+window::EntryFacts facts_without_answer(const ReadLink& read) {
     if (!read.problem.empty())
         return problem_facts(read.problem);
-    xr::EntryFacts facts;
+    window::EntryFacts facts;
     facts.hint = read.link ? say(Phrase::form_asking, read.link->host) : say(Phrase::form_ask_link);
     return facts;
 }
 
-std::vector<xr::EntryRecent> shown(const client::RecentLinks& recents) {
-    std::vector<xr::EntryRecent> shown;
+std::vector<window::EntryRecent> shown(const client::RecentLinks& recents) {
+    std::vector<window::EntryRecent> shown;
     for (const client::RecentLink& recent : recents)
         shown.push_back({recent.session, client::recent_link_text(recent)});
     return shown;
@@ -114,13 +114,13 @@ std::string others_text(const nlohmann::json& sessions) {
 
 }  // namespace
 
-xr::EntryFacts entry_facts(const nlohmann::json& lobby) {
+window::EntryFacts entry_facts(const nlohmann::json& lobby) {
     if (!lobby.contains("sessions") || !lobby["sessions"].is_array() || lobby["sessions"].empty())
         return problem_facts(say(Phrase::form_no_session));
     const nlohmann::json& session = lobby["sessions"][0];
     if (is_field_set(session, "ended"))
         return problem_facts(say(Phrase::form_ended));
-    xr::EntryFacts facts;
+    window::EntryFacts facts;
     facts.title = text_field(session, "name");
     facts.can_enter = true;
     const std::string role = text_field(lobby, "role");
@@ -151,25 +151,25 @@ xr::EntryFacts entry_facts(const nlohmann::json& lobby) {
     return facts;
 }
 
-std::optional<Entered> ask_entry(xr::DesktopWindow& window, xr::EntryFields fields,
+std::optional<Entered> ask_entry(window::DesktopWindow& window, window::EntryFields fields,
                                  const std::string& problem, client::RecentLinks recents,
                                  const std::function<void(const std::string& link)>& forget) {
     window.set_title(say(Phrase::form_title) + " - Theatron");
-    xr::EntryForm form(fields, {[&] { return window.clipboard(); },
+    window::EntryForm form(fields, {[&] { return window.clipboard(); },
                                 [&](const std::string& text) { window.set_clipboard(text); }});
     form.set_recents(shown(recents));
     LobbyWatch watch([&] { window.wake(); });
     ReadLink read = read_link(fields.link);
     watch.set_link(read.link);
-    xr::EntryFacts facts = problem.empty() ? facts_without_answer(read) : problem_facts(problem);
+    window::EntryFacts facts = problem.empty() ? facts_without_answer(read) : problem_facts(problem);
     bool must_draw = true;
     while (!cli::stop_requested()) {
         window.wait(form.is_animated() ? window.picture_time() : Duration(500ms));
-        const xr::FormInput input = window.poll_form();
+        const window::FormInput input = window.poll_form();
         if (input.close)
             break;
         if (auto answer = watch.take()) {
-            const xr::EntryFacts newest = answer->problem.empty() ? entry_facts(answer->lobby)
+            const window::EntryFacts newest = answer->problem.empty() ? entry_facts(answer->lobby)
                                                                   : problem_facts(answer->problem);
             form.set_picture(newest.can_enter ? answer->picture.view() : ColorView{});
             must_draw = must_draw || newest != facts;
@@ -177,10 +177,10 @@ std::optional<Entered> ask_entry(xr::DesktopWindow& window, xr::EntryFields fiel
         }
         if (!must_draw && input.is_empty() && !form.is_animated())
             continue;
-        const xr::EntryAnswer pressed =
+        const window::EntryAnswer pressed =
             form.draw(facts, input, window.pixels(), window.text_pixels(), steady_now());
         must_draw = false;
-        if (pressed == xr::EntryAnswer::leave)
+        if (pressed == window::EntryAnswer::leave)
             break;
         if (const auto recent = form.take_recent()) {
             const std::string link = recents.at(recent->index).link;
@@ -201,7 +201,7 @@ std::optional<Entered> ask_entry(xr::DesktopWindow& window, xr::EntryFields fiel
             must_draw = true;
         }
         fields = form.fields();
-        if (pressed == xr::EntryAnswer::enter && read.link) {
+        if (pressed == window::EntryAnswer::enter && read.link) {
             // Opening sound and connection takes a while: the press is seen to have been taken.
             facts.hint = say(Phrase::connecting);
             facts.can_enter = false;

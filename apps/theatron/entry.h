@@ -9,25 +9,25 @@
 
 #include "client/recent_links.h"
 #include "net/link.h"
-#include "xr/desktop_window_native.h"
-#include "xr/entry_form_native.h"
+#include "window/desktop_window_native.h"
+#include "window/entry_form_native.h"
 
 namespace theatron::app {
 
 // A person who wants to enter a session.
 struct Entered {
     net::Link link;
-    xr::EntryFields fields;
+    window::EntryFields fields;
 };
 
 // Shows the form until the person enters or leaves (nullopt). `problem`: why the last session
 // ended, shown until the link changes; may be empty. `forget` is called with a link of `recents`
 // that is to be offered no more.
-std::optional<Entered> ask_entry(xr::DesktopWindow& window, xr::EntryFields fields,
+std::optional<Entered> ask_entry(window::DesktopWindow& window, window::EntryFields fields,
                                  const std::string& problem, client::RecentLinks recents,
                                  const std::function<void(const std::string& link)>& forget);
 
 // Turns the answer of a host's lobby into the texts of the form.
-xr::EntryFacts entry_facts(const nlohmann::json& lobby);
+window::EntryFacts entry_facts(const nlohmann::json& lobby);
 
 }  // namespace theatron::app

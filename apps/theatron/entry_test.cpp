@@ -24,7 +24,7 @@ nlohmann::json lobby(const char* role) {
 }
 
 TEST(EntryFacts, NameTheSessionItsPeopleAndItsCameras) {
-    const xr::EntryFacts facts = entry_facts(lobby("expert"));
+    const window::EntryFacts facts = entry_facts(lobby("expert"));
     EXPECT_EQ(facts.title, "Ward 3");
     EXPECT_THAT(facts.lines, ElementsAre("You come as an expert.", "1 person: Anna (operator)",
                                          "2 cameras: table (live), lamp (stalled)"));
@@ -40,7 +40,7 @@ TEST(EntryFacts, NameTheOtherSessionsThatTheLinkShows) {
     several["sessions"].push_back({{"name", "Ward 6"}, {"people_count", "many"}});
     several["sessions"].push_back(
         {{"name", "Ward 7"}, {"closed", true}, {"problem", "No camera."}});
-    const xr::EntryFacts facts = entry_facts(several);
+    const window::EntryFacts facts = entry_facts(several);
     EXPECT_EQ(facts.title, "Ward 3");
     EXPECT_EQ(facts.lines.back(),
               "Also here: Ward 4 (nobody), Ward 5 (1 person), Ward 6 (nobody), Ward 7 (not open)");
@@ -52,7 +52,7 @@ TEST(EntryFacts, AnObserverLearnsThatNobodyHearsThem) {
 }
 
 TEST(EntryFacts, APersonWhoMustKnockSeesTheNameAlone) {
-    const xr::EntryFacts facts =
+    const window::EntryFacts facts =
         entry_facts({{"role", "expert"},
                      {"sessions", {{{"name", "Ward 3"}, {"asks", true}, {"people_count", 4}}}}});
     EXPECT_THAT(facts.lines, ElementsAre("You come as an expert."));
@@ -61,7 +61,7 @@ TEST(EntryFacts, APersonWhoMustKnockSeesTheNameAlone) {
 }
 
 TEST(EntryFacts, OfALinkThatIsHeldBackSayWhyNobodyIsNamed) {
-    const xr::EntryFacts facts =
+    const window::EntryFacts facts =
         entry_facts({{"role", "expert"},
                      {"sessions", {{{"name", "Ward 3"}, {"asks", false}, {"held_back", true}}}}});
     EXPECT_EQ(facts.lines.back(),
@@ -72,7 +72,7 @@ TEST(EntryFacts, OfALinkThatIsHeldBackSayWhyNobodyIsNamed) {
 TEST(EntryFacts, OfAnEndedSessionSayWhatToDo) {
     nlohmann::json ended = lobby("expert");
     ended["sessions"][0]["ended"] = true;
-    const xr::EntryFacts facts = entry_facts(ended);
+    const window::EntryFacts facts = entry_facts(ended);
     EXPECT_EQ(facts.hint, "This session has ended. Ask for a new link.");
     EXPECT_TRUE(facts.is_problem);
     EXPECT_FALSE(facts.can_enter);
@@ -90,11 +90,11 @@ TEST(EntryFacts, ALongListIsCut) {
 
 TEST(EntryFacts, OfAnythingElseNobodyCanEnter) {
     for (const char* text : {"null", "[]", "{}", R"({"sessions":[]})", R"({"sessions":7})"}) {
-        const xr::EntryFacts facts = entry_facts(nlohmann::json::parse(text));
+        const window::EntryFacts facts = entry_facts(nlohmann::json::parse(text));
         EXPECT_FALSE(facts.can_enter) << text;
         EXPECT_TRUE(facts.is_problem) << text;
     }
-    const xr::EntryFacts odd =
+    const window::EntryFacts odd =
         entry_facts(nlohmann::json::parse(R"({"sessions":[{"people":[1,null],"cameras":["x"]}]})"));
     EXPECT_EQ(odd.title, "");
 }

@@ -56,14 +56,14 @@ void join_in_window(const JoinFlags& flags) {
     bool asks = flags.link.empty() || (!is_named && !flags.is_alone);
     if (!flags.link.empty())
         shown.join.link = parse_link_argument(flags.link);
-    xr::EntryFields fields{flags.link,
+    window::EntryFields fields{flags.link,
                            is_named ? shown.settings.name : "",
                            is_named ? shown.settings.hears : true,
                            shown.settings.speaks,
                            flags.voice_may_record || shown.settings.voice_may_record,
                            !flags.webcam.empty()};
     cli::catch_stop_signals();
-    xr::DesktopWindow window("Theatron", parse_size(flags.size));
+    window::DesktopWindow window("Theatron", parse_size(flags.size));
     WindowWatch watch(window);
     const auto expression = open_face(flags);
     for (std::string problem;;) {
@@ -148,7 +148,7 @@ void join_as_or_screen(const JoinFlags& flags) {
                      parse_cleaning(flags.echo_cancellation), parse_spatial(flags.spatial_voices)});
     voice.hear_by(options);
     cli::catch_stop_signals();
-    xr::DesktopWindow window("Theatron", parse_size(flags.size));
+    window::DesktopWindow window("Theatron", parse_size(flags.size));
     show_or_screen(window, {waits ? flags.link : "", std::move(options), voice, flags.seconds});
 }
 

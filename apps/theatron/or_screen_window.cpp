@@ -24,7 +24,7 @@ constexpr Duration step_interval = std::chrono::milliseconds(250);
 
 class Loop {
 public:
-    Loop(xr::DesktopWindow& window, OrScreenWindow& options)
+    Loop(window::DesktopWindow& window, OrScreenWindow& options)
         : window_(window), watch_(window), options_(options), began_(steady_now()) {}
 
     bool is_over() const {
@@ -95,13 +95,13 @@ private:
     TimePoint wait_until(TimePoint next) {
         const TimePoint now = steady_now();
         window_.wait(next > now ? next - now : step_interval);
-        const xr::WindowInput input = window_.poll();
+        const window::WindowInput input = window_.poll();
         closed_ = closed_ || input.close;
         redraw_ = redraw_ || input.redraw;
         return steady_now();
     }
 
-    xr::DesktopWindow& window_;
+    window::DesktopWindow& window_;
     WindowWatch watch_;
     OrScreenWindow& options_;
     const TimePoint began_;
@@ -110,7 +110,7 @@ private:
 
 }  // namespace
 
-void show_or_screen(xr::DesktopWindow& window, OrScreenWindow options) {
+void show_or_screen(window::DesktopWindow& window, OrScreenWindow options) {
     window.fill_screen();
     Loop loop(window, options);
     while (!loop.is_over()) {

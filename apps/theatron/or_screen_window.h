@@ -10,7 +10,7 @@
 #include "or_screen/or_screen.h"
 #include "render/offscreen_context_native.h"
 #include "voice_line.h"
-#include "xr/desktop_window_native.h"
+#include "window/desktop_window_native.h"
 
 namespace theatron::app {
 
@@ -26,7 +26,7 @@ struct OrScreenWindow {
 
 // Fills the screen until the window is closed or the program is stopped. After the end of a
 // session, a refusal, or where the file of the link cannot be read, it tries again.
-void show_or_screen(xr::DesktopWindow& window, OrScreenWindow options);
+void show_or_screen(window::DesktopWindow& window, OrScreenWindow options);
 
 class OrScreenPicture : public JoinPicture {
 public:

@@ -9,7 +9,7 @@
 #include "cli/stop_signal.h"
 #include "photon/strip.h"
 #include "render/fill.h"
-#include "xr/desktop_window_native.h"
+#include "window/desktop_window_native.h"
 
 namespace theatron::app {
 namespace {
@@ -42,7 +42,7 @@ void draw_window(photon::StripTime time, Size window) {
 
 void run_photon_show(const PhotonShow& wanted) {
     cli::catch_stop_signals();
-    xr::DesktopWindow window("Theatron photon", wanted.size);
+    window::DesktopWindow window("Theatron photon", wanted.size);
     if (wanted.full_screen)
         window.fill_screen();
     const TimePoint began = steady_now();
@@ -55,10 +55,10 @@ void run_photon_show(const PhotonShow& wanted) {
         const TimePoint now = steady_now();
         if (now < next)
             window.wait(next - now);
-        const xr::WindowInput input = window.poll();
+        const window::WindowInput input = window.poll();
         closed = input.close ||
                  std::any_of(input.keys.begin(), input.keys.end(),
-                             [](const auto& key) { return key.action == xr::Action::leave; });
+                             [](const auto& key) { return key.action == window::Action::leave; });
         if (steady_now() < next)
             continue;
         next = steady_now() + window.picture_time() / 2;

@@ -22,8 +22,8 @@
 #include "sound/device_watch.h"
 #include "source_remarks.h"
 #include "viewer/renderer_text.h"
-#include "xr/overlay_native.h"
-#include "xr/scaled_picture.h"
+#include "window/overlay_native.h"
+#include "window/scaled_picture.h"
 
 namespace theatron::app {
 namespace {
@@ -74,13 +74,13 @@ private:
     TimePoint pressed_at_ = TimePoint(-confirm_within);
 };
 
-std::string save_seen(xr::Action action, viewer::Viewer& viewer, Size pixels,
+std::string save_seen(window::Action action, viewer::Viewer& viewer, Size pixels,
                       const std::filesystem::path& folder, TimePoint now) {
     if (viewer.first_picture_at() == TimePoint{})
         return say(Phrase::no_picture_yet);
     const viewer::ShownMoment moment = viewer.shown_moment(now);
     const std::string when = name_part(moment);
-    if (action == xr::Action::save_picture)
+    if (action == window::Action::save_picture)
         return save_view(folder, when, ".png", files::encode_png(viewer.picture(pixels).view()));
     const std::vector<ColoredPoint> points = viewer.points();
     if (points.empty())
@@ -173,33 +173,33 @@ void follow_sound(VoiceLine& voice, sound::DeviceWatch& devices, viewer::Viewer&
 
 // The keyboard's way through the buttons. Takes the keys that it uses out of `input`; returns the
 // button that was pressed.
-std::optional<std::size_t> follow_focus(xr::WindowInput& input, const xr::Overlay& overlay,
+std::optional<std::size_t> follow_focus(window::WindowInput& input, const window::Overlay& overlay,
                                         std::optional<std::size_t>& focus) {
     const std::size_t controls = overlay.controls();
     std::optional<std::size_t> pressed;
-    const auto step_of = [&](const xr::KeyPress& key) -> std::optional<xr::FocusStep> {
-        using Action = xr::Action;
+    const auto step_of = [&](const window::KeyPress& key) -> std::optional<window::FocusStep> {
+        using Action = window::Action;
         if (key.action == Action::next_control)
-            return xr::FocusStep::next;
+            return window::FocusStep::next;
         if (key.action == Action::previous_control)
-            return xr::FocusStep::previous;
+            return window::FocusStep::previous;
         if (!focus)
             return std::nullopt;
         if (key.action == Action::leave)
-            return xr::FocusStep::none;
+            return window::FocusStep::none;
         if (key.action != Action::nudge)
             return std::nullopt;
-        return key.nudge == xr::Nudge::left || key.nudge == xr::Nudge::farther
-                   ? xr::FocusStep::left
-                   : xr::FocusStep::right;
+        return key.nudge == window::Nudge::left || key.nudge == window::Nudge::farther
+                   ? window::FocusStep::left
+                   : window::FocusStep::right;
     };
-    std::erase_if(input.keys, [&](const xr::KeyPress& key) {
+    std::erase_if(input.keys, [&](const window::KeyPress& key) {
         if (const auto step = step_of(key)) {
-            focus = xr::moved_focus(focus, *step, controls, overlay.keyboard_begin());
+            focus = window::moved_focus(focus, *step, controls, overlay.keyboard_begin());
             return true;
         }
         const bool presses =
-            key.action == xr::Action::press_control || key.action == xr::Action::freeze;
+            key.action == window::Action::press_control || key.action == window::Action::freeze;
         if (focus && presses && *focus < controls)
             pressed = focus;
         return focus && presses;
@@ -210,15 +210,15 @@ std::optional<std::size_t> follow_focus(xr::WindowInput& input, const xr::Overla
 }
 
 // The number of the panel to which the keyboard comes first; 0: there is none.
-std::uint64_t keyboard_of(const xr::OverlayContent& content) {
-    for (const xr::Panel& panel : content.panels)
+std::uint64_t keyboard_of(const window::OverlayContent& content) {
+    for (const window::Panel& panel : content.panels)
         if (panel.keyboard != 0)
             return panel.keyboard;
     return 0;
 }
 
 void print_end(viewer::Viewer& viewer, const client::Participant& participant,
-               const xr::DesktopWindow& window) {
+               const window::DesktopWindow& window) {
     char drawn[128];
     std::snprintf(drawn, sizeof(drawn),
                   "drew %llu pictures, age on screen %.0f ms (half), %.0f ms (99 of 100)\n",
@@ -274,9 +274,9 @@ void use_kept_settings(ViewerWindow& window, const std::optional<std::string>& n
         window.keep(window.settings);
 }
 
-WindowEnd show(xr::DesktopWindow& window, ViewerWindow options) {
-    xr::ScaledPicture picture;
-    xr::Overlay overlay;
+WindowEnd show(window::DesktopWindow& window, ViewerWindow options) {
+    window::ScaledPicture picture;
+    window::Overlay overlay;
     Remarks remarks;
     options.join.news = [&] { window.wake(); };
     options.join.remark = [&, also = options.join.remark](const std::string& text) {
@@ -304,12 +304,12 @@ WindowEnd show(xr::DesktopWindow& window, ViewerWindow options) {
     viewer::Viewer viewer(std::move(options.viewer), participant);
     const bool is_software = render::is_software(render::driver_name());
 
-    xr::OverlayContent texts;
+    window::OverlayContent texts;
     std::string title;
     Leaving leaving;
     SourceRemarks sources;
     TimePoint next_picture{}, next_texts{}, next_voices{};
-    std::optional<xr::Overlay::Slider> slider;  // held with the mouse
+    std::optional<window::Overlay::Slider> slider;  // held with the mouse
     std::optional<std::size_t> focus;           // the button that has the keyboard
     sound::DeviceWatch sound_devices;
     WindowEnd end = WindowEnd::closed;
@@ -322,7 +322,7 @@ WindowEnd show(xr::DesktopWindow& window, ViewerWindow options) {
         const bool picture_is_due = before < next_picture || viewer.is_animated();
         window.wait((picture_is_due ? next_picture : next_texts) - before);
 
-        xr::WindowInput input = window.poll();
+        window::WindowInput input = window.poll();
         const TimePoint now = steady_now();
         if (input.close)
             break;
@@ -342,26 +342,26 @@ WindowEnd show(xr::DesktopWindow& window, ViewerWindow options) {
             focus.reset();
             next_texts = now;
         }
-        for (const xr::KeyPress& key : viewer.take_pressed())
+        for (const window::KeyPress& key : viewer.take_pressed())
             input.keys.push_back(key);
         bool left = false;
-        for (const xr::KeyPress& key : input.keys) {
-            const bool leave = key.action == xr::Action::leave;
-            const bool leaves_by_button = key.action == xr::Action::leave_session;
-            if (key.action == xr::Action::full_screen || (leave && window.is_full_screen()))
+        for (const window::KeyPress& key : input.keys) {
+            const bool leave = key.action == window::Action::leave;
+            const bool leaves_by_button = key.action == window::Action::leave_session;
+            if (key.action == window::Action::full_screen || (leave && window.is_full_screen()))
                 window.toggle_full_screen();
             else if ((leave || leaves_by_button) && leaving.pressed(participant.status(), now))
                 left = true;
-            else if (key.action == xr::Action::microphone && options.voice)
+            else if (key.action == window::Action::microphone && options.voice)
                 viewer.note(change_microphone(*options.voice, participant, options), now);
-            else if (key.action == xr::Action::push_to_talk && options.voice)
+            else if (key.action == window::Action::push_to_talk && options.voice)
                 viewer.note(change_push_to_talk(*options.voice, options), now);
-            else if (key.action == xr::Action::voice_recording)
+            else if (key.action == window::Action::voice_recording)
                 viewer.note(change_voice_recording(participant, options), now);
-            else if (key.action == xr::Action::own_face && options.face)
+            else if (key.action == window::Action::own_face && options.face)
                 viewer.note(change_face(*options.face, !options.face->is_wanted()), now);
-            else if (key.action == xr::Action::save_picture ||
-                     key.action == xr::Action::save_points)
+            else if (key.action == window::Action::save_picture ||
+                     key.action == window::Action::save_points)
                 viewer.note(save_seen(key.action, viewer, window.pixels(), options.save_to, now),
                             now);
             else if (leave || leaves_by_button) {
@@ -433,7 +433,7 @@ WindowEnd show(xr::DesktopWindow& window, ViewerWindow options) {
         texts.focused = focus;
         if (now >= next_texts || !input.keys.empty()) {
             const viewer::Facts facts = viewer.facts(now);
-            xr::OverlayContent content = viewer::overlay_of(facts, address, host::shown_filter);
+            window::OverlayContent content = viewer::overlay_of(facts, address, host::shown_filter);
             content.hovered = hovered;
             // Another button may stand where the keyboard was.
             if ((content.tools && texts.tools &&

@@ -14,7 +14,7 @@
 #include "viewer/viewer.h"
 #include "voice_line.h"
 #include "window_watch.h"
-#include "xr/desktop_window_native.h"
+#include "window/desktop_window_native.h"
 
 namespace theatron::app {
 
@@ -63,6 +63,6 @@ public:
 
 // Throws Error if the host refused to let the person in, and SessionEnded if a session that the
 // person was in is over: its last picture does not stay.
-WindowEnd show(xr::DesktopWindow& window, ViewerWindow options);
+WindowEnd show(window::DesktopWindow& window, ViewerWindow options);
 
 }  // namespace theatron::app

@@ -21,7 +21,7 @@ void end_uncovered() {
 
 }  // namespace
 
-WindowWatch::WindowWatch(const xr::DesktopWindow& window)
+WindowWatch::WindowWatch(const window::DesktopWindow& window)
     : cover_(window.x11_number(), words, end_uncovered) {}
 
 }  // namespace theatron::app

@@ -3,15 +3,15 @@
 // where nothing can cover it the program ends.
 #pragma once
 
-#include "xr/desktop_window_native.h"
-#include "xr/window_cover_native.h"
+#include "window/desktop_window_native.h"
+#include "window/window_cover_native.h"
 
 namespace theatron::app {
 
 class WindowWatch {
 public:
     // `window` must outlive it.
-    explicit WindowWatch(const xr::DesktopWindow& window);
+    explicit WindowWatch(const window::DesktopWindow& window);
 
     // The window shows what it should at this moment.
     void beat() { cover_.beat(); }
@@ -19,7 +19,7 @@ public:
     void rest() { cover_.rest(); }
 
 private:
-    xr::WindowCover cover_;
+    window::WindowCover cover_;
 };
 
 }  // namespace theatron::app

@@ -140,9 +140,9 @@ void FlatView::add_people(viewer::Facts& facts, TimePoint now) {
          .visitors = facts.visitors,
          .asked = removal_.asked(now)});
     // Ways to people need the room's view.
-    for (xr::Panel& one : people.panels)
-        for (xr::PanelRow& row : one.rows)
-            std::erase_if(row.buttons, [&](const xr::PanelButton& button) {
+    for (window::Panel& one : people.panels)
+        for (window::PanelRow& row : one.rows)
+            std::erase_if(row.buttons, [&](const window::PanelButton& button) {
                 return !std::holds_alternative<viewer::Decide>(
                     people.commands[std::size_t(button.command)]);
             });

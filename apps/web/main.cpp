@@ -167,7 +167,7 @@ EMSCRIPTEN_KEEPALIVE void theatron_key(const char* key, const char* code) {
 }
 EMSCRIPTEN_KEEPALIVE void theatron_hold(double right, double up, double ahead, int fast,
                                         int teleport, int points) {
-    xr::WindowInput& input = page().input.newest();
+    window::WindowInput& input = page().input.newest();
     input.steering.fly = {right, up, ahead};
     input.steering.fast = fast != 0;
     input.aims_teleport = teleport != 0;
@@ -184,7 +184,7 @@ EMSCRIPTEN_KEEPALIVE void theatron_release() {
     page().input.release();
 }
 EMSCRIPTEN_KEEPALIVE void theatron_drag(double x, double y, int turns) {
-    xr::Steering& steering = page().input.newest().steering;
+    window::Steering& steering = page().input.newest().steering;
     Vec2& way = turns ? steering.turn : steering.slide;
     way = {way.x + x, way.y + y};
 }

@@ -5,14 +5,14 @@
 
 namespace theatron::web {
 
-std::optional<xr::KeyPress> pressed(std::string_view key, std::string_view code) {
-    using xr::Action;
+std::optional<window::KeyPress> pressed(std::string_view key, std::string_view code) {
+    using window::Action;
     // Digits by their place: some keyboards need Shift for them. Tab and Escape stay the browser's,
     // and the page itself shows the help.
     for (const std::string_view row : {"Digit", "Numpad"})
         if (code.size() == row.size() + 1 && code.substr(0, row.size()) == row &&
             code.back() >= '1' && code.back() <= '9')
-            return xr::KeyPress{Action::view_camera, code.back() - '1'};
+            return window::KeyPress{Action::view_camera, code.back() - '1'};
     static const std::map<std::string_view, Action> actions = {
         {"b", Action::facts},
         {"m", Action::next_renderer},
@@ -45,7 +45,7 @@ std::optional<xr::KeyPress> pressed(std::string_view key, std::string_view code)
     const auto found = actions.find(key);
     if (found == actions.end())
         return std::nullopt;
-    return xr::KeyPress{found->second};
+    return window::KeyPress{found->second};
 }
 
 }  // namespace theatron::web

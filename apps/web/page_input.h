@@ -5,11 +5,11 @@
 #include <optional>
 #include <string_view>
 
-#include "xr/window_input.h"
+#include "window/window_input.h"
 
 namespace theatron::web {
 
 // `key`: KeyboardEvent.key in lower case; `code`: KeyboardEvent.code. Safe for any text.
-std::optional<xr::KeyPress> pressed(std::string_view key, std::string_view code);
+std::optional<window::KeyPress> pressed(std::string_view key, std::string_view code);
 
 }  // namespace theatron::web

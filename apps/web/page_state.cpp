@@ -21,7 +21,7 @@ std::string filter_name(const std::string& filter) {
 }
 
 // The page shows one kind at a time. The panel of the case has the case's name.
-const char* kind_of(const xr::Panel& panel) {
+const char* kind_of(const window::Panel& panel) {
     constexpr std::pair<Phrase, const char*> kinds[] = {
         {Phrase::people, "people"},    {Phrase::places, "places"},
         {Phrase::at_the_door, "door"}, {Phrase::calls_you, "call"},
@@ -36,25 +36,25 @@ const char* kind_of(const xr::Panel& panel) {
 }
 
 // The facts that a page shows also while it hides the others; "": none of them.
-const char* kind_of(const xr::Fact& fact) {
+const char* kind_of(const window::Fact& fact) {
     return fact.label == say(Phrase::recording)     ? "recording"
            : fact.label == say(Phrase::at_the_door) ? "door"
            : fact.label == say(Phrase::not_live)    ? "not_live"
                                                     : "";
 }
 
-json to_json(const xr::OverlayContent& overlay) {
+json to_json(const window::OverlayContent& overlay) {
     json facts = json::array(), panels = json::array();
-    for (const xr::Fact& fact : overlay.facts)
+    for (const window::Fact& fact : overlay.facts)
         facts.push_back({{"label", fact.label},
                          {"value", fact.value},
                          {"warning", fact.warning},
                          {"kind", kind_of(fact)}});
-    for (const xr::Panel& panel : overlay.panels) {
+    for (const window::Panel& panel : overlay.panels) {
         json rows = json::array();
-        for (const xr::PanelRow& row : panel.rows) {
+        for (const window::PanelRow& row : panel.rows) {
             json buttons = json::array();
-            for (const xr::PanelButton& button : row.buttons)
+            for (const window::PanelButton& button : row.buttons)
                 buttons.push_back({{"label", button.label}, {"command", button.command}});
             rows.push_back({{"text", row.text}, {"detail", row.detail}, {"buttons", buttons}});
         }

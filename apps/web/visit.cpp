@@ -83,8 +83,8 @@ Visit::Visit(client::Participant::Options join, std::string host_address, PageCo
       viewer(options, participant) {
     // The page has all panels at any time, and shows one of them.
     constexpr Size any{16, 9};
-    xr::WindowInput input;
-    input.keys.push_back({xr::Action::show_case});
+    window::WindowInput input;
+    input.keys.push_back({window::Action::show_case});
     viewer.on_input(input, std::nullopt, any, steady_now());
 }
 
@@ -172,7 +172,7 @@ bool draw(Visit& visit, Size size) {
         return false;
     const TimePoint now = steady_now();
     want_frames(visit, now);
-    const xr::WindowInput input = page().input.take();
+    const window::WindowInput input = page().input.take();
     visit.viewer.on_input(
         input, input.grabbed ? visit.picture.distance_at(*input.grabbed) : std::nullopt, size, now);
     const bool changed = visit.viewer.step(size, now);

@@ -12,8 +12,8 @@
 #include "page_color.h"
 #include "picture_fence.h"
 #include "viewer/viewer.h"
-#include "xr/input_queue.h"
-#include "xr/scaled_picture.h"
+#include "window/input_queue.h"
+#include "window/scaled_picture.h"
 
 namespace theatron::web {
 
@@ -31,7 +31,7 @@ struct Visit {
     client::PictureSender face;
     client::Participant participant;
     viewer::Viewer viewer;
-    xr::ScaledPicture picture;
+    window::ScaledPicture picture;
     PictureFence drawing;  // of the newest picture
     TimePoint drawing_began, drawing_submitted;
 };
@@ -57,7 +57,7 @@ struct Page {
     unsigned headset_framebuffer = 0;  // its name, once it was used
     std::unique_ptr<Visit> visit;      // this
     std::unique_ptr<FlatVisit> flat;   // or this, or none
-    xr::InputQueue input;              // since the last picture
+    window::InputQueue input;              // since the last picture
     client::PictureSender screen;      // that the person shows; outlives a visit
     std::string problem;               // why the visit ended; a sentence
     std::string text;                  // that the last function returned

@@ -17,7 +17,7 @@
 #include "render/render_target.h"
 #include "render/room_picture.h"
 #include "viewer/monitor.h"
-#include "xr/font.h"
+#include "window/font.h"
 
 namespace theatron::bench {
 namespace {
@@ -93,7 +93,7 @@ private:
 
     render::OffscreenContext gl_;
     render::RenderTarget target_{picture_size};
-    render::FontAtlas font_ = render::load_font_atlas(xr::text_font());
+    render::FontAtlas font_ = render::load_font_atlas(window::text_font());
     render::ScenePasses passes_{&font_};
     const render::CameraView view_ =
         render::view_towards({0, 1.5, 0.7}, {0, 1.5, 0}, 60, picture_size);

@@ -7,7 +7,7 @@
 #include "room/people.h"
 #include "room/srgb.h"
 #include "viewer/age_text.h"
-#include "xr/drawing_watch.h"
+#include "pace/drawing_watch.h"
 
 namespace theatron::or_screen {
 namespace {
@@ -89,7 +89,7 @@ void describe_picture(const client::CameraFigures& camera, double age_ms, Conten
     const wire::CameraState& state = camera.camera.state;
     content.camera = camera.camera.description.name;
     const bool is_live = state.condition == wire::CameraCondition::live;
-    const bool stands_still = !is_live || age_ms >= to_ms(xr::still_after);
+    const bool stands_still = !is_live || age_ms >= to_ms(pace::still_after);
     if (!content.playback.empty()) {
         if (stands_still)
             content.warning =

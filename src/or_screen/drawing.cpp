@@ -3,7 +3,7 @@
 
 #include "or_screen/painter.h"
 #include "phrases/phrase.h"
-#include "xr/imgui_fonts_native.h"
+#include "window/imgui_fonts_native.h"
 
 namespace theatron::or_screen {
 namespace {
@@ -15,7 +15,7 @@ constexpr double capital = 0.626;
 
 struct Drawing::Parts {
     ImGuiContext* context = nullptr;
-    xr::ImGuiPass pass;
+    window::ImGuiPass pass;
     double letter = 0;  // for which the fonts are made
     Fonts fonts;
 
@@ -29,7 +29,7 @@ struct Drawing::Parts {
 
 void Drawing::Parts::make_fonts(double pixels) {
     const double line = pixels / capital;
-    const auto made = xr::set_fonts(pass, {line, 1.2 * line, 1.9 * line});
+    const auto made = window::set_fonts(pass, {line, 1.2 * line, 1.9 * line});
     fonts = {made[0], made[1], made[2]};
     letter = pixels;
 }

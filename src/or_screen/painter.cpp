@@ -6,13 +6,13 @@
 #include <numbers>
 
 #include "phrases/phrase.h"
-#include "xr/imgui_pass_native.h"
-#include "xr/panel_colors_native.h"
+#include "window/imgui_pass_native.h"
+#include "window/panel_colors_native.h"
 
 namespace theatron::or_screen {
 namespace {
 
-namespace colors = xr::colors;
+namespace colors = window::colors;
 
 constexpr ImU32 shade_color = colors::with_opacity(colors::shade, 190);
 constexpr ImU32 outline_color = IM_COL32(0, 0, 0, 170);
@@ -211,7 +211,7 @@ void Painter::camera(const Content& content, const Rect& rect,
     // An old picture must not be taken for the present.
     const bool is_old = !content.warning.empty();
     const ImU32 tint = is_old ? IM_COL32(110, 110, 110, 255) : IM_COL32(255, 255, 255, 255);
-    list_.AddImageRounded(xr::texture_of(picture->texture()), from(rect), to(rect), {0, 0}, {1, 1},
+    list_.AddImageRounded(window::texture_of(picture->texture()), from(rect), to(rect), {0, 0}, {1, 1},
                           tint, rounding);
     list_.PushClipRect(from(rect), to(rect), true);
     there_.clear();
@@ -261,7 +261,7 @@ void Painter::room(const Content& content, const Rect& rect, const render::Textu
         list_.AddRectFilled(from(rect), to(rect), colors::card, rounding);
         return;
     }
-    list_.AddImageRounded(xr::texture_of(*picture), from(rect), to(rect), {0, 1}, {1, 0},
+    list_.AddImageRounded(window::texture_of(*picture), from(rect), to(rect), {0, 1}, {1, 0},
                           IM_COL32(255, 255, 255, 255), rounding);
     list_.PushClipRect(from(rect), to(rect), true);
     there_.clear();
@@ -295,7 +295,7 @@ void Painter::monitor(const Content& content, const Rect& rect,
         widest = std::max<double>(widest, measure(fonts_.small, lines[i]).x);
     const auto scale = float(scale_to_fit(widest, rect.width - letter_));
     const MonitorPlaces places = monitor_places(rect, slice->size(), lines.size(), letter_);
-    list_.AddImage(xr::texture_of(slice->texture()), from(places.picture), to(places.picture));
+    list_.AddImage(window::texture_of(slice->texture()), from(places.picture), to(places.picture));
     there_.clear();
     const auto put = [&](const std::string& letters, Vec2 towards) {
         const Rect place = letters_place(places.letters, towards, letters.size(), letter_);

@@ -135,7 +135,7 @@ void AdjustPanel::slide(double value) {
     want(adjustment);
 }
 
-void AdjustPanel::nudge(xr::Nudge nudge, double yaw) {
+void AdjustPanel::nudge(window::Nudge nudge, double yaw) {
     const Camera* camera = chosen();
     if (!camera)
         return;
@@ -143,7 +143,7 @@ void AdjustPanel::nudge(xr::Nudge nudge, double yaw) {
     CameraAdjustment adjustment = current(*camera);
     const Vec3 right{std::cos(yaw), 0, -std::sin(yaw)}, back{std::sin(yaw), 0, std::cos(yaw)};
     const auto move = [&](Vec3 way) { adjustment.moved_m = adjustment.moved_m + step_m * way; };
-    using xr::Nudge;
+    using window::Nudge;
     switch (nudge) {
         case Nudge::left:
             move(-right);
@@ -173,7 +173,7 @@ void AdjustPanel::nudge(xr::Nudge nudge, double yaw) {
     want(adjustment);
 }
 
-std::string AdjustPanel::draw(xr::WindowInput& input, const render::CameraView& view,
+std::string AdjustPanel::draw(window::WindowInput& input, const render::CameraView& view,
                               const std::vector<CloudCamera>& cloud) {
     if (!draws_)
         return "";
@@ -227,13 +227,13 @@ void AdjustPanel::on_tick(client::Participant& participant, TimePoint now) {
 }
 
 void AdjustPanel::add_panel(RoomPanel& panel) const {
-    xr::Panel shown{say(Phrase::place_of_cameras), {}};
+    window::Panel shown{say(Phrase::place_of_cameras), {}};
     const auto command = [&](AdjustStep step) { return panel.add(step); };
     using What = AdjustStep::What;
     for (const Camera& camera : cameras_) {
         const CameraAdjustment adjustment = current(camera);
         const bool is_chosen = camera.id == chosen_;
-        xr::PanelRow row{camera.name, text_of(adjustment), {}};
+        window::PanelRow row{camera.name, text_of(adjustment), {}};
         if (!is_chosen)
             row.buttons.push_back({say(Phrase::choose), command({What::choose, camera.id, 0, 0})});
         shown.rows.push_back(std::move(row));
@@ -246,7 +246,7 @@ void AdjustPanel::add_panel(RoomPanel& panel) const {
                                   "",
                                   {{"-", command({What::step, {}, part, -by})},
                                    {"+", command({What::step, {}, part, by})}},
-                                  xr::PanelSlider{part_of(value, part), -most, most,
+                                  window::PanelSlider{part_of(value, part), -most, most,
                                                   command({What::slide, {}, part, 0})}});
         }
         if (is_chosen)
@@ -255,7 +255,7 @@ void AdjustPanel::add_panel(RoomPanel& panel) const {
                                   {{say(Phrase::undo), command({What::undo, {}, 0, 0})},
                                    {say(Phrase::reset_camera), command({What::reset, {}, 0, 0})}}});
         if (is_chosen && camera.has_region) {
-            xr::PanelRow region{say(draws_              ? Phrase::draw_rectangle
+            window::PanelRow region{say(draws_              ? Phrase::draw_rectangle
                                     : adjustment.region ? Phrase::a_region
                                                         : Phrase::whole_picture),
                                 "",

@@ -11,7 +11,7 @@
 #include "session/camera_adjustment.h"
 #include "viewer/drawn_region.h"
 #include "viewer/room_panel.h"
-#include "xr/window_input.h"
+#include "window/window_input.h"
 
 namespace theatron::viewer {
 
@@ -38,11 +38,11 @@ public:
     // Moves the slider that `slide` named last.
     void slide(double value);
     // `yaw`: of the person's eye about the vertical, radians; 0 looks along -z.
-    void nudge(xr::Nudge nudge, double yaw);
+    void nudge(window::Nudge nudge, double yaw);
 
     // While the person draws the region of the chosen camera: takes the left button's input away
     // from others. Returns a sentence for the person once the rectangle is complete.
-    std::string draw(xr::WindowInput& input, const render::CameraView& view,
+    std::string draw(window::WindowInput& input, const render::CameraView& view,
                      const std::vector<CloudCamera>& cloud);
     std::optional<std::pair<Vec2, Vec2>> rectangle() const;
 

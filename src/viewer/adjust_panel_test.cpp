@@ -32,7 +32,7 @@ std::vector<std::string> rows_of(const AdjustPanel& adjusting) {
     RoomPanel panel;
     adjusting.add_panel(panel);
     std::vector<std::string> rows;
-    for (const xr::PanelRow& row : panel.panels.at(0).rows)
+    for (const window::PanelRow& row : panel.panels.at(0).rows)
         rows.push_back(row.text);
     return rows;
 }
@@ -76,11 +76,11 @@ TEST(AdjustPanel, ArrowKeysMoveAsThePersonLooks) {
     AdjustPanel adjusting;
     adjusting.take(cameras());
     // An eye that looks along -x has -z at its right.
-    adjusting.nudge(xr::Nudge::right, std::numbers::pi / 2);
+    adjusting.nudge(window::Nudge::right, std::numbers::pi / 2);
     EXPECT_TRUE(has_row(adjusting, "Back z -5 mm"));
-    adjusting.nudge(xr::Nudge::farther, 0);
+    adjusting.nudge(window::Nudge::farther, 0);
     EXPECT_TRUE(has_row(adjusting, "Back z -10 mm"));
-    adjusting.nudge(xr::Nudge::up, 1);
+    adjusting.nudge(window::Nudge::up, 1);
     EXPECT_TRUE(has_row(adjusting, "Up y +5 mm"));
 }
 

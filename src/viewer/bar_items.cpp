@@ -7,7 +7,7 @@ namespace theatron::viewer {
 namespace {
 
 using session::Right;
-using xr::ToolIcon;
+using window::ToolIcon;
 
 BarItem microphone_item(const BarFacts& facts) {
     BarItem item{ToolIcon::microphone, Phrase::microphone, Phrase::bar_mute};

@@ -13,7 +13,7 @@
 #include "viewer/own_face.h"
 #include "viewer/voices.h"
 #include "wire/role.h"
-#include "xr/tool_bar.h"
+#include "window/tool_bar.h"
 
 namespace theatron::viewer {
 
@@ -31,7 +31,7 @@ struct BarFacts {
 };
 
 struct BarItem {
-    xr::ToolIcon id{};
+    window::ToolIcon id{};
     Phrase label{}, hint{};  // the hint names the key
     bool pressed = false;
     bool off = false;    // nobody hears or sees the person

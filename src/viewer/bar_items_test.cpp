@@ -10,7 +10,7 @@ namespace theatron::viewer {
 namespace {
 
 using ::testing::ElementsAre;
-using xr::ToolIcon;
+using window::ToolIcon;
 
 std::vector<ToolIcon> bar_order(const BarFacts& facts) {
     std::vector<ToolIcon> order;

@@ -40,7 +40,7 @@ bool is_known(const wire::Patient& patient) {
 }
 
 // The panel is over the picture of this person alone, and in no saved picture.
-xr::PanelRow patient_row(const wire::Patient& patient) {
+window::PanelRow patient_row(const wire::Patient& patient) {
     std::string detail;
     add_text(detail, Phrase::born, patient.birth_date);
     add_text(detail, Phrase::patient_number, patient.id);
@@ -87,24 +87,24 @@ class Builder {
 public:
     Builder(RoomPanel& panel) : panel_(panel) {}
 
-    xr::PanelButton button(std::string label, RoomCommand command) {
+    window::PanelButton button(std::string label, RoomCommand command) {
         return panel_.button(std::move(label), std::move(command));
     }
-    xr::PanelButton action(std::string label, std::function<bool(Participant&)> action) {
+    window::PanelButton action(std::string label, std::function<bool(Participant&)> action) {
         return button(std::move(label), ChangeCase{std::move(action)});
     }
-    xr::PanelButton action(Phrase label, std::function<bool(Participant&)> action) {
+    window::PanelButton action(Phrase label, std::function<bool(Participant&)> action) {
         return this->action(say(label), std::move(action));
     }
-    void row(xr::PanelRow row) { rows_.push_back(std::move(row)); }
-    void row(std::string text, std::string detail, std::vector<xr::PanelButton> buttons) {
+    void row(window::PanelRow row) { rows_.push_back(std::move(row)); }
+    void row(std::string text, std::string detail, std::vector<window::PanelButton> buttons) {
         row({std::move(text), std::move(detail), std::move(buttons)});
     }
     void finish(std::string title) { panel_.panels.push_back({std::move(title), rows_}); }
 
 private:
     RoomPanel& panel_;
-    std::vector<xr::PanelRow> rows_;
+    std::vector<window::PanelRow> rows_;
 };
 
 void add_parts(const CasePanelFacts& facts, Builder& add) {
@@ -133,7 +133,7 @@ void add_parts(const CasePanelFacts& facts, Builder& add) {
 
 void add_series(const CasePanelFacts& facts, Builder& add) {
     const auto& series = facts.content->description->series;
-    std::vector<xr::PanelButton> buttons;
+    std::vector<window::PanelButton> buttons;
     for (std::size_t i = 0; i < series.size(); ++i) {
         const session::CaseScreen next =
             of_series(facts.room->screen->facts, int(i), facts.content->volumes[i].get());
@@ -176,7 +176,7 @@ void add_screen(const CasePanelFacts& facts, Builder& add) {
     if (!facts.volume)
         return;
     const session::CaseScreen screen = facts.room->screen->facts;
-    std::vector<xr::PanelButton> planes, windows;
+    std::vector<window::PanelButton> planes, windows;
     const Phrase names[] = {Phrase::axial, Phrase::coronal, Phrase::sagittal};
     for (int i = 0; i < 3; ++i)
         planes.push_back(
@@ -197,7 +197,7 @@ void add_screen(const CasePanelFacts& facts, Builder& add) {
 
 // "Cancel" is where "Open" was: a double click opens nothing.
 void add_question(const AskedCase& asked, const std::string& name, Builder& add) {
-    std::vector<xr::PanelButton> buttons;
+    std::vector<window::PanelButton> buttons;
     if (asked.is_answered)
         buttons.push_back(add.button(say(Phrase::open), OpenOffered{asked.offered}));
     buttons.push_back(add.button(say(Phrase::cancel), LeaveClosed{}));
@@ -219,7 +219,7 @@ void add_case_panel(const CasePanelFacts& facts, RoomPanel& panel) {
         if (is_known(facts.patient))
             add.row(patient_row(facts.patient));
         const bool is_apart = facts.room->organ.explosion != 0, cut = facts.room->organ.cut;
-        std::vector<xr::PanelButton> buttons{
+        std::vector<window::PanelButton> buttons{
             add.action(is_apart ? Phrase::closer : Phrase::apart,
                        [is_apart](Participant& p) { return explode(p, is_apart ? 0 : apart); }),
             add.action(Phrase::together, put_together)};

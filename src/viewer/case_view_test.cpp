@@ -133,7 +133,7 @@ TEST(CasePanel, AsksWhetherItIsTheRightPatientBeforeACaseIsOpened) {
         << "the second click of two is where Open was";
 
     facts.asked->patient = {Bytes(32), "Miller, Ann", "1961-04-02", "AB-4711", "2026-03-01"};
-    const xr::PanelRow known = row(commands);
+    const window::PanelRow known = row(commands);
     EXPECT_EQ(known.text, "Open the case of Miller, Ann, born 1961-04-02, images of 2026-03-01?");
     EXPECT_EQ(known.detail, "Liver (2), number AB-4711");
     facts.asked->patient = {Bytes(32), "", "1961-04-02", "AB-4711", ""};
@@ -159,8 +159,8 @@ TEST(CasePanel, ShowsPicturesSeriesAndThePresenter) {
     const auto rows = [&] {
         RoomPanel panel;
         add_case_panel(facts, panel);
-        std::map<std::string, xr::PanelRow> found;
-        for (const xr::PanelRow& row : panel.panels[0].rows)
+        std::map<std::string, window::PanelRow> found;
+        for (const window::PanelRow& row : panel.panels[0].rows)
             found[row.text] = row;
         return found;
     };
@@ -183,7 +183,7 @@ TEST(CasePanel, NamesThePatientOfTheOpenCaseWhereItIsKnown) {
     const auto second_row = [&] {
         RoomPanel panel;
         add_case_panel(facts, panel);
-        const xr::PanelRow row = panel.panels[0].rows[1];
+        const window::PanelRow row = panel.panels[0].rows[1];
         return row.text + "; " + row.detail;
     };
     EXPECT_EQ(second_row(), "Parts; ");

@@ -73,17 +73,17 @@ void Eye::grab(Vec2 place, double distance_m, Size picture) {
     const render::CameraView v = view(picture);
     const Vec2 on_picture{v.left + place.x * (v.right - v.left),
                           v.top + place.y * (v.bottom - v.top)};
-    viewpoint_ = xr::around(*viewpoint_, on_picture, distance_m);
+    viewpoint_ = window::around(*viewpoint_, on_picture, distance_m);
 }
 
-bool Eye::steer(const xr::Steering& steering, Size picture, TimePoint now) {
+bool Eye::steer(const window::Steering& steering, Size picture, TimePoint now) {
     const bool flew = std::exchange(flying_, viewpoint_ && steering.fly != Vec3{});
     const Duration elapsed = flew ? now - steered_at_ : Duration{};
     steered_at_ = now;
     if (!viewpoint_ || !steering.moves())
         return false;
     const render::CameraView before = view(picture);
-    viewpoint_ = xr::steered(*viewpoint_, steering, before.bottom - before.top, elapsed);
+    viewpoint_ = window::steered(*viewpoint_, steering, before.bottom - before.top, elapsed);
     const bool travels = steering.fly != Vec3{} || steering.slide != Vec2{};
     if (space_ && travels) {
         Vec3& eye = viewpoint_->room_from_eye.translation;

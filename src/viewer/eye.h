@@ -8,7 +8,7 @@
 
 #include "room/moving.h"
 #include "viewer/view_choice.h"
-#include "xr/navigation.h"
+#include "window/navigation.h"
 
 namespace theatron::viewer {
 
@@ -63,11 +63,11 @@ public:
     void grab(Vec2 place, double distance_m, Size picture);
 
     // Moves as in xr/navigation.h; keys count from the last call. True if the view changed.
-    bool steer(const xr::Steering& steering, Size picture, TimePoint now);
+    bool steer(const window::Steering& steering, Size picture, TimePoint now);
 
 private:
     ViewChoice home_;
-    std::optional<xr::Viewpoint> viewpoint_;
+    std::optional<window::Viewpoint> viewpoint_;
     CameraModel lens_;
     Pose home_pose_;  // of the camera when the view started from it
     std::optional<room::FreeSpace> space_;

@@ -59,7 +59,7 @@ TEST(Eye, FollowsItsCameraUntilThePersonMoves) {
     EXPECT_TRUE(eye.follow(cameras, true, picture, TimePoint(2s)));
     EXPECT_EQ(x_of(eye), 3);
 
-    xr::Steering steering;
+    window::Steering steering;
     steering.turn = {0.1, 0};
     EXPECT_TRUE(eye.steer(steering, picture, TimePoint(3s)));
     const double moved_to = x_of(eye);
@@ -76,7 +76,7 @@ TEST(Eye, FliesOnlyWhileKeysAreHeld) {
     cameras.send(0);
     Eye eye({CameraId{0}, 0, 0});
     eye.follow(cameras, true, picture, TimePoint(1s));
-    xr::Steering forward;
+    window::Steering forward;
     forward.fly = {0, 0, 1};
     // The time before the key was pressed does not count.
     EXPECT_TRUE(eye.steer(forward, picture, TimePoint(100s)));

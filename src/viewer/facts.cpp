@@ -13,7 +13,7 @@
 #include "viewer/trust_panel.h"
 #include "wire/condition_text.h"
 #include "wire/sentence.h"
-#include "xr/drawing_watch.h"
+#include "pace/drawing_watch.h"
 
 namespace theatron::viewer {
 namespace {
@@ -54,7 +54,7 @@ Phrase count_of(const client::CameraFigures& camera) {
 }
 
 // "2 live", "1 live, 1 stale", or "2 recording".
-xr::Fact cameras_fact(const std::vector<client::CameraFigures>& cameras) {
+window::Fact cameras_fact(const std::vector<client::CameraFigures>& cameras) {
     std::string text;
     bool trouble = false;
     for (const Phrase state : {Phrase::live_count, Phrase::recording_count, Phrase::paused_count,
@@ -75,7 +75,7 @@ xr::Fact cameras_fact(const std::vector<client::CameraFigures>& cameras) {
 }
 
 // "cameras together, 12 pictures alone".
-xr::Fact moment_fact(const Facts& facts) {
+window::Fact moment_fact(const Facts& facts) {
     // Pictures of one moment are exposed within a fraction of a frame's time.
     constexpr double together_ms = 4;
     std::string text =
@@ -88,7 +88,7 @@ xr::Fact moment_fact(const Facts& facts) {
 }
 
 // A live camera with a problem that its picture does not show: it was moved, or plays damage.
-void add_problems(const std::vector<client::CameraFigures>& cameras, std::vector<xr::Fact>& line) {
+void add_problems(const std::vector<client::CameraFigures>& cameras, std::vector<window::Fact>& line) {
     for (const client::CameraFigures& one : cameras) {
         const wire::CameraState& state = one.camera.state;
         if (state.condition == wire::CameraCondition::live && !state.problem.empty())
@@ -113,7 +113,7 @@ std::string common(const std::vector<client::CameraFigures>& cameras, const Text
 }
 
 // "h264 (lossy)" where a camera's newest depth image is not exact everywhere.
-xr::Fact depth_fact(const std::vector<client::CameraFigures>& cameras) {
+window::Fact depth_fact(const std::vector<client::CameraFigures>& cameras) {
     const std::string codec = common(cameras, [](const auto& c) { return c.depth.codec; });
     const bool lossy = std::any_of(cameras.begin(), cameras.end(), [](const auto& c) {
         return c.depth.frames > 0 && c.depth.exact == receive::Exactness::nowhere;
@@ -152,7 +152,7 @@ std::string visitors_text(const std::vector<wire::Visitor>& visitors) {
 // Facts on the cameras' pictures.
 void add_pictures(const Facts& facts,
                   const std::function<std::string(const std::string&)>& filter_name,
-                  std::vector<xr::Fact>& line) {
+                  std::vector<window::Fact>& line) {
     const auto& [status, cameras, recordings, moments] = facts.received;
     line.push_back({say(Phrase::dropped), std::to_string(facts.received.dropped())});
     if (status.delivery.level > 0)
@@ -165,13 +165,13 @@ void add_pictures(const Facts& facts,
         {say(Phrase::filter), filter_name(filter == say(Phrase::none) ? std::string() : filter)});
 }
 
-std::vector<xr::Fact> line_of(const Facts& facts, const std::string& address,
+std::vector<window::Fact> line_of(const Facts& facts, const std::string& address,
                               const std::function<std::string(const std::string&)>& filter_name) {
     using Phase = client::Participant::Phase;
     const auto& [status, cameras, recordings, moments] = facts.received;
-    std::vector<xr::Fact> line;
+    std::vector<window::Fact> line;
     line.push_back({say(Phrase::host), status.host_name.empty() ? address : status.host_name});
-    const xr::Fact age{say(Phrase::age_of_picture),
+    const window::Fact age{say(Phrase::age_of_picture),
                        facts.age_ms ? age_text(*facts.age_ms) : say(Phrase::unknown),
                        facts.age_ms && *facts.age_ms > old_picture_ms};
     if (!facts.visitors.empty())
@@ -197,7 +197,7 @@ std::vector<xr::Fact> line_of(const Facts& facts, const std::string& address,
             line.push_back({say(Phrase::not_live), facts.played, true});
         // No camera's present state beside pictures of the past.
         line.push_back(facts.past.empty() ? cameras_fact(cameras)
-                                          : xr::Fact{say(Phrase::cameras), facts.past, true});
+                                          : window::Fact{say(Phrase::cameras), facts.past, true});
         if (facts.skew_ms && facts.past.empty())
             line.push_back(moment_fact(facts));
         add_problems(cameras, line);
@@ -242,7 +242,7 @@ std::string cover_of(const Facts& facts) {
     constexpr TimePoint now{};  // the ages are those of the figures
     if (const auto still = all_still(shown_cameras(facts.received.cameras, now), now))
         return still_text(still);
-    if (facts.played.empty() && facts.age_ms && *facts.age_ms >= to_ms(xr::still_after))
+    if (facts.played.empty() && facts.age_ms && *facts.age_ms >= to_ms(pace::still_after))
         return say(Phrase::this_picture_is_old, age_text(*facts.age_ms));
     return {};
 }
@@ -257,7 +257,7 @@ std::string warning_of(const Facts& facts) {
     if (facts.frozen)
         return facts.age_ms ? say(Phrase::frozen_and_old, age_text(*facts.age_ms))
                             : say(Phrase::frozen_by_you);
-    if (facts.age_ms && *facts.age_ms >= to_ms(xr::still_after))
+    if (facts.age_ms && *facts.age_ms >= to_ms(pace::still_after))
         return say(Phrase::this_picture_is_old, age_text(*facts.age_ms));
     if (const std::string text = not_live_text(facts.received); !text.empty())
         return text;
@@ -298,7 +298,7 @@ Message message_of(const Facts& facts, const std::string& address) {
 }
 
 // A window with a bar shows little else unless asked: the dot and the offers say it.
-void make_calm(const Facts& facts, xr::OverlayContent& content) {
+void make_calm(const Facts& facts, window::OverlayContent& content) {
     const auto& status = facts.received.status;
     const std::string slow = slow_text(facts);
     DotFacts dot;
@@ -323,7 +323,7 @@ void make_calm(const Facts& facts, xr::OverlayContent& content) {
         Phrase::age_of_picture, Phrase::at_the_door, Phrase::drawn,     Phrase::sent,
         Phrase::depth_fact,     Phrase::microphone,  Phrase::connection};
     if (!facts.line)
-        std::erase_if(content.facts, [&](const xr::Fact& fact) {
+        std::erase_if(content.facts, [&](const window::Fact& fact) {
             return std::any_of(std::begin(said_elsewhere), std::end(said_elsewhere),
                                [&](Phrase label) { return fact.label == say(label); });
         });
@@ -339,13 +339,13 @@ std::string slow_text(const Facts& facts) {
                    : Phrase::slow_not_connection);
 }
 
-xr::OverlayContent overlay_of(const Facts& facts, const std::string& address,
+window::OverlayContent overlay_of(const Facts& facts, const std::string& address,
                               const std::function<std::string(const std::string&)>& filter_name) {
-    xr::OverlayContent content;
+    window::OverlayContent content;
     content.facts = line_of(facts, address, filter_name);
     // A hidden line still shows facts that need attention.
     if (!facts.line)
-        std::erase_if(content.facts, [](const xr::Fact& fact) { return !fact.warning; });
+        std::erase_if(content.facts, [](const window::Fact& fact) { return !fact.warning; });
     const Message message = message_of(facts, address);
     content.message = message.text;
     content.detail = message.detail;

@@ -10,8 +10,8 @@
 #include "client/participant_figures.h"
 #include "viewer/own_face.h"
 #include "viewer/voices.h"
-#include "xr/drawing_pace.h"
-#include "xr/overlay_content.h"
+#include "pace/drawing_pace.h"
+#include "window/overlay_content.h"
 
 namespace theatron::viewer {
 
@@ -26,17 +26,17 @@ struct Facts {
     double drawn_per_second = 0;
     bool drawing_rests = false;                        // so that frames are decoded
     std::optional<double> most_drawn_per_second = {};  // by choice; empty: as many as come
-    xr::DrawingWay way;
+    pace::DrawingWay way;
     enum class ChosenBy { person, program, host } renderer_chosen_by = ChosenBy::person;
     std::string notice;  // a recent event; empty: none
     bool help = false;
-    std::vector<xr::Panel> panels;             // of people and places, while they are shown
+    std::vector<window::Panel> panels;             // of people and places, while they are shown
     bool line = true;                          // of facts, at the bottom
-    std::vector<xr::OverlayPicture> pictures;  // of the cameras, while they are shown
+    std::vector<window::OverlayPicture> pictures;  // of the cameras, while they are shown
     bool frozen = false;                       // the clouds, by the person at the window
     std::string pointed;                       // the place under the mouse; empty: none
     Voices voices;
-    std::optional<xr::PanelRow> bar = {};                 // of the recording that the host plays
+    std::optional<window::PanelRow> bar = {};                 // of the recording that the host plays
     std::optional<std::pair<Vec2, Vec2>> rectangle = {};  // that is being drawn over the picture
     OwnFace own_face = OwnFace::none;
     // The moment that is shown, while it is not the present (looking_back.h); else empty.
@@ -46,8 +46,8 @@ struct Facts {
     bool trust = false;  // the panel of trust_panel.h is shown, too
     // A window with a bar of buttons has these; overlay_of() then says in the dot and in offers
     // what it would say in facts and warnings.
-    std::optional<xr::ToolBar> tools = {};
-    std::vector<xr::PanelRow> offers = {};  // notices with buttons
+    std::optional<window::ToolBar> tools = {};
+    std::vector<window::PanelRow> offers = {};  // notices with buttons
     std::size_t unrest = 0;                 // CameraUnrest::count()
 
     // The present is not what is seen: it is frozen, looked back at, or played.
@@ -59,7 +59,7 @@ std::string slow_text(const Facts& facts);
 
 // `address` is shown until the host's name is known. `filter_name` turns a filter's spelling into
 // a text for people.
-xr::OverlayContent overlay_of(const Facts& facts, const std::string& address,
+window::OverlayContent overlay_of(const Facts& facts, const std::string& address,
                               const std::function<std::string(const std::string&)>& filter_name);
 
 }  // namespace theatron::viewer

@@ -32,18 +32,18 @@ Facts healthy() {
     return facts;
 }
 
-xr::OverlayContent overlay(const Facts& facts) {
+window::OverlayContent overlay(const Facts& facts) {
     return overlay_of(facts, "host:4400", [](const std::string& text) { return text; });
 }
 
-xr::Fact fact(const xr::OverlayContent& content, const std::string& label) {
+window::Fact fact(const window::OverlayContent& content, const std::string& label) {
     const auto found = std::find_if(content.facts.begin(), content.facts.end(),
-                                    [&](const xr::Fact& f) { return f.label == label; });
-    return found == content.facts.end() ? xr::Fact{} : *found;
+                                    [&](const window::Fact& f) { return f.label == label; });
+    return found == content.facts.end() ? window::Fact{} : *found;
 }
 
 TEST(Overlay, SaysNothingAloudWhileAllIsWell) {
-    const xr::OverlayContent content = overlay(healthy());
+    const window::OverlayContent content = overlay(healthy());
     EXPECT_EQ(content.message + content.warning + content.notice, "");
     EXPECT_EQ(fact(content, "Depth").value, "strata");
     EXPECT_FALSE(fact(content, "Depth").warning);
@@ -68,7 +68,7 @@ TEST(Overlay, IsGermanForAGerman) {
     facts.age_ms = 12'000;
     facts.received.status.standing.role = wire::Role::operator_;
     facts.received.cameras[0].camera.state.problem = {wire::TextCode::camera_covered};
-    const xr::OverlayContent content = overlay(facts);
+    const window::OverlayContent content = overlay(facts);
     EXPECT_EQ(content.cover, "Dieses Bild ist 12 s alt");
     EXPECT_EQ(fact(content, "Gastgeber").value, "OR 3");
     EXPECT_EQ(fact(content, "Sie").value, "Sitzungsleitung");
@@ -181,7 +181,7 @@ TEST(Overlay, SaysNothingOfPicturesWhereThereAreNoCameras) {
     facts.received.status.delivery.level = 3;
     EXPECT_TRUE(fact(overlay(facts), "Sent").warning);
     facts.received.cameras.clear();
-    for (const xr::Fact& shown : overlay(facts).facts)
+    for (const window::Fact& shown : overlay(facts).facts)
         for (const char* label : {"Sent", "Received", "Left out", "Depth", "Colour", "Filter"})
             EXPECT_NE(shown.label, label);
 }
@@ -240,7 +240,7 @@ TEST(Overlay, TellsWhyThereIsNoConnection) {
     facts.received.status.joins = 1;
     facts.received.status.problem = "The host closed the connection.";
     facts.age_ms = 7000;
-    const xr::OverlayContent content = overlay(facts);
+    const window::OverlayContent content = overlay(facts);
     EXPECT_EQ(content.message, "Connection lost, trying again…");
     EXPECT_EQ(content.detail,
               "This picture is 7 s old. The host closed the connection. The picture comes back by "
@@ -256,7 +256,7 @@ TEST(Facts, AnOperatorSeesWhoWaitsAndWithWhichKeysToDecide) {
     facts.visitors = {{ParticipantId{4}, "Ada", {}, wire::Role::observer},
                       {ParticipantId{5}, "Ben", {}, wire::Role::expert}};
     EXPECT_EQ(fact(overlay(facts), "You").value, "operator");
-    const xr::Fact door = fact(overlay(facts), "At the door");
+    const window::Fact door = fact(overlay(facts), "At the door");
     EXPECT_EQ(door.value, "Ada (observer) and 1 more: Y lets in, U refuses");
     EXPECT_TRUE(door.warning) << "shown also where the line is hidden";
     facts.received.status.standing = {wire::Role::expert, true};
@@ -281,9 +281,9 @@ TEST(Facts, AFrozenPictureSaysSoAtOnceWithItsAgeAndTheKey) {
 
 TEST(Facts, ThePlaceUnderTheMouseIsTheLastFactAndMovesNoOther) {
     Facts facts = healthy();
-    const std::vector<xr::Fact> before = overlay(facts).facts;
+    const std::vector<window::Fact> before = overlay(facts).facts;
     facts.pointed = "1.28 m from camera 1";
-    std::vector<xr::Fact> after = overlay(facts).facts;
+    std::vector<window::Fact> after = overlay(facts).facts;
     ASSERT_EQ(after.size(), before.size() + 1);
     EXPECT_EQ(after.back().value, facts.pointed);
     after.pop_back();

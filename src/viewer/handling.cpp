@@ -9,7 +9,7 @@
 
 namespace theatron::viewer {
 
-void Handling::on_input(xr::WindowInput& input, bool part, std::optional<double> surface_m,
+void Handling::on_input(window::WindowInput& input, bool part, std::optional<double> surface_m,
                         double aspect, const render::CameraView& view, Meeting& meeting,
                         client::Participant& participant, TimePoint now) {
     if (!hold_.holds())
@@ -32,17 +32,17 @@ void Handling::on_input(xr::WindowInput& input, bool part, std::optional<double>
         const HoldMove move = *hold_.move(room);
         (void)participant.move_object(move.object, move.room_from_object, move.scale);
     }
-    for (const xr::KeyPress& key : input.keys)
+    for (const window::KeyPress& key : input.keys)
         on_key(key.action, view, meeting, participant);
     if (hold_.holds() && input.released)
         pass(hold_.let_go(room), participant);
 }
 
 // The keys that change the size of points change the width of the held screen.
-void Handling::change_width(xr::WindowInput& input, const HoldRoom& room) {
-    std::erase_if(input.keys, [&](const xr::KeyPress& key) {
-        const bool larger = key.action == xr::Action::larger_points;
-        if (!larger && key.action != xr::Action::smaller_points)
+void Handling::change_width(window::WindowInput& input, const HoldRoom& room) {
+    std::erase_if(input.keys, [&](const window::KeyPress& key) {
+        const bool larger = key.action == window::Action::larger_points;
+        if (!larger && key.action != window::Action::smaller_points)
             return false;
         const double factor = larger ? screen_width_step : 1 / screen_width_step;
         (void)hold_.set_scale(room, session::clamped_screen_width(hold_.scale() * factor));
@@ -69,15 +69,15 @@ void Handling::pass(const HoldStep& step, client::Participant& participant) {
         note_ = step.note;
 }
 
-void Handling::on_key(xr::Action action, const render::CameraView& view, const Meeting& meeting,
+void Handling::on_key(window::Action action, const render::CameraView& view, const Meeting& meeting,
                       client::Participant& participant) {
-    if (action == xr::Action::new_brick)
+    if (action == window::Action::new_brick)
         make_brick(view, participant);
-    else if (action != xr::Action::remove && action != xr::Action::give)
+    else if (action != window::Action::remove && action != window::Action::give)
         return;
     else if (!hold_.holds())
         note_ = say(Phrase::hold_first);
-    else if (action == xr::Action::remove)
+    else if (action == window::Action::remove)
         pass(hold_.remove(meeting.held_room()), participant);
     else
         pass(hold_.give_to_nearest(meeting.held_room()), participant);

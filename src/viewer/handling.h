@@ -10,7 +10,7 @@
 #include "viewer/meeting.h"
 #include "viewer/tools/hold.h"
 #include "viewer/tools/slice.h"
-#include "xr/window_input.h"
+#include "window/window_input.h"
 
 namespace theatron::viewer {
 
@@ -24,7 +24,7 @@ public:
     // distance of the cloud at input.grabbed, along the view's axis: an object behind it cannot be
     // grabbed. `aspect` is the picture's width divided by its height.
     // `part`: a part of an organ is held, not the organ.
-    void on_input(xr::WindowInput& input, bool part, std::optional<double> surface_m, double aspect,
+    void on_input(window::WindowInput& input, bool part, std::optional<double> surface_m, double aspect,
                   const render::CameraView& view, Meeting& meeting,
                   client::Participant& participant, TimePoint now);
 
@@ -39,9 +39,9 @@ public:
 private:
     void grab(Vec2 pointer, bool part, std::optional<double> surface_m,
               const render::CameraView& view, Meeting& meeting, client::Participant& participant);
-    void change_width(xr::WindowInput& input, const HoldRoom& room);
+    void change_width(window::WindowInput& input, const HoldRoom& room);
     void pass(const HoldStep& step, client::Participant& participant);
-    void on_key(xr::Action action, const render::CameraView& view, const Meeting& meeting,
+    void on_key(window::Action action, const render::CameraView& view, const Meeting& meeting,
                 client::Participant& participant);
 
     Hold hold_;

@@ -220,7 +220,7 @@ void Headset::show_menu(const xr::Intents& intents, const MenuFacts& facts) {
 }
 
 // The plate stays where it came while the person moves, and goes with them to another place.
-void Headset::show_panels(std::vector<xr::Panel> panels) {
+void Headset::show_panels(std::vector<window::Panel> panels) {
     constexpr double ahead_m = 0.7, aside_m = 0.3, above_eyes_m = 0.05;
     if (panels.empty() || panels_.empty() || panels.front().title != panels_.front().title)
         first_row_ = 0;

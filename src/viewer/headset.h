@@ -39,7 +39,7 @@ public:
 
     // Shows these panels on a plate, which comes before the person where there was none; none: no
     // plate.
-    void show_panels(std::vector<xr::Panel> panels);
+    void show_panels(std::vector<window::Panel> panels);
     // The command of the panels' button that was pressed since the last call, or close_plate.
     std::optional<int> take_pressed() { return std::exchange(pressed_, std::nullopt); }
 
@@ -118,7 +118,7 @@ private:
     std::optional<MenuRow> wish_;
     static constexpr double panel_width_m = 0.5;
     Plate panel_{panel_width_m};
-    std::vector<xr::Panel> panels_;
+    std::vector<window::Panel> panels_;
     std::size_t first_row_ = 0;               // that the plate shows
     Vec3 floor_from_panel_, floor_from_eye_;  // the plate's upper edge, the head when it came
     std::optional<int> pressed_;

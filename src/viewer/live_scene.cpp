@@ -15,7 +15,7 @@
 #include "viewer/looking_back.h"
 #include "viewer/still_cover.h"
 #include "wire/condition_text.h"
-#include "xr/font.h"
+#include "window/font.h"
 
 namespace theatron::viewer {
 namespace {
@@ -413,7 +413,7 @@ const render::SceneFrame* LiveScene::scene_for(const render::CameraView& view) {
 }
 
 void LiveScene::make_passes() {
-    const render::FontAtlas atlas = render::load_font_atlas(xr::text_font());
+    const render::FontAtlas atlas = render::load_font_atlas(window::text_font());
     passes_ = std::make_unique<render::ScenePasses>(&atlas);
 }
 

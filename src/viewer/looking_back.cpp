@@ -73,7 +73,7 @@ void LookingBack::add_panel(const std::string& past, bool knows_objects,
     const auto button = [&](const std::string& label, Duration ago) {
         return panel.button(label, LookBackTo{ago});
     };
-    xr::PanelRow row{past.empty() ? say(Phrase::the_present) : past,
+    window::PanelRow row{past.empty() ? say(Phrase::the_present) : past,
                      past.empty()    ? ""
                      : knows_objects ? say(Phrase::people_are_of_now)
                                      : say(Phrase::objects_are_unknown),

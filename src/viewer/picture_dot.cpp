@@ -6,7 +6,7 @@
 
 #include "phrases/phrase.h"
 #include "viewer/age_text.h"
-#include "xr/drawing_watch.h"
+#include "pace/drawing_watch.h"
 
 namespace theatron::viewer {
 namespace {
@@ -23,11 +23,11 @@ std::string tenths(double ms) {
 
 }  // namespace
 
-xr::PictureDot picture_dot(const DotFacts& facts) {
-    using Level = xr::PictureDot::Level;
+window::PictureDot picture_dot(const DotFacts& facts) {
+    using Level = window::PictureDot::Level;
     using Phase = client::Participant::Phase;
     const auto dot = [](Level level, const std::string& words) {
-        return xr::PictureDot{level, words,
+        return window::PictureDot{level, words,
                               say(level == Level::good   ? Phrase::dot_good_hint
                                   : level == Level::slow ? Phrase::dot_slow_hint
                                                          : Phrase::dot_bad_hint)};
@@ -40,13 +40,13 @@ xr::PictureDot picture_dot(const DotFacts& facts) {
         return dot(Level::bad, say(Phrase::dot_not_live));
     if (!facts.has_picture)
         return dot(Level::slow, say(Phrase::dot_no_picture));
-    if (facts.age_ms.value_or(0) >= to_ms(xr::still_after))
+    if (facts.age_ms.value_or(0) >= to_ms(pace::still_after))
         return dot(Level::bad, say(Phrase::dot_old, age_text(*facts.age_ms)));
     if (facts.is_missing_a_camera)
         return dot(Level::bad, say(Phrase::dot_not_live));
     const std::string words =
         facts.age_ms ? say(Phrase::dot_live, tenths(*facts.age_ms)) : say(Phrase::dot_live_unknown);
-    xr::PictureDot shown =
+    window::PictureDot shown =
         dot(facts.age_ms.value_or(0) >= old_picture_ms || facts.is_late || facts.unrest > 0
                 ? Level::slow
                 : Level::good,

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "client/participant.h"
-#include "xr/tool_bar.h"
+#include "window/tool_bar.h"
 
 namespace theatron::viewer {
 
@@ -23,6 +23,6 @@ struct DotFacts {
 };
 
 // Its command is not set.
-xr::PictureDot picture_dot(const DotFacts& facts);
+window::PictureDot picture_dot(const DotFacts& facts);
 
 }  // namespace theatron::viewer

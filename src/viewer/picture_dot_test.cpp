@@ -9,7 +9,7 @@
 namespace theatron::viewer {
 namespace {
 
-using Level = xr::PictureDot::Level;
+using Level = window::PictureDot::Level;
 using Phase = client::Participant::Phase;
 
 DotFacts live_dot() {

@@ -76,7 +76,7 @@ void Playing::on_tick(client::Participant& participant, TimePoint now) {
         seek(participant, *std::exchange(wanted_, std::nullopt), now);
 }
 
-std::optional<xr::PanelRow> Playing::bar(const client::Participant& participant, bool may_play,
+std::optional<window::PanelRow> Playing::bar(const client::Participant& participant, bool may_play,
                                          TimePoint now, RoomPanel& panel) const {
     const auto playback = participant.playback();
     if (!playback)
@@ -88,14 +88,14 @@ std::optional<xr::PanelRow> Playing::bar(const client::Participant& participant,
     if (wanted_ ||
         (playback->at < participant.session_time(asked_at_) && now - asked_at_ < answered_within))
         here = std::min(wanted_.value_or(asked_), playback->length);
-    xr::PanelRow bar{
+    window::PanelRow bar{
         say(Phrase::bar_recording, clock_text(here), clock_text(playback->length)),
         playback->paused && !playback->by.empty() ? say(Phrase::paused_by, playback->by) : "",
         {}};
     if (playback->paused && playback->by.empty())
         bar.detail = say(Phrase::at_its_end);
     bar.slider =
-        xr::PanelSlider{to_seconds(here), 0, std::max(to_seconds(playback->length), 0.001), -1};
+        window::PanelSlider{to_seconds(here), 0, std::max(to_seconds(playback->length), 0.001), -1};
     if (!may_play)
         return bar;
     using What = PlayStep::What;

@@ -31,7 +31,7 @@ public:
     void on_tick(client::Participant& participant, TimePoint now);
 
     // The bar, if the host plays a recording; with buttons if this person may use them.
-    std::optional<xr::PanelRow> bar(const client::Participant& participant, bool may_play,
+    std::optional<window::PanelRow> bar(const client::Participant& participant, bool may_play,
                                     TimePoint now, RoomPanel& panel) const;
 
 private:

@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "phrases/phrase.h"
 #include "render/cloud_set.h"
-#include "xr/drawing_pace.h"
+#include "pace/drawing_pace.h"
 
 namespace theatron::viewer {
 namespace {
@@ -40,7 +40,7 @@ void check_renderer_choice(const std::string& name) {
 std::string renderer_for(const std::string& choice, std::size_t cameras) {
     if (choice != automatic)
         return choice;
-    return xr::automatic_ways(cameras, 1).front().renderer;
+    return pace::automatic_ways(cameras, 1).front().renderer;
 }
 
 std::string follow_host(session::RendererChoice& choice, const wire::SetRenderer& word) {

@@ -60,7 +60,7 @@ std::string doing(const RoomPanelFacts& facts, const room::RoomPerson& person) {
 }  // namespace
 
 void add_places_panel(const std::vector<Place>& places, RoomPanel& panel) {
-    xr::Panel where{say(Phrase::places), {}};
+    window::Panel where{say(Phrase::places), {}};
     for (const Place& place : places)
         where.rows.push_back({place.name, "", {panel.button(say(Phrase::go), GoToPlace{place})}});
     panel.panels.push_back(std::move(where));
@@ -80,9 +80,9 @@ RoomPanel room_panel(const RoomPanelFacts& facts) {
                                 : say(label),
                             decision);
     };
-    xr::Panel who{say(Phrase::people), {}};
+    window::Panel who{say(Phrase::people), {}};
     for (const room::RoomPerson& person : facts.people) {
-        xr::PanelRow row{person.name, doing(facts, person), {}};
+        window::PanelRow row{person.name, doing(facts, person), {}};
         if (person.head && facts.may_go)
             row.buttons.push_back(button(Phrase::go_to, GoToPerson{person.id}));
         if (person.head && facts.may_look_through)
@@ -120,7 +120,7 @@ RoomPanel room_panel(const RoomPanelFacts& facts) {
         add_places_panel(facts.places, panel);
     // Below the others: they stay in their places when somebody knocks.
     if (facts.is_operator && !facts.visitors.empty()) {
-        xr::Panel door{say(Phrase::at_the_door), {}};
+        window::Panel door{say(Phrase::at_the_door), {}};
         for (const wire::Visitor& visitor : facts.visitors)
             door.rows.push_back(
                 {visitor.name,
@@ -136,7 +136,7 @@ RoomPanel call_panel(const std::vector<room::RoomPerson>& callers) {
     RoomPanel panel;
     if (callers.empty())
         return panel;
-    xr::Panel offer{say(Phrase::calls_you), {}};
+    window::Panel offer{say(Phrase::calls_you), {}};
     for (const room::RoomPerson& person : callers) {
         const int first = int(panel.commands.size());
         panel.commands.push_back(AnswerCall{person.id, true});
@@ -152,9 +152,9 @@ RoomPanel call_panel(const std::vector<room::RoomPerson>& callers) {
 
 RoomPanel joined(RoomPanel upper, const RoomPanel& lower) {
     const int before = int(upper.commands.size());
-    for (xr::Panel panel : lower.panels) {
-        for (xr::PanelRow& row : panel.rows)
-            for (xr::PanelButton& button : row.buttons)
+    for (window::Panel panel : lower.panels) {
+        for (window::PanelRow& row : panel.rows)
+            for (window::PanelButton& button : row.buttons)
                 button.command += before;
         upper.panels.push_back(std::move(panel));
     }

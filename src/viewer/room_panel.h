@@ -14,8 +14,8 @@
 #include "viewer/sheet.h"
 #include "viewer/tools/tool.h"
 #include "viewer/voices.h"
-#include "xr/overlay_content.h"
-#include "xr/window_input.h"
+#include "window/overlay_content.h"
+#include "window/window_input.h"
 
 namespace theatron::viewer {
 
@@ -109,7 +109,7 @@ struct StudyPress {  // in the panel of a study
     bool operator==(const StudyPress&) const = default;
 };
 struct PressKey {  // as its key does
-    xr::Action action{};
+    window::Action action{};
 };
 struct ShowSheet {
     Sheet sheet{};
@@ -120,15 +120,15 @@ using RoomCommand = std::variant<GoToPerson, LookThrough, GoToPlace, Decide, Ask
                                  LookBackTo, UseSound, StudyPress, PressKey, ShowSheet>;
 
 struct RoomPanel {
-    std::vector<xr::Panel> panels;
-    std::vector<RoomCommand> commands;  // by the number in xr::PanelButton
+    std::vector<window::Panel> panels;
+    std::vector<RoomCommand> commands;  // by the number in window::PanelButton
 
     // The number of a further command.
     int add(RoomCommand command) {
         commands.push_back(std::move(command));
         return int(commands.size()) - 1;
     }
-    xr::PanelButton button(std::string label, RoomCommand command) {
+    window::PanelButton button(std::string label, RoomCommand command) {
         return {std::move(label), add(std::move(command))};
     }
 };

@@ -47,12 +47,12 @@ bool may_decide_on_screen(const session::RoomObject& screen, ParticipantId self,
 
 void add_screen_panel(const ScreenPanelFacts& facts, RoomPanel& panel) {
     using What = ChangeScreen::What;
-    xr::Panel screens{say(Phrase::screens), {}};
+    window::Panel screens{say(Phrase::screens), {}};
     for (const auto& [id, object] : *facts.objects) {
         const auto screen = session::decode_shared_screen(object.kind, object.properties);
         if (!screen || !screen->camera || session::is_recorded(id))
             continue;
-        xr::PanelRow row{screen->name, state_of(object, *screen, facts), {}};
+        window::PanelRow row{screen->name, state_of(object, *screen, facts), {}};
         const auto add = [&, number = id](Phrase label, What what) {
             row.buttons.push_back(panel.button(say(label), ChangeScreen{what, number}));
         };

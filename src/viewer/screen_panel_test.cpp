@@ -36,10 +36,10 @@ std::optional<Shown> shown(const session::RoomObject& object, wire::Role role) {
     add_screen_panel({&objects, onlooker, role, {{other_sharer, "Ben"}}}, panel);
     if (panel.panels.empty())
         return std::nullopt;
-    const xr::PanelRow& row = panel.panels.at(0).rows.at(0);
+    const window::PanelRow& row = panel.panels.at(0).rows.at(0);
     EXPECT_EQ(row.text, "scope");
     Shown result{row.detail, {}, {}};
-    for (const xr::PanelButton& button : row.buttons) {
+    for (const window::PanelButton& button : row.buttons) {
         result.labels.push_back(button.label);
         if (std::holds_alternative<GoToPlace>(panel.commands.at(std::size_t(button.command))))
             continue;

@@ -8,7 +8,7 @@
 #include "room/people.h"
 #include "viewer/age_text.h"
 #include "wire/condition_text.h"
-#include "xr/drawing_watch.h"
+#include "pace/drawing_watch.h"
 
 namespace theatron::viewer {
 namespace {
@@ -81,7 +81,7 @@ bool SharedScreens::note(const std::vector<client::CameraFigures>& cameras, Time
         const bool is_marked = screen.is_past || one.played != client::CameraFigures::Played::no;
         const bool is_faint = age_ms && !is_marked &&
                               (one.camera.state.condition != wire::CameraCondition::live ||
-                               *age_ms >= to_ms(xr::still_after));
+                               *age_ms >= to_ms(pace::still_after));
         changed = changed || caption != screen.caption || is_faint != screen.is_faint;
         screen.is_faint = is_faint;
         screen.caption = std::move(caption);

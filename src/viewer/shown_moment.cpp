@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "xr/drawing_watch.h"
+#include "pace/drawing_watch.h"
 
 namespace theatron::viewer {
 
@@ -13,7 +13,7 @@ ShownMoment shown_moment(const std::map<CameraId, receive::CameraFramePtr>& fram
     for (const auto& [camera, frame] : frames) {
         const double age_ms = to_ms(session_time - frame->times.captured);
         moment.age_ms = std::max(moment.age_ms, age_ms);
-        if (frame->past || age_ms >= to_ms(xr::still_after) || stale.contains(camera))
+        if (frame->past || age_ms >= to_ms(pace::still_after) || stale.contains(camera))
             moment.is_live = false;
     }
     return moment;

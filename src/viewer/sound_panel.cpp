@@ -18,7 +18,7 @@ std::string shown_name(const std::string& device) {
 }
 
 void add_kind(UseSound::Kind kind, const std::vector<std::string>& devices,
-              const std::string& in_use, RoomPanel& panel, xr::Panel& sound) {
+              const std::string& in_use, RoomPanel& panel, window::Panel& sound) {
     if (devices.empty() && in_use.empty())
         return;
     const Phrase title =
@@ -37,7 +37,7 @@ void add_kind(UseSound::Kind kind, const std::vector<std::string>& devices,
 }  // namespace
 
 void add_sound_panel(const SoundChoices& choices, RoomPanel& panel) {
-    xr::Panel sound{say(Phrase::sound), {}};
+    window::Panel sound{say(Phrase::sound), {}};
     add_kind(UseSound::Kind::microphone, choices.microphones, choices.microphone, panel, sound);
     add_kind(UseSound::Kind::loudspeaker, choices.loudspeakers, choices.loudspeaker, panel, sound);
     if (!sound.rows.empty())

@@ -12,9 +12,9 @@ TEST(SoundPanel, HasAButtonForEachDeviceThatIsNotInUse) {
     ASSERT_EQ(panel.panels.size(), 1u);
     const auto& rows = panel.panels[0].rows;
     ASSERT_EQ(rows.size(), 4u);
-    EXPECT_EQ(rows[0], (xr::PanelRow{"Microphone", "The usual one", {}}));
+    EXPECT_EQ(rows[0], (window::PanelRow{"Microphone", "The usual one", {}}));
     EXPECT_EQ(rows[1].text, "Headset");
-    EXPECT_EQ(rows[2], (xr::PanelRow{"Loudspeaker", "Monitor", {}}));
+    EXPECT_EQ(rows[2], (window::PanelRow{"Loudspeaker", "Monitor", {}}));
     EXPECT_EQ(rows[3].text, "The usual one");
     const auto& headset =
         std::get<UseSound>(panel.commands.at(std::size_t(rows[1].buttons.at(0).command)));

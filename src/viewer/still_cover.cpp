@@ -6,12 +6,12 @@
 #include "geometry/screen.h"
 #include "phrases/phrase.h"
 #include "viewer/age_text.h"
-#include "xr/drawing_watch.h"
+#include "pace/drawing_watch.h"
 
 namespace theatron::viewer {
 
 bool stands_still(const ShownCamera& camera, TimePoint now) {
-    return !camera.is_exempt && camera.newest && now - *camera.newest >= xr::still_after;
+    return !camera.is_exempt && camera.newest && now - *camera.newest >= pace::still_after;
 }
 
 std::optional<Duration> all_still(const std::vector<ShownCamera>& cameras, TimePoint now) {

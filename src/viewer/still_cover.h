@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // When the whole picture is covered because no camera's picture shows the present. Pure.
 //
-// A live picture that is older than xr::still_after never looks live. Where one camera of several
+// A live picture that is older than pace::still_after never looks live. Where one camera of several
 // stands still its cloud is faint and a warning names it; where all do, the picture is covered. Not
 // covered: what is marked as not live already (a recording, the past, a picture that the person
 // froze), cameras that are not shown here, and the first picture, which is still on its way.

@@ -177,14 +177,14 @@ std::optional<StudyPress> StudyPanel::press_of(const StudyKey& key, TimePoint no
     return std::nullopt;
 }
 
-void StudyPanel::add_texts(xr::Panel& rows) const {
+void StudyPanel::add_texts(window::Panel& rows) const {
     for (const wire::StudyText& text : step_->texts)
         rows.rows.push_back({text.text, "", {}});
     if (!step_->problem.empty())
         rows.rows.push_back({step_->problem, "", {}});
 }
 
-xr::PanelButton StudyPanel::answer(const std::string& label, int value, RoomPanel& panel) const {
+window::PanelButton StudyPanel::answer(const std::string& label, int value, RoomPanel& panel) const {
     return panel.button(marked(label, chosen_ == value), StudyPress{What::choose, value});
 }
 
@@ -195,23 +195,23 @@ std::string StudyPanel::typed_text() const {
     return say(Phrase::study_reply_is, (negative_ ? "-" : "") + digits);
 }
 
-void StudyPanel::add_keys(xr::Panel& rows, RoomPanel& panel) const {
+void StudyPanel::add_keys(window::Panel& rows, RoomPanel& panel) const {
     rows.rows.push_back({typed_text(), "", {}});
     for (const auto& [first, last] : {std::pair{1, 5}, std::pair{6, 10}}) {
-        xr::PanelRow keys;
+        window::PanelRow keys;
         for (int key = first; key <= last; ++key)
             keys.buttons.push_back(
                 panel.button(std::to_string(key % 10), StudyPress{What::digit, key % 10}));
         rows.rows.push_back(std::move(keys));
     }
-    xr::PanelRow last;
+    window::PanelRow last;
     if (bounds().first < 0)
         last.buttons.push_back(panel.button("-", StudyPress{What::minus}));
     last.buttons.push_back(panel.button(say(Phrase::study_erase), StudyPress{What::erase}));
     rows.rows.push_back(std::move(last));
 }
 
-void StudyPanel::add_answers(xr::Panel& rows, RoomPanel& panel) const {
+void StudyPanel::add_answers(window::Panel& rows, RoomPanel& panel) const {
     if (step_->kind == StudyKind::consent || step_->kind == StudyKind::yes_no) {
         rows.rows.push_back(
             {"",
@@ -229,7 +229,7 @@ void StudyPanel::add_answers(xr::Panel& rows, RoomPanel& panel) const {
                     {say(Phrase::study_points, std::to_string(point), meaning), "", {}});
         if (is_typed())
             return add_keys(rows, panel);
-        xr::PanelRow points;
+        window::PanelRow points;
         for (std::int64_t point = step_->lowest; point <= step_->highest;
              point += step_->step_size) {
             if (points.buttons.size() == std::size_t(points_in_row))
@@ -241,7 +241,7 @@ void StudyPanel::add_answers(xr::Panel& rows, RoomPanel& panel) const {
 }
 
 // Rows without buttons, because their texts change by themselves.
-void StudyPanel::add_time(xr::Panel& rows, TimePoint now) const {
+void StudyPanel::add_time(window::Panel& rows, TimePoint now) const {
     if (step_->kind == StudyKind::watch && !may_go_on(now))
         rows.rows.push_back(
             {say(Phrase::study_watch_for, seconds_text(step_->watch - seen_for(now))), "", {}});
@@ -254,7 +254,7 @@ void StudyPanel::add_time(xr::Panel& rows, TimePoint now) const {
              {}});
 }
 
-void StudyPanel::add_ways_on(xr::Panel& rows, RoomPanel& panel, TimePoint now) const {
+void StudyPanel::add_ways_on(window::Panel& rows, RoomPanel& panel, TimePoint now) const {
     const auto button = [&](Phrase label, What what) {
         return panel.button(say(label), StudyPress{what});
     };
@@ -265,7 +265,7 @@ void StudyPanel::add_ways_on(xr::Panel& rows, RoomPanel& panel, TimePoint now) c
                               button(Phrase::study_keep_on, What::keep_on)}});
         return;
     }
-    xr::PanelRow on;
+    window::PanelRow on;
     if (may_go_on(now))
         on.buttons.push_back(button(Phrase::study_go_on, What::go_on));
     if (step_->kind >= StudyKind::number)
@@ -290,7 +290,7 @@ void StudyPanel::add_panel(RoomPanel& panel, TimePoint now) const {
     const auto button = [&](Phrase label, What what) {
         return panel.button(say(label), StudyPress{what});
     };
-    xr::Panel rows{say(Phrase::study), {}};
+    window::Panel rows{say(Phrase::study), {}};
     rows.keyboard = keyboard_number();
     rows.large = true;
     if (aside_) {

@@ -58,12 +58,12 @@ private:
     std::uint64_t keyboard_number() const;
     bool may_go_on(TimePoint now) const;
     Duration seen_for(TimePoint now) const { return now - shown_; }
-    void add_texts(xr::Panel& rows) const;
-    void add_answers(xr::Panel& rows, RoomPanel& panel) const;
-    void add_keys(xr::Panel& rows, RoomPanel& panel) const;
-    void add_time(xr::Panel& rows, TimePoint now) const;
-    void add_ways_on(xr::Panel& rows, RoomPanel& panel, TimePoint now) const;
-    xr::PanelButton answer(const std::string& label, int value, RoomPanel& panel) const;
+    void add_texts(window::Panel& rows) const;
+    void add_answers(window::Panel& rows, RoomPanel& panel) const;
+    void add_keys(window::Panel& rows, RoomPanel& panel) const;
+    void add_time(window::Panel& rows, TimePoint now) const;
+    void add_ways_on(window::Panel& rows, RoomPanel& panel, TimePoint now) const;
+    window::PanelButton answer(const std::string& label, int value, RoomPanel& panel) const;
 
     std::optional<wire::StudyStep> step_;
     std::uint64_t version_ = 0;

@@ -27,16 +27,16 @@ protected:
     bool show(const wire::StudyStep& step) {
         return panel.take(client::Participant::Study{step, ++version_}, now);
     }
-    xr::Panel shown() {
+    window::Panel shown() {
         RoomPanel made;
         panel.add_panel(made, now);
         commands_ = made.commands;
-        return made.panels.empty() ? xr::Panel{} : made.panels.at(0);
+        return made.panels.empty() ? window::Panel{} : made.panels.at(0);
     }
     std::vector<std::string> labels() {
         std::vector<std::string> all;
-        for (const xr::PanelRow& row : shown().rows)
-            for (const xr::PanelButton& button : row.buttons)
+        for (const window::PanelRow& row : shown().rows)
+            for (const window::PanelButton& button : row.buttons)
                 all.push_back(button.label);
         return all;
     }
@@ -45,14 +45,14 @@ protected:
         return std::find(all.begin(), all.end(), label) != all.end();
     }
     bool says(const std::string& text) {
-        const xr::Panel rows = shown();
+        const window::Panel rows = shown();
         return std::any_of(rows.rows.begin(), rows.rows.end(),
-                           [&](const xr::PanelRow& row) { return row.text == text; });
+                           [&](const window::PanelRow& row) { return row.text == text; });
     }
     // As a person does, who can press only what is there.
     std::optional<wire::StudyReply> press(const std::string& label) {
-        for (const xr::PanelRow& row : shown().rows)
-            for (const xr::PanelButton& button : row.buttons)
+        for (const window::PanelRow& row : shown().rows)
+            for (const window::PanelButton& button : row.buttons)
                 if (button.label == label)
                     return panel.carry_out(
                         std::get<StudyPress>(commands_.at(std::size_t(button.command))), now);
@@ -102,7 +102,7 @@ TEST_F(StudyPanelOfAPerson, PointsStandInRowsAndManyOfThemAreTyped) {
     load.step_size = 5;
     show(load);
     EXPECT_TRUE(has("0") && has("95") && has("100"));
-    for (const xr::PanelRow& row : shown().rows)
+    for (const window::PanelRow& row : shown().rows)
         EXPECT_LE(row.buttons.size(), std::size_t(StudyPanel::points_in_row));
     load.step_size = 1;
     load.step = 2;

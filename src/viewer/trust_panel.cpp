@@ -49,12 +49,12 @@ std::string exactness_text(const client::CameraFigures& camera) {
     return "";
 }
 
-xr::Panel trust_panel(const client::ParticipantFigures& figures,
+window::Panel trust_panel(const client::ParticipantFigures& figures,
                       const std::function<std::string(const std::string&)>& filter_name) {
-    xr::Panel panel{say(Phrase::cameras), {}};
+    window::Panel panel{say(Phrase::cameras), {}};
     for (const client::CameraFigures& camera : figures.cameras) {
         const wire::CameraState& state = camera.camera.state;
-        xr::PanelRow row{camera.camera.description.name, "", {}};
+        window::PanelRow row{camera.camera.description.name, "", {}};
         if (!camera.depth.has_come) {
             row.text = say(Phrase::row_waits, row.text);
         } else {

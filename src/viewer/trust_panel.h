@@ -7,7 +7,7 @@
 #include <string>
 
 #include "client/participant_figures.h"
-#include "xr/overlay_content.h"
+#include "window/overlay_content.h"
 
 namespace theatron::viewer {
 
@@ -16,7 +16,7 @@ namespace theatron::viewer {
 std::string exactness_text(const client::CameraFigures& camera);
 
 // `filter_name` as in overlay_of().
-xr::Panel trust_panel(const client::ParticipantFigures& figures,
+window::Panel trust_panel(const client::ParticipantFigures& figures,
                       const std::function<std::string(const std::string&)>& filter_name);
 
 // "Camera left is NOT LIVE: 12 s old", of the cameras that sent pictures and no longer do; empty:

@@ -28,7 +28,7 @@ client::CameraFigures camera(const std::string& name) {
     return one;
 }
 
-xr::PanelRow row_of(const client::CameraFigures& one) {
+window::PanelRow row_of(const client::CameraFigures& one) {
     return trust_panel({{}, {one}},
                        [](const std::string& filter) {
                            return filter.empty() ? std::string("unfiltered") : "named " + filter;
@@ -37,7 +37,7 @@ xr::PanelRow row_of(const client::CameraFigures& one) {
 }
 
 TEST(TrustPanel, TellsAgeLossCodecsAndFilters) {
-    const xr::PanelRow row = row_of(camera("left"));
+    const window::PanelRow row = row_of(camera("left"));
     EXPECT_EQ(row.text, "left: 85 ms");
     EXPECT_EQ(row.detail,
               "30 fps, 10.0 Mbit/s, 3 left out\n"

@@ -29,7 +29,7 @@ Viewer::Viewer(Options options, client::Participant& participant)
       scene_(options_.room, options_.people),
       eye_(options_.view),
       choice_(options_.renderer),
-      pace_(xr::automatic_ways(1, options_.scale)),
+      pace_(pace::automatic_ways(1, options_.scale)),
       rest_(!options_.has_gpu),
       sits_(options_.sits),
       shows_panels_(options_.shows_people),
@@ -49,7 +49,7 @@ void Viewer::note(const std::string& text, TimePoint now) {
     notice_.say(text, now);
 }
 
-void Viewer::on_input(xr::WindowInput input, std::optional<double> grabbed_m, Size picture,
+void Viewer::on_input(window::WindowInput input, std::optional<double> grabbed_m, Size picture,
                       TimePoint now) {
     mouse_ = input.pointer_covered ? std::nullopt : input.pointer;
     picture_ = picture;
@@ -70,8 +70,8 @@ void Viewer::on_input(xr::WindowInput input, std::optional<double> grabbed_m, Si
     if (const std::string text = handling_.take_note(); !text.empty())
         note(text, now);
     scene_changed_ = scene_changed_ || input.redraw;
-    for (const xr::KeyPress& key : input.keys) {
-        if (key.action == xr::Action::slice_here)
+    for (const window::KeyPress& key : input.keys) {
+        if (key.action == window::Action::slice_here)
             show_slice_at(input, picture, now);
         on_key(key, picture, now);
     }
@@ -92,18 +92,18 @@ void Viewer::tell_refusals(TimePoint now) {
 
 namespace {
 
-std::optional<StudyKey> study_key(const xr::KeyPress& key) {
+std::optional<StudyKey> study_key(const window::KeyPress& key) {
     using What = StudyKey::What;
     switch (key.action) {
-        case xr::Action::view_camera:
+        case window::Action::view_camera:
             return StudyKey{What::digit, key.camera + 1};
-        case xr::Action::from_above:
+        case window::Action::from_above:
             return StudyKey{What::digit, 0};
-        case xr::Action::smaller_points:
+        case window::Action::smaller_points:
             return StudyKey{What::minus};
-        case xr::Action::undo_mark:
+        case window::Action::undo_mark:
             return StudyKey{What::erase};
-        case xr::Action::press_control:
+        case window::Action::press_control:
             return StudyKey{What::go_on};
         default:
             return std::nullopt;
@@ -112,7 +112,7 @@ std::optional<StudyKey> study_key(const xr::KeyPress& key) {
 
 }  // namespace
 
-void Viewer::on_key(const xr::KeyPress& key, Size picture, TimePoint now) {
+void Viewer::on_key(const window::KeyPress& key, Size picture, TimePoint now) {
     // Digits and Return reply to a step of a study while it is shown.
     if (const auto of_study = study_key(key))
         if (const auto press = study_.press_of(*of_study, now))
@@ -122,12 +122,12 @@ void Viewer::on_key(const xr::KeyPress& key, Size picture, TimePoint now) {
     keep_one_panel(before);
 }
 
-void Viewer::carry_out(const xr::KeyPress& key, Size picture, TimePoint now) {
+void Viewer::carry_out(const window::KeyPress& key, Size picture, TimePoint now) {
     switch (key.action) {
-        case xr::Action::help:
+        case window::Action::help:
             help_ = !help_;
             break;
-        case xr::Action::facts:
+        case window::Action::facts:
             // Another panel may have closed that of the facts.
             line_ = options_.one_panel ? sheet() != Sheet::details : !line_;
             scene_.set_ages_shown(line_);
@@ -135,43 +135,43 @@ void Viewer::carry_out(const xr::KeyPress& key, Size picture, TimePoint now) {
             if (options_.one_panel)
                 toggle_sheet(Sheet::details);
             break;
-        case xr::Action::point:
+        case window::Action::point:
             points_ = !points_;
             if (points_ && tools_.any()) {  // the mouse does one of both
                 tools_.choose(ToolKind::none, scene_.meeting());
                 scene_changed_ = true;
             }
             break;
-        case xr::Action::more:
+        case window::Action::more:
             toggle_sheet(sheet_ == Sheet::none || sheet_ == Sheet::details ? Sheet::more : sheet_);
             break;
-        case xr::Action::next_renderer:
+        case window::Action::next_renderer:
             choose_next_renderer(now);
             break;
-        case xr::Action::next_depth_codec:
+        case window::Action::next_depth_codec:
             choose_next_depth_codec(now);
             break;
-        case xr::Action::next_color_codec:
+        case window::Action::next_color_codec:
             choose_next_color_codec(now);
             break;
-        case xr::Action::people:
+        case window::Action::people:
             shows_panels_ = !shows_panels_;
             break;
-        case xr::Action::show_case:
+        case window::Action::show_case:
             shows_case_ = !shows_case_;
             break;
-        case xr::Action::marks:
+        case window::Action::marks:
             points_ = false;
             tools_.choose(tools_.any() ? ToolKind::none : ToolKind::stroke, scene_.meeting());
             scene_changed_ = true;
             break;
-        case xr::Action::undo_mark:
+        case window::Action::undo_mark:
             if (!undo_mark(participant_))
                 note(say(Phrase::no_own_mark), now);
             break;
-        case xr::Action::slice_here:
+        case window::Action::slice_here:
             break;  // needs the mouse: show_slice_at()
-        case xr::Action::sit_or_stand:
+        case window::Action::sit_or_stand:
             if (!eye_.is_placed())
                 break;
             sits_ = !sits_;
@@ -180,69 +180,69 @@ void Viewer::carry_out(const xr::KeyPress& key, Size picture, TimePoint now) {
             { eye_.go_to(at_eye_height(eye_.view(picture).room_from_eye)); }
             note(say(sits_ ? Phrase::sitting : Phrase::standing), now);
             break;
-        case xr::Action::own_view:
-        case xr::Action::view_camera:
+        case window::Action::own_view:
+        case window::Action::view_camera:
             go_home(key, picture, now);
             break;
-        case xr::Action::camera_pictures:
+        case window::Action::camera_pictures:
             camera_pictures_ =
                 camera_pictures_ ? std::nullopt : std::optional<CameraPictures>(std::in_place);
             large_.reset();
             break;
-        case xr::Action::from_above:
+        case window::Action::from_above:
             view_from_above(now);
             break;
-        case xr::Action::larger_points:
-        case xr::Action::smaller_points:
-            change_point_size(key.action == xr::Action::larger_points ? 1.25 : 1 / 1.25, now);
+        case window::Action::larger_points:
+        case window::Action::smaller_points:
+            change_point_size(key.action == window::Action::larger_points ? 1.25 : 1 / 1.25, now);
             break;
-        case xr::Action::freeze:
+        case window::Action::freeze:
             freeze(now);
             break;
-        case xr::Action::pause_recording:
-        case xr::Action::seek_back:
-        case xr::Action::seek_forward:
-        case xr::Action::live:
-        case xr::Action::adjust_cameras:
-        case xr::Action::nudge:
+        case window::Action::pause_recording:
+        case window::Action::seek_back:
+        case window::Action::seek_forward:
+        case window::Action::live:
+        case window::Action::adjust_cameras:
+        case window::Action::nudge:
             on_camera_key(key, picture, now);
             break;
-        case xr::Action::call:
+        case window::Action::call:
             call(!is_calling(now), now);
             break;
-        case xr::Action::come:
+        case window::Action::come:
             if (const auto people = callers(); !people.empty())
                 answer_call(people.front().id, true, now);
             else
                 note(say(Phrase::nobody_calls), now);
             break;
-        case xr::Action::admit:
+        case window::Action::admit:
             decide_on_visitor(wire::ManageAction::admit, now);
             break;
-        case xr::Action::turn_away:
+        case window::Action::turn_away:
             decide_on_visitor(wire::ManageAction::turn_away, now);
             break;
-        case xr::Action::new_brick:
-        case xr::Action::give:
-        case xr::Action::remove:
-        case xr::Action::leave:
-        case xr::Action::full_screen:
-        case xr::Action::microphone:
-        case xr::Action::push_to_talk:
-        case xr::Action::voice_recording:
-        case xr::Action::own_face:
-        case xr::Action::save_picture:
-        case xr::Action::save_points:
-        case xr::Action::leave_session:
-        case xr::Action::next_control:
-        case xr::Action::previous_control:
-        case xr::Action::press_control:
+        case window::Action::new_brick:
+        case window::Action::give:
+        case window::Action::remove:
+        case window::Action::leave:
+        case window::Action::full_screen:
+        case window::Action::microphone:
+        case window::Action::push_to_talk:
+        case window::Action::voice_recording:
+        case window::Action::own_face:
+        case window::Action::save_picture:
+        case window::Action::save_points:
+        case window::Action::leave_session:
+        case window::Action::next_control:
+        case window::Action::previous_control:
+        case window::Action::press_control:
             break;  // the first three are of objects (handling.h), the others of the window
     }
 }
 
 // The arc begins below the eye, so that it is seen from above.
-void Viewer::aim_teleport(const xr::WindowInput& input, Size picture) {
+void Viewer::aim_teleport(const window::WindowInput& input, Size picture) {
     constexpr Vec3 hand_from_eye{0.15, 0.3, 0.1};
     if (!eye_.is_placed() || !scene_.free_space())
         return;
@@ -312,18 +312,18 @@ void Viewer::follow_study(TimePoint now) {
 // Restarts the choice of a drawing mode if the list of modes has changed.
 void Viewer::choose_pace() {
     auto ways = choice_.renderer() == automatic
-                    ? xr::automatic_ways(scene_.calibrations().size(), options_.scale)
-                    : xr::ways_of(choice_.renderer(), options_.scale);
+                    ? pace::automatic_ways(scene_.calibrations().size(), options_.scale)
+                    : pace::ways_of(choice_.renderer(), options_.scale);
     if (ways == pace_.ways())
         return;
     begin_pace(std::move(ways));
 }
 
-void Viewer::begin_pace(std::vector<xr::DrawingWay> ways) {
-    const std::size_t begin = headset_           ? xr::begin_with_headset(ways, way())
+void Viewer::begin_pace(std::vector<pace::DrawingWay> ways) {
+    const std::size_t begin = headset_           ? pace::begin_with_headset(ways, way())
                               : options_.has_gpu ? 0
-                                                 : xr::begin_without_gpu(ways);
-    pace_ = xr::DrawingPace(std::move(ways), begin, pace_limits_);
+                                                 : pace::begin_without_gpu(ways);
+    pace_ = pace::DrawingPace(std::move(ways), begin, pace_limits_);
     scene_changed_ = true;
 }
 

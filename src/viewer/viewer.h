@@ -34,9 +34,9 @@
 #include "viewer/sound_panel.h"
 #include "viewer/study_panel.h"
 #include "viewer/tools/tool.h"
-#include "xr/drawing_pace.h"
-#include "xr/drawing_rest.h"
-#include "xr/window_input.h"
+#include "pace/drawing_pace.h"
+#include "pace/drawing_rest.h"
+#include "window/window_input.h"
 
 namespace theatron::viewer {
 
@@ -62,13 +62,13 @@ public:
 
     // Keys that concern the scene, objects of the room, and steering. `grabbed_m` is the distance
     // of the surface at input.grabbed, along the view's axis, if there is one.
-    void on_input(xr::WindowInput input, std::optional<double> grabbed_m, Size picture,
+    void on_input(window::WindowInput input, std::optional<double> grabbed_m, Size picture,
                   TimePoint now);
     // A button of the panels that facts() gave last.
     void press(int command, TimePoint now);
     // The keys that pressed buttons stand for, since the last call: the program acts as if they
     // came from the keyboard, and gives those of the viewer back to on_input().
-    std::vector<xr::KeyPress> take_pressed() { return std::exchange(pressed_, {}); }
+    std::vector<window::KeyPress> take_pressed() { return std::exchange(pressed_, {}); }
     // A slider of these panels is held from press() on, and now has this value.
     void slide(double value);
 
@@ -85,7 +85,7 @@ public:
     // each side. If the driver cannot run a renderer, the previous one is used again; Error if
     // there is none.
     void draw(Size picture, const render::DrawTarget& target, TimePoint now);
-    const xr::DrawingWay& way() const { return pace_.way(); }
+    const pace::DrawingWay& way() const { return pace_.way(); }
     // True once after a step() that made cameras, which takes as long as a picture: a page draws in
     // its next event.
     bool take_made_cameras() { return scene_.take_made_cameras(); }
@@ -174,9 +174,9 @@ public:
 
 private:
     void tell_refusals(TimePoint now);
-    void on_key(const xr::KeyPress& key, Size picture, TimePoint now);
-    void carry_out(const xr::KeyPress& key, Size picture, TimePoint now);
-    void go_home(const xr::KeyPress& key, Size picture, TimePoint now);
+    void on_key(const window::KeyPress& key, Size picture, TimePoint now);
+    void carry_out(const window::KeyPress& key, Size picture, TimePoint now);
+    void go_home(const window::KeyPress& key, Size picture, TimePoint now);
     void view_from_above(TimePoint now);
     void change_point_size(double factor, TimePoint now);
     void freeze(TimePoint now);
@@ -191,7 +191,7 @@ private:
     void follow_host(TimePoint now);
     void follow_study(TimePoint now);
     void choose_pace();
-    void begin_pace(std::vector<xr::DrawingWay> ways);
+    void begin_pace(std::vector<pace::DrawingWay> ways);
     void send_own_pose(Size picture, TimePoint now);
     void follow_wish(const MenuRow& wish, TimePoint now);
     void open_plate(Sheet sheet);
@@ -201,7 +201,7 @@ private:
     void bring(const Pose& room_from_eye);
     void draw_eyes(const render::CameraView& head, std::vector<render::EyePicture> eyes,
                    TimePoint now);
-    void aim_teleport(const xr::WindowInput& input, Size picture);
+    void aim_teleport(const window::WindowInput& input, Size picture);
     void look_through_followed(TimePoint now);
     void stop_following();
     std::optional<Pose> place_beside(ParticipantId id) const;
@@ -236,17 +236,17 @@ private:
     std::vector<room::RoomPerson> callers() const;  // whom the user has not answered
     bool is_calling(TimePoint now) const { return now < calls_until_; }
     std::optional<Pose> meeting_place() const;
-    void use_tool(xr::WindowInput& input, Size picture, TimePoint now);
-    void point(const xr::WindowInput& input, Size picture);
+    void use_tool(window::WindowInput& input, Size picture, TimePoint now);
+    void point(const window::WindowInput& input, Size picture);
     void add_pointing(wire::PersonPose& pose);
-    void on_camera_key(const xr::KeyPress& key, Size picture, TimePoint now);
-    void adjust_cameras(const xr::KeyPress& key, Size picture, TimePoint now);
+    void on_camera_key(const window::KeyPress& key, Size picture, TimePoint now);
+    void adjust_cameras(const window::KeyPress& key, Size picture, TimePoint now);
     void follow_cameras(TimePoint now);
     // Once, when the cameras have sent pictures: a person of the options who is not where they say.
     void note_unseen_people(TimePoint now);
-    void draw_region(xr::WindowInput& input, Size picture, TimePoint now);
-    bool look_back(const xr::KeyPress& key, TimePoint now);
-    void keep_present(xr::WindowInput& input, TimePoint now);
+    void draw_region(window::WindowInput& input, Size picture, TimePoint now);
+    bool look_back(const window::KeyPress& key, TimePoint now);
+    void keep_present(window::WindowInput& input, TimePoint now);
     void look_back(Duration ago, TimePoint now);
     std::string past(TimePoint now) const;
     std::string played(TimePoint now) const;
@@ -265,7 +265,7 @@ private:
     void add_open_panels(const Facts& facts, RoomPanel& panel, TimePoint now);
     void add_sheet(Sheet sheet, const Facts& facts, RoomPanel& panel, TimePoint now);
     void add_tool_choice(const Facts& facts, RoomPanel& panel) const;
-    void show_slice_at(const xr::WindowInput& input, Size picture, TimePoint now);
+    void show_slice_at(const window::WindowInput& input, Size picture, TimePoint now);
     void add_case(RoomPanel& panel) const;
     Pose at_eye_height(Pose room_from_eye) const;
     std::string camera_text(CameraId camera) const;
@@ -304,13 +304,13 @@ private:
 
     session::RendererChoice choice_;
     std::string working_renderer_;
-    xr::PaceLimits pace_limits_;
-    xr::DrawingPace pace_;
-    xr::DrawingRest rest_;
+    pace::PaceLimits pace_limits_;
+    pace::DrawingPace pace_;
+    pace::DrawingRest rest_;
     unsigned preparations_ = 0;  // calls of prepare()
     TimePoint receiving_noted_;
     std::uint64_t dropped_ = 0;                   // then
-    std::optional<xr::DrawingPace> window_pace_;  // before the headset
+    std::optional<pace::DrawingPace> window_pace_;  // before the headset
     bool fading_ = false, moving_ = false;
     bool scene_changed_ = true;
     std::optional<ParticipantId> followed_;  // the person through whose eyes the user sees
@@ -332,7 +332,7 @@ private:
     Sheet sheet_ = Sheet::none;              // one of those that are not open by other members
     bool points_ = false;                    // with the mouse, until the person ends it
     TimePoint leave_asked_until_;
-    std::vector<xr::KeyPress> pressed_;
+    std::vector<window::KeyPress> pressed_;
     CameraUnrest unrest_;
     std::vector<RoomCommand> commands_;  // of the panels' buttons
     bool help_ = false;

@@ -13,26 +13,26 @@
 namespace theatron::viewer {
 namespace {
 
-xr::Action action_of(xr::ToolIcon item) {
+window::Action action_of(window::ToolIcon item) {
     switch (item) {
-        case xr::ToolIcon::microphone:
-            return xr::Action::microphone;
-        case xr::ToolIcon::webcam:
-            return xr::Action::own_face;
-        case xr::ToolIcon::point:
-            return xr::Action::point;
-        case xr::ToolIcon::draw:
-            return xr::Action::marks;
-        case xr::ToolIcon::patient_case:
-            return xr::Action::show_case;
-        case xr::ToolIcon::people:
-            return xr::Action::people;
-        case xr::ToolIcon::leave:
-            return xr::Action::leave_session;
-        case xr::ToolIcon::more:
+        case window::ToolIcon::microphone:
+            return window::Action::microphone;
+        case window::ToolIcon::webcam:
+            return window::Action::own_face;
+        case window::ToolIcon::point:
+            return window::Action::point;
+        case window::ToolIcon::draw:
+            return window::Action::marks;
+        case window::ToolIcon::patient_case:
+            return window::Action::show_case;
+        case window::ToolIcon::people:
+            return window::Action::people;
+        case window::ToolIcon::leave:
+            return window::Action::leave_session;
+        case window::ToolIcon::more:
             break;
     }
-    return xr::Action::more;
+    return window::Action::more;
 }
 
 }  // namespace
@@ -107,9 +107,9 @@ void Viewer::add_tools(Facts& facts, RoomPanel& panel, TimePoint now) const {
     bar.is_past = !facts.past.empty();
     bar.visitors = facts.visitors.size();
     bar.asks_leave = now < leave_asked_until_;
-    xr::ToolBar tools;
-    const auto command = [&](xr::Action action) { return panel.add(PressKey{action}); };
-    tools.dot.command = command(xr::Action::facts);
+    window::ToolBar tools;
+    const auto command = [&](window::Action action) { return panel.add(PressKey{action}); };
+    tools.dot.command = command(window::Action::facts);
     for (const BarItem& item : bar_items(bar)) {
         tools.tools.push_back({item.id, say(item.label), say(item.hint), item.pressed, item.off,
                                item.alarm, item.badge, command(action_of(item.id))});
@@ -147,28 +147,28 @@ void Viewer::add_offers(Facts& facts, RoomPanel& panel, TimePoint now) const {
 }
 
 void Viewer::add_more_panel(RoomPanel& panel) const {
-    xr::Panel more{say(Phrase::bar_more), {}};
+    window::Panel more{say(Phrase::bar_more), {}};
     const auto row = [&](Phrase text, RoomCommand command) {
         more.rows.push_back(
             {say(text), "", {panel.button(say(Phrase::more_open), std::move(command))}});
     };
-    const auto row_of_window = [&](Phrase text, xr::Action key) {
+    const auto row_of_window = [&](Phrase text, window::Action key) {
         if (!headset_)
             row(text, PressKey{key});
     };
-    row_of_window(Phrase::more_help, xr::Action::help);
+    row_of_window(Phrase::more_help, window::Action::help);
     row(Phrase::sound, ShowSheet{Sheet::sound});
-    row_of_window(Phrase::more_pictures, xr::Action::camera_pictures);
+    row_of_window(Phrase::more_pictures, window::Action::camera_pictures);
     row(Phrase::places, ShowSheet{Sheet::places});
     row(Phrase::screens, ShowSheet{Sheet::screens});
     if (participant_.can_look_back())
         row(Phrase::look_back_alone, ShowSheet{Sheet::look_back});
-    row_of_window(Phrase::more_details, xr::Action::facts);
-    row_of_window(Phrase::more_home, xr::Action::own_view);
-    row_of_window(Phrase::more_full_screen, xr::Action::full_screen);
-    row_of_window(Phrase::more_save, xr::Action::save_picture);
+    row_of_window(Phrase::more_details, window::Action::facts);
+    row_of_window(Phrase::more_home, window::Action::own_view);
+    row_of_window(Phrase::more_full_screen, window::Action::full_screen);
+    row_of_window(Phrase::more_save, window::Action::save_picture);
     if (may(session::Right::adjust))
-        row(Phrase::more_adjust, PressKey{xr::Action::adjust_cameras});
+        row(Phrase::more_adjust, PressKey{window::Action::adjust_cameras});
     panel.panels.push_back(std::move(more));
 }
 

@@ -8,7 +8,7 @@
 
 namespace theatron::viewer {
 
-void Viewer::show_slice_at(const xr::WindowInput& input, Size picture, TimePoint now) {
+void Viewer::show_slice_at(const window::WindowInput& input, Size picture, TimePoint now) {
     if (!eye_.is_placed() || !input.pointer)
         return;
     const render::CameraView view = eye_.view(picture);

@@ -16,7 +16,7 @@ void Viewer::enter_headset(bool real_room, double pictures_per_s, TimePoint now)
     headset_wish_.reset();
     open_plate(study_.is_on() && !study_.is_aside() ? Sheet::study : Sheet::none);
     tools_.choose(ToolKind::none, scene_.meeting());
-    pace_limits_ = xr::limits_of_display(pictures_per_s);
+    pace_limits_ = pace::limits_of_display(pictures_per_s);
     window_pace_ = pace_;
     begin_pace(pace_.ways());
     if (!real_room)

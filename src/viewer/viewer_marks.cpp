@@ -15,7 +15,7 @@ Pose look_along(Vec3 place, Vec3 direction) {
 
 }  // namespace
 
-void Viewer::use_tool(xr::WindowInput& input, Size picture, TimePoint now) {
+void Viewer::use_tool(window::WindowInput& input, Size picture, TimePoint now) {
     // With a headset the hands have the tool.
     if (!tools_.any() || !eye_.is_placed() || headset_)
         return;
@@ -35,7 +35,7 @@ void Viewer::use_tool(xr::WindowInput& input, Size picture, TimePoint now) {
 }
 
 // The ray begins below the eye, so that its owner sees it from the side.
-void Viewer::point(const xr::WindowInput& input, Size picture) {
+void Viewer::point(const window::WindowInput& input, Size picture) {
     constexpr Vec3 hand_from_eye{0.15, 0.25, 0.2};
     const bool pointed = pointer_.has_value();
     pointer_.reset();

@@ -40,7 +40,7 @@ std::string place_text(Vec3 place) {
 
 }  // namespace
 
-void Viewer::go_home(const xr::KeyPress& key, Size picture, TimePoint now) {
+void Viewer::go_home(const window::KeyPress& key, Size picture, TimePoint now) {
     stop_following();
     if (const auto place = meeting_place(); place && eye_.is_placed()) {
         eye_.go_to(at_eye_height(*place));
@@ -48,7 +48,7 @@ void Viewer::go_home(const xr::KeyPress& key, Size picture, TimePoint now) {
         return;
     }
     ViewChoice choice{eye_.home().camera, 0, 0};
-    if (key.action == xr::Action::view_camera)
+    if (key.action == window::Action::view_camera)
         choice.camera = CameraId(key.camera);
     try {
         eye_.go_home(choice, cameras(), picture);
@@ -110,15 +110,15 @@ void Viewer::slide(double value) {
 
 // The recording that a host plays is moved for all; without one a person looks back alone. False:
 // the key is not meant so.
-bool Viewer::look_back(const xr::KeyPress& key, TimePoint now) {
+bool Viewer::look_back(const window::KeyPress& key, TimePoint now) {
     const bool is_looking = participant_.looks_back();
     const bool moves =
-        key.action == xr::Action::seek_back || key.action == xr::Action::seek_forward;
-    if (key.action == xr::Action::live && is_looking)
+        key.action == window::Action::seek_back || key.action == window::Action::seek_forward;
+    if (key.action == window::Action::live && is_looking)
         look_back(Duration(0), now);
     else if (!moves || (!is_looking && participant_.playback()))
-        return key.action == xr::Action::live;
-    else if (key.action == xr::Action::seek_back)
+        return key.action == window::Action::live;
+    else if (key.action == window::Action::seek_back)
         look_back(looking_back_.further(participant_, now), now);
     else if (is_looking)
         look_back(looking_back_.nearer(participant_, now), now);
@@ -131,14 +131,14 @@ void Viewer::look_back(Duration ago, TimePoint now) {
 }
 
 // Looking back, a person changes nothing of the present by what is shown of the past.
-void Viewer::keep_present(xr::WindowInput& input, TimePoint now) {
+void Viewer::keep_present(window::WindowInput& input, TimePoint now) {
     tools_.choose(ToolKind::none, scene_.meeting());
     const std::size_t count = input.keys.size();
     const auto last =
-        std::remove_if(input.keys.begin(), input.keys.end(), [](const xr::KeyPress& key) {
-            return key.action == xr::Action::new_brick || key.action == xr::Action::give ||
-                   key.action == xr::Action::remove || key.action == xr::Action::marks ||
-                   key.action == xr::Action::undo_mark || key.action == xr::Action::slice_here;
+        std::remove_if(input.keys.begin(), input.keys.end(), [](const window::KeyPress& key) {
+            return key.action == window::Action::new_brick || key.action == window::Action::give ||
+                   key.action == window::Action::remove || key.action == window::Action::marks ||
+                   key.action == window::Action::undo_mark || key.action == window::Action::slice_here;
         });
     input.keys.erase(last, input.keys.end());
     if (input.points || input.keys.size() < count)
@@ -180,14 +180,14 @@ ShownMoment Viewer::shown_moment(TimePoint now) const {
     return moment;
 }
 
-void Viewer::on_camera_key(const xr::KeyPress& key, Size picture, TimePoint now) {
+void Viewer::on_camera_key(const window::KeyPress& key, Size picture, TimePoint now) {
     if (look_back(key, now))
         return;
-    if (key.action == xr::Action::pause_recording)
+    if (key.action == window::Action::pause_recording)
         on(PlayStep{PlayStep::What::toggle}, now);
-    else if (key.action == xr::Action::seek_back)
+    else if (key.action == window::Action::seek_back)
         on(PlayStep{PlayStep::What::back}, now);
-    else if (key.action == xr::Action::seek_forward)
+    else if (key.action == window::Action::seek_forward)
         on(PlayStep{PlayStep::What::forward}, now);
     else
         adjust_cameras(key, picture, now);
@@ -218,8 +218,8 @@ void Viewer::note_unseen_people(TimePoint now) {
         note(text, now);
 }
 
-void Viewer::adjust_cameras(const xr::KeyPress& key, Size picture, TimePoint now) {
-    if (key.action == xr::Action::nudge) {
+void Viewer::adjust_cameras(const window::KeyPress& key, Size picture, TimePoint now) {
+    if (key.action == window::Action::nudge) {
         if (!adjusting_.is_shown() || !eye_.is_placed())
             return;
         const Vec3 forward = rotate(eye_.view(picture).room_from_eye.rotation, {0, 0, 1});
@@ -233,7 +233,7 @@ void Viewer::adjust_cameras(const xr::KeyPress& key, Size picture, TimePoint now
         eye_.go_to(eye_.view(picture).room_from_eye);
 }
 
-void Viewer::draw_region(xr::WindowInput& input, Size picture, TimePoint now) {
+void Viewer::draw_region(window::WindowInput& input, Size picture, TimePoint now) {
     if (!adjusting_.is_shown() || !eye_.is_placed())
         return;
     if (const std::string text = adjusting_.draw(input, eye_.view(picture), scene_.cloud());
@@ -312,7 +312,7 @@ void Viewer::add_camera_pictures(Facts& facts, RoomPanel& panel, TimePoint now) 
             const ShowLarge show{id, kind};
             if (!pixels || (large_ && *large_ != show))
                 return;
-            xr::OverlayPicture picture{
+            window::OverlayPicture picture{
                 picture_title(camera_text(id) + ", " + say(name), age_ms, is_live),
                 pixels,
                 {},

@@ -23,19 +23,19 @@ std::string meter_text(int level_db) {
     return text;
 }
 
-std::optional<xr::Fact> recorded_voice_fact(const Voices& voices) {
+std::optional<window::Fact> recorded_voice_fact(const Voices& voices) {
     if (!voices.may_record || !voices.microphone || *voices.microphone == Microphone::none)
         return std::nullopt;
     return *voices.may_record
-               ? xr::Fact{say(Phrase::your_voice), say(Phrase::voice_is_recorded), true}
-               : xr::Fact{say(Phrase::your_voice), say(Phrase::voice_is_not_recorded), false};
+               ? window::Fact{say(Phrase::your_voice), say(Phrase::voice_is_recorded), true}
+               : window::Fact{say(Phrase::your_voice), say(Phrase::voice_is_not_recorded), false};
 }
 
-std::optional<xr::Fact> microphone_fact(const Voices& voices, const wire::Standing& standing) {
+std::optional<window::Fact> microphone_fact(const Voices& voices, const wire::Standing& standing) {
     if (!voices.microphone)
         return std::nullopt;
     const auto fact = [&](Phrase text, bool warning) {
-        return xr::Fact{say(Phrase::microphone), say(text, meter_text(voices.own_level_db)),
+        return window::Fact{say(Phrase::microphone), say(text, meter_text(voices.own_level_db)),
                         warning};
     };
     switch (*voices.microphone) {

@@ -8,7 +8,7 @@
 
 #include "base/ids.h"
 #include "wire/control.h"
-#include "xr/overlay_content.h"
+#include "window/overlay_content.h"
 
 namespace theatron::viewer {
 
@@ -34,9 +34,9 @@ struct Voices {
 std::string meter_text(int level_db);
 
 // Says in a session that is recorded whether the person's voice is, too.
-std::optional<xr::Fact> recorded_voice_fact(const Voices& voices);
+std::optional<window::Fact> recorded_voice_fact(const Voices& voices);
 
 // The state of the person's own microphone, and what to do if nobody hears the person.
-std::optional<xr::Fact> microphone_fact(const Voices& voices, const wire::Standing& standing);
+std::optional<window::Fact> microphone_fact(const Voices& voices, const wire::Standing& standing);
 
 }  // namespace theatron::viewer

@@ -46,18 +46,18 @@ std::vector<std::string> lines_of(const std::string& text, double width_m) {
 }
 
 // Buttons at the right of the text where they have room there, else below it.
-void add_row(const xr::PanelRow& row, double width_m, std::vector<PlateRow>& rows) {
+void add_row(const window::PanelRow& row, double width_m, std::vector<PlateRow>& rows) {
     const double inner_m = width_m - 2 * margin_m;
     for (const std::string& line : lines_of(row.text, inner_m))
         if (!row.text.empty())
             rows.push_back({line, false, {}});
     double buttons_m = 0;
-    for (const xr::PanelButton& button : row.buttons)
+    for (const window::PanelButton& button : row.buttons)
         buttons_m += width_of(button.label) + 2 * margin_m + gap_m;
     const bool is_beside = !row.text.empty() && !row.buttons.empty() &&
                            width_of(rows.back().text) + margin_m + buttons_m <= inner_m;
     double at_m = is_beside ? width_m - margin_m - buttons_m : width_m;
-    for (const xr::PanelButton& button : row.buttons) {
+    for (const window::PanelButton& button : row.buttons) {
         const double wide_m =
             std::min(width_of(button.label) + 2 * margin_m, width_m - 2 * margin_m);
         if (at_m + wide_m > width_m - margin_m + 1e-9) {
@@ -74,15 +74,15 @@ void add_row(const xr::PanelRow& row, double width_m, std::vector<PlateRow>& row
 
 }  // namespace
 
-std::vector<PlateRow> plate_rows(const std::vector<xr::Panel>& panels, double width_m,
+std::vector<PlateRow> plate_rows(const std::vector<window::Panel>& panels, double width_m,
                                  std::size_t& first) {
     std::vector<PlateRow> rows, shown;
-    for (const xr::Panel& panel : panels) {
+    for (const window::Panel& panel : panels) {
         if (&panel == &panels.front())
             add_row({panel.title, "", {{say(Phrase::close), close_plate}}}, width_m, shown);
         else
             rows.push_back({panel.title, true, {}});
-        for (const xr::PanelRow& row : panel.rows)
+        for (const window::PanelRow& row : panel.rows)
             add_row(row, width_m, rows);
     }
     const bool is_long = shown.size() + rows.size() > most_plate_rows;

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "render/pick.h"
-#include "xr/overlay_content.h"
+#include "window/overlay_content.h"
 
 namespace theatron::viewer {
 
@@ -72,7 +72,7 @@ enum PlateCommand { close_plate = -2, earlier_rows = -3, later_rows = -4 };
 // from `first` on, with buttons that show others; `first` is kept within them. Pure.
 inline constexpr std::size_t most_plate_rows = 18;
 inline constexpr std::size_t rows_in_turn = most_plate_rows - 2;  // title and buttons stay
-std::vector<PlateRow> plate_rows(const std::vector<xr::Panel>& panels, double width_m,
+std::vector<PlateRow> plate_rows(const std::vector<window::Panel>& panels, double width_m,
                                  std::size_t& first);
 
 }  // namespace theatron::viewer

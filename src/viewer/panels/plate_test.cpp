@@ -38,8 +38,8 @@ TEST(Plate, ARayPressesTheButtonThatItMeetsFromTheFront) {
 }
 
 TEST(Plate, EachButtonOfAPanelIsOnThePlateAndNoneOverlapsAnother) {
-    xr::Panel panel{"Case", {}};
-    xr::PanelRow wide{"A long row of text that fills the plate's whole width", "detail", {}};
+    window::Panel panel{"Case", {}};
+    window::PanelRow wide{"A long row of text that fills the plate's whole width", "detail", {}};
     for (int i = 0; i < 9; ++i)
         wide.buttons.push_back({"Button " + std::to_string(i), i});
     panel.rows.push_back(wide);
@@ -57,7 +57,7 @@ TEST(Plate, EachButtonOfAPanelIsOnThePlateAndNoneOverlapsAnother) {
 }
 
 TEST(Plate, ManyRowsAreShownInTurn) {
-    xr::Panel panel{"Parts", {}};
+    window::Panel panel{"Parts", {}};
     for (int i = 0; i < 40; ++i)
         panel.rows.push_back({"Part", "", {{"Hide", i}}});
     std::size_t first = 0;

@@ -12,9 +12,9 @@ void add_tool_panel(const ToolPanelFacts& facts, RoomPanel& panel) {
     const auto button = [&](Phrase label, RoomCommand command) {
         return panel.button(say(label), std::move(command));
     };
-    std::vector<xr::PanelRow> rows;
+    std::vector<window::PanelRow> rows;
     const auto add_tools = [&](std::string name, const std::vector<ToolRow::Choice>& choices) {
-        xr::PanelRow row{std::move(name), "", {}};
+        window::PanelRow row{std::move(name), "", {}};
         for (const auto& [kind, label] : choices) {
             row.buttons.push_back(button(label, ChooseTool{kind}));
             if (kind == facts.chosen)
@@ -27,7 +27,7 @@ void add_tool_panel(const ToolPanelFacts& facts, RoomPanel& panel) {
     for (const ToolRow& row : tool_rows())
         if (!row.needs_case)
             add_tools(say(row.name), row.choices);
-    std::vector<xr::PanelButton> buttons{
+    std::vector<window::PanelButton> buttons{
         button(Phrase::undo, ChangeMarks{undo_mark}),
         button(Phrase::clear_mine,
                ChangeMarks{[](client::Participant& p) { return clear_marks(p, false); }})};

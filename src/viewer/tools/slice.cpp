@@ -152,7 +152,7 @@ void SliceTool::move(const render::PickRay& ray, const ToolScene& scene) {
         wanted_.want(next);
 }
 
-void ScreenHandling::on_input(xr::WindowInput& input, std::optional<double> surface_m,
+void ScreenHandling::on_input(window::WindowInput& input, std::optional<double> surface_m,
                               double aspect, const render::CameraView& view, Meeting& meeting,
                               client::Participant& participant, TimePoint now) {
     const CaseScene& scene = meeting.case_scene();

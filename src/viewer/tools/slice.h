@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "viewer/tools/tool.h"
-#include "xr/window_input.h"
+#include "window/window_input.h"
 
 namespace theatron::viewer {
 
@@ -79,7 +79,7 @@ public:
     static constexpr double units_per_picture = 1200;
 
     // Takes what concerns the screen out of `input`.
-    void on_input(xr::WindowInput& input, std::optional<double> surface_m, double aspect,
+    void on_input(window::WindowInput& input, std::optional<double> surface_m, double aspect,
                   const render::CameraView& view, Meeting& meeting,
                   client::Participant& participant, TimePoint now);
 
