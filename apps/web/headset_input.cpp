@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "headset_input.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -90,6 +91,7 @@ std::optional<xr::HandState> read_hand(Numbers& in) {
 std::optional<xr::HeadsetFrame> read_headset_frame(ByteView bytes) {
     Numbers in(bytes);
     xr::HeadsetFrame frame;
+    frame.until_shown = seconds_to_duration(std::clamp(in.next(), 0.0, 1000.0) / 1000);
     frame.floor_from_head = in.pose();
     const double eyes = in.next();
     if (!(eyes >= 1 && eyes <= most_eyes))

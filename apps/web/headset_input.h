@@ -2,6 +2,7 @@
 // A frame of a headset as page/headset.js writes it.
 //
 // 32-bit floats in the machine's order. A pose is x, y, z, and a quaternion x, y, z, w.
+//   milliseconds until the picture is shown, 0 if the browser does not say
 //   head: pose
 //   number of eyes; for each: x, y, width, height of its part of the framebuffer, the four parts of
 //     the projection that a frustum needs (columns 0, 5, 8, 9 of the matrix), pose

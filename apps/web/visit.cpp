@@ -192,7 +192,7 @@ bool draw(Visit& visit, Size size) {
     return true;
 }
 
-void draw_headset(Visit& visit, const xr::HeadsetFrame& frame, bool real_room) {
+void draw_headset(Visit& visit, xr::HeadsetFrame frame, bool real_room) {
     const TimePoint now = steady_now();
     // The window's size does not matter here.
     constexpr Size any{16, 9};
@@ -202,6 +202,8 @@ void draw_headset(Visit& visit, const xr::HeadsetFrame& frame, bool real_room) {
     (void)visit.viewer.step(any, now);
     const unsigned framebuffer = page().headset_framebuffer =
         theatron_headset_framebuffer(page().headset_framebuffer);
+    for (xr::HeadsetEye& eye : frame.eyes)
+        eye.framebuffer = framebuffer;
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glDepthMask(GL_TRUE);
@@ -210,7 +212,7 @@ void draw_headset(Visit& visit, const xr::HeadsetFrame& frame, bool real_room) {
     else
         glClearColor(0.09f, 0.10f, 0.12f, 1);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    visit.viewer.draw_headset(frame, framebuffer, now);
+    visit.viewer.draw_headset(frame, now);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     // While the GPU is behind, one picture in several is measured.
     if (!visit.drawing.is_waiting()) {

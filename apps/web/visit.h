@@ -102,7 +102,7 @@ void follow_color(FlatVisit& visit, const client::ParticipantFigures& figures, T
 // Begins a picture if there is a new one and the GPU is free. True if the canvas was drawn.
 bool draw(Visit& visit, Size size);
 // A picture for a headset, whatever is new: its display needs one each time.
-void draw_headset(Visit& visit, const xr::HeadsetFrame& frame, bool real_room);
+void draw_headset(Visit& visit, xr::HeadsetFrame frame, bool real_room);
 // True once the GPU has finished the last picture. Waiting for it would block the page.
 bool finish_drawing(Visit& visit);
 

@@ -19,6 +19,8 @@ constexpr double palm_turned_to_face = 0.8, palm_turned_away = 0.6;
 constexpr double pushing_m_per_s = 1.2, turning_degrees_per_s = 90;
 // A longer pause was no movement of the person.
 constexpr double longest_step_s = 0.1;
+// A prediction of a longer time is none.
+constexpr Duration longest_prediction = std::chrono::milliseconds(100);
 // An object that is this much behind a measured surface is hidden by it.
 constexpr double hidden_behind_m = 0.03;
 
@@ -86,6 +88,7 @@ void Headset::on_frame(const xr::HeadsetFrame& frame, const MenuFacts& facts, To
     const double seconds = std::clamp(to_seconds(now - at_), 0.0, longest_step_s);
     at_ = now;
     floor_from_head_ = frame.floor_from_head;
+    until_shown_ = std::clamp(frame.until_shown, Duration{}, longest_prediction);
     if (!std::exchange(has_begun_, true)) {
         const Pose head = begin_ * half_turn;
         stand({head.translation.x, 0, head.translation.z}, xr::heading_of(head));
@@ -432,7 +435,7 @@ void Headset::tell(LiveScene& scene) {
 
 wire::PersonPose Headset::pose(TimePoint session_time) const {
     wire::PersonPose pose;
-    pose.time = session_time;
+    pose.time = session_time + until_shown_;
     pose.head = part_of(room_from_floor_ * floor_from_head_);
     if (hands_[0].room_from_aim)
         pose.left_hand = part_of(*hands_[0].room_from_aim);

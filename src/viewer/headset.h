@@ -62,7 +62,7 @@ public:
     // The head as a camera (z forward, y down), with the lens of all eyes together; needs a frame.
     const render::CameraView& head() const { return head_; }
     const std::vector<render::CameraView>& eyes() const { return eyes_; }
-    // For messages.
+    // For messages; its time is that at which the picture of the last frame is seen.
     wire::PersonPose pose(TimePoint session_time) const;
 
     // The newest sentence for the user since the last call; may be empty.
@@ -125,6 +125,7 @@ private:
     std::optional<xr::Side> tool_hand_;  // that uses the tool
     Pose room_from_floor_;
     Pose floor_from_head_;
+    Duration until_shown_{};
     TimePoint at_;
     xr::XrInput input_;
     std::array<Hand, 2> hands_;  // by Side

@@ -167,6 +167,22 @@ TEST_F(HeadsetTest, ARayPressesTheButtonsOfThePanels) {
     EXPECT_FALSE(headset_->take_pressed()) << "there is no plate";
 }
 
+TEST_F(HeadsetTest, PosesHaveTheTimeAtWhichThePictureIsSeen) {
+    headset_.emplace(look_at({0, 1.6, 2}, {0, 1.6, 0}, upwards), false);
+    const auto told = [&](Duration until_shown) {
+        xr::HeadsetFrame frame;
+        frame.until_shown = until_shown;
+        frame.floor_from_head = head;
+        frame.eyes.resize(1);
+        headset_->on_frame(frame, {}, tools_, scene_, participant_, now_);
+        return headset_->pose(now_).time - now_;
+    };
+    EXPECT_EQ(told(0ms), 0ms);
+    EXPECT_EQ(told(23ms), 23ms);
+    EXPECT_EQ(told(-5ms), 0ms);
+    EXPECT_EQ(told(10s), 100ms) << "no runtime sees that far ahead";
+}
+
 TEST_F(HeadsetTest, WalkingByStickDarkensTheSidesUntilOneStands) {
     headset_.emplace(look_at({0, 1.6, 2}, {0, 1.6, 0}, upwards), false);
     const auto walk = [&](double ahead, int frames) {

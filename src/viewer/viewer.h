@@ -108,7 +108,7 @@ public:
     // In place of on_input(), before step() and draw_headset() of the same frame.
     void on_headset(const xr::HeadsetFrame& frame, TimePoint now);
     // In place of draw(): into the eyes' parts of a cleared framebuffer.
-    void draw_headset(const xr::HeadsetFrame& frame, unsigned framebuffer, TimePoint now);
+    void draw_headset(const xr::HeadsetFrame& frame, TimePoint now);
 
     // The view without texts and panels, at this size; needs facts().has_picture. Waits for
     // the GPU.

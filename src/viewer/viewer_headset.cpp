@@ -149,11 +149,11 @@ void Viewer::press_plate(int command, TimePoint now) {
         carry_out(RoomCommand(plate_commands_[std::size_t(command)]), now);
 }
 
-void Viewer::draw_headset(const xr::HeadsetFrame& frame, unsigned framebuffer, TimePoint now) {
+void Viewer::draw_headset(const xr::HeadsetFrame& frame, TimePoint now) {
     std::vector<render::EyePicture> eyes;
     for (std::size_t i = 0; i < frame.eyes.size(); ++i) {
         const xr::HeadsetEye& eye = frame.eyes[i];
-        eyes.push_back({headset_->eyes()[i], {framebuffer, eye.x, eye.y, eye.size}});
+        eyes.push_back({headset_->eyes()[i], {eye.framebuffer, eye.x, eye.y, eye.size}});
     }
     draw_eyes(headset_->head(), eyes, now);
     if (headset_->vignette() > 0 && !vignette_)

@@ -8,16 +8,19 @@
 #include <optional>
 #include <vector>
 
+#include "base/time.h"
 #include "geometry/vec.h"
 #include "image/view.h"
 
 namespace theatron::xr {
 
-// A picture of one eye: its tangents as in render::CameraView, and its part of the framebuffer,
-// whose lower left corner is (x, y).
+// A picture of one eye: its tangents as in render::CameraView, and where it is drawn: a framebuffer by
+// its name of GL (eyes share one, or each has its own), and the lower left corner (x, y) and size of its
+// part there.
 struct HeadsetEye {
     Pose floor_from_eye;
     double left = -1, right = 1, top = -1, bottom = 1;
+    unsigned framebuffer = 0;
     int x = 0, y = 0;
     Size size;
 };
@@ -41,6 +44,8 @@ struct HandState {
 enum Side { left_side, right_side };
 
 struct HeadsetFrame {
+    // From now until the picture is seen, as the runtime predicts it; poses are those of that moment.
+    Duration until_shown{};
     Pose floor_from_head;
     std::vector<HeadsetEye> eyes;                   // left, right; one on a flat display
     std::array<std::optional<HandState>, 2> hands;  // by Side; none: not tracked

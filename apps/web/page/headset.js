@@ -137,6 +137,8 @@ export class Headset {
         if (!viewer)
             return;  // the head is not tracked: the headset shows the last picture or its own
         const numbers = new Numbers();
+        // Browsers without a prediction say nothing of it.
+        numbers.put(frame.predictedDisplayTime > 0 ? frame.predictedDisplayTime - performance.now() : 0);
         numbers.pose(viewer.transform);
         numbers.put(viewer.views.length);
         const scale = this.client.headset_scale();
