@@ -82,7 +82,7 @@ void show_pictures(const DemoFlags& flags, const std::filesystem::path& folder,
     client::Participant::Options screen_options = viewer_options(link);
     screen_options.name = or_screen_name;
     client::Participant screen_viewer(std::move(screen_options));
-    const VoiceLine silence({});  // the scripted people do not speak
+    const visit::VoiceLine silence({});  // the scripted people do not speak
     OrScreenPicture screen(screen_size, (folder / "or_screen.png").string(), silence);
     const View views[] = {{"from_camera.png", "blend", {CameraId{0}, 0, 0}},
                           {"from_between.png", "blend", {CameraId{0}, -45, 5}},

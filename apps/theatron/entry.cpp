@@ -156,12 +156,13 @@ std::optional<Entered> ask_entry(window::DesktopWindow& window, window::EntryFie
                                  const std::function<void(const std::string& link)>& forget) {
     window.set_title(say(Phrase::form_title) + " - Theatron");
     window::EntryForm form(fields, {[&] { return window.clipboard(); },
-                                [&](const std::string& text) { window.set_clipboard(text); }});
+                                    [&](const std::string& text) { window.set_clipboard(text); }});
     form.set_recents(shown(recents));
     LobbyWatch watch([&] { window.wake(); });
     ReadLink read = read_link(fields.link);
     watch.set_link(read.link);
-    window::EntryFacts facts = problem.empty() ? facts_without_answer(read) : problem_facts(problem);
+    window::EntryFacts facts =
+        problem.empty() ? facts_without_answer(read) : problem_facts(problem);
     bool must_draw = true;
     while (!cli::stop_requested()) {
         window.wait(form.is_animated() ? window.picture_time() : Duration(500ms));
@@ -169,8 +170,9 @@ std::optional<Entered> ask_entry(window::DesktopWindow& window, window::EntryFie
         if (input.close)
             break;
         if (auto answer = watch.take()) {
-            const window::EntryFacts newest = answer->problem.empty() ? entry_facts(answer->lobby)
-                                                                  : problem_facts(answer->problem);
+            const window::EntryFacts newest = answer->problem.empty()
+                                                  ? entry_facts(answer->lobby)
+                                                  : problem_facts(answer->problem);
             form.set_picture(newest.can_enter ? answer->picture.view() : ColorView{});
             must_draw = must_draw || newest != facts;
             facts = newest;

@@ -14,7 +14,7 @@ constexpr const char* synthetic_remark =
     "Figures of synthetic persons say how well the network learned a model of faces, and not how "
     "well\nit reads real ones. docs/face.md tells more.\n";
 
-void add_port_options(CLI::App& command, FacePort& port, const char* what) {
+void add_port_options(CLI::App& command, visit::FacePort& port, const char* what) {
     command.add_option("--port", port.port, what)
         ->capture_default_str()
         ->check(CLI::Range(1, 65535));

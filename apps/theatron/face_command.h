@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "face_files.h"
+#include "visit/face_files.h"
 
 namespace theatron::app {
 
@@ -25,7 +25,7 @@ struct FaceTest {
 void run_face_test(const FaceTest& wanted);
 
 struct FaceListen {
-    FacePort at;
+    visit::FacePort at;
     std::string model;
     double seconds = 0;  // 0: until Ctrl-C
     bool json = false;
@@ -33,7 +33,7 @@ struct FaceListen {
 void run_face_listen(const FaceListen& wanted);
 
 struct FaceRecord {
-    FacePort at;
+    visit::FacePort at;
     std::string source = "unified", out;
     int rounds = 3;
     double take_s = 4;
@@ -42,7 +42,7 @@ struct FaceRecord {
 void run_face_record(const FaceRecord& wanted);
 
 struct FaceAct {
-    FacePort to;
+    visit::FacePort to;
     std::string source = "xr_fb";
     double seconds = 0, rate_hz = 60;
 };

@@ -18,7 +18,7 @@
 #include "files/file_bytes.h"
 #include "files/json_text.h"
 #include "files/private_file.h"
-#include "tracked_face.h"
+#include "visit/tracked_face.h"
 
 namespace theatron::app {
 namespace {
@@ -48,22 +48,29 @@ std::string listen_text(const nlohmann::json& figures) {
 }
 
 // Throws Error if the person stopped meanwhile.
-void wait_for_tracker(TrackedFace& tracked) {
-    while (tracked.next(steady_now() + face_step).tracking != face::Tracking::tracked)
+void wait_for_tracker(visit::TrackedFace& tracked) {
+    while (tracked.next(steady_now() + visit::face_step).tracking != face::Tracking::tracked)
         if (cli::stop_requested())
             throw Error("Stopped before the tracker sent anything; no recording was written.");
 }
 
+// Takes what arrives meanwhile, and throws it away.
+void wait(visit::TrackedFace& tracked, Duration time) {
+    const TimePoint end = steady_now() + time;
+    while (steady_now() < end && !cli::stop_requested())
+        tracked.next(steady_now() + visit::face_step);
+}
+
 // A take of this emotion, from now on. Nullopt if the tracker fell silent; throws Error if the
 // person stopped.
-std::optional<face::Take> recorded_take(TrackedFace& tracked, face::Emotion prompt,
+std::optional<face::Take> recorded_take(visit::TrackedFace& tracked, face::Emotion prompt,
                                         face::Source source, double seconds) {
     face::Take take;
     take.label = prompt;
     take.present.set();
     const TimePoint begin = steady_now();
     for (TimePoint now = begin; now - begin < seconds_to_duration(seconds); now = steady_now()) {
-        const face::FaceNow face = tracked.next(now + face_step);
+        const face::FaceNow face = tracked.next(now + visit::face_step);
         if (cli::stop_requested())
             throw Error("Stopped before the last take; no recording was written.");
         if (face.tracking != face::Tracking::tracked)
@@ -80,11 +87,11 @@ void run_face_listen(const FaceListen& wanted) {
     std::optional<face::EmotionReader> reader;
     bool is_synthetic = false;
     if (!wanted.model.empty()) {
-        const face::Network network = read_face_network(wanted.model);
+        const face::Network network = visit::read_face_network(wanted.model);
         is_synthetic = network.is_synthetic_only;
         reader.emplace(network);
     }
-    TrackedFace tracked(wanted.at);
+    visit::TrackedFace tracked(wanted.at);
     cli::catch_stop_signals();
     if (!wanted.json)
         output::result(
@@ -96,7 +103,7 @@ void run_face_listen(const FaceListen& wanted) {
     nlohmann::json figures;
     while (!cli::stop_requested() &&
            (wanted.seconds <= 0 || due - begin < seconds_to_duration(wanted.seconds))) {
-        due = std::max(due + face_step, steady_now());
+        due = std::max(due + visit::face_step, steady_now());
         const face::FaceNow face = tracked.next(due);
         figures = listen_json(face, tracked.counts());
         if (reader) {
@@ -119,11 +126,11 @@ void run_face_listen(const FaceListen& wanted) {
 
 void run_face_record(const FaceRecord& wanted) {
     face::Recording recording;
-    recording.source = face_source(wanted.source);
+    recording.source = visit::face_source(wanted.source);
     if (std::error_code ignored; !wanted.overwrite && std::filesystem::exists(wanted.out, ignored))
         throw Error("'" + wanted.out + "' exists already; name another file, or give --overwrite.");
     files::require_writable(wanted.out);
-    TrackedFace tracked(wanted.at);
+    visit::TrackedFace tracked(wanted.at);
     cli::catch_stop_signals();
     output::result("waiting for the tracker's packets on port " + std::to_string(wanted.at.port) +
                    "\n");
@@ -140,7 +147,7 @@ void run_face_record(const FaceRecord& wanted) {
                 output::result("round " + std::to_string(round) + " of " +
                                std::to_string(wanted.rounds) + ": show " +
                                std::string(face::to_text(prompt)) + "\n");
-                tracked.next(steady_now() + get_ready);
+                wait(tracked, get_ready);
                 take = recorded_take(tracked, prompt, recording.source, wanted.take_s);
                 if (!take)
                     output::result("the tracker fell silent; this take is made again\n");
@@ -152,8 +159,8 @@ void run_face_record(const FaceRecord& wanted) {
 }
 
 void run_face_act(const FaceAct& wanted) {
-    const face::ChannelMask mask = face::table_of(face_source(wanted.source)).mask;
-    FaceSocket socket = FaceSocket::to(wanted.to.address, wanted.to.port);
+    const face::ChannelMask mask = face::table_of(visit::face_source(wanted.source)).mask;
+    visit::FaceSocket socket = visit::FaceSocket::to(wanted.to.address, wanted.to.port);
     cli::catch_stop_signals();
     const TimePoint begin = steady_now();
     TimePoint due = begin;

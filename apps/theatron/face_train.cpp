@@ -34,7 +34,7 @@ face::Recording own_takes(const std::vector<std::string>& files, face::Source so
     face::Recording own;
     own.source = source;
     for (const std::string& file : files) {
-        const face::Recording one = read_face_recording(file);
+        const face::Recording one = visit::read_face_recording(file);
         if (one.source != source)
             throw Error("'" + file + "' is of the tracker " +
                         std::string(face::source_name(one.source)) + ", and the network is for " +
@@ -60,7 +60,7 @@ void require_absent(const std::string& file, bool overwrite) {
 }  // namespace
 
 void run_face_train(const FaceTrain& wanted) {
-    const face::Source source = face_source(wanted.source);
+    const face::Source source = visit::face_source(wanted.source);
     require_absent(wanted.out, wanted.overwrite);
     files::require_writable(wanted.out);
     face::Recording own;
@@ -105,12 +105,12 @@ void run_face_train(const FaceTrain& wanted) {
 }
 
 void run_face_test(const FaceTest& wanted) {
-    const face::Network network = read_face_network(wanted.model);
+    const face::Network network = visit::read_face_network(wanted.model);
     face::Confusion all;
     std::size_t left_out_rows = 0;
     bool is_synthetic = false;
     for (const std::string& file : wanted.recordings) {
-        const face::Recording recording = read_face_recording(file);
+        const face::Recording recording = visit::read_face_recording(file);
         const face::Confusion one = face::confusion_of(network, recording);
         for (std::size_t i = 0; i < face::emotion_count; ++i)
             for (std::size_t k = 0; k < face::emotion_count; ++k)

@@ -41,7 +41,6 @@
 #include "published_cameras.h"
 #include "room_lines.h"
 #include "session/renderer_choice.h"
-#include "source_remarks.h"
 #include "study_lines.h"
 #include "video/color_codec.h"
 #include "video/depth_codecs.h"
@@ -49,8 +48,7 @@
 #include "viewer/offscreen_view_native.h"
 #include "viewer/renderer_text.h"
 #include "viewer_window.h"
-#include "voice_line.h"
-#include "voice_lines.h"
+#include "visit/stay.h"
 
 namespace theatron::app {
 namespace {
@@ -99,43 +97,16 @@ void choose_codec(client::Participant& participant, bool depth, const std::strin
     }
 }
 
-// "voice-recording on" or "voice-recording off". False if it is another line.
-bool obey_consent_line(client::Participant& participant, const std::string& line) {
-    const bool agrees = line == "voice-recording on";
-    if (!agrees && line != "voice-recording off")
-        return false;
-    participant.allow_voice_recording(agrees);
-    return true;
-}
-
-// "webcam on" or "webcam off". False if it is another line.
-bool obey_webcam_line(publish::OwnFace* face, const std::string& line) {
-    if (line != "webcam on" && line != "webcam off")
-        return false;
-    if (face)
-        face->show(line == "webcam on");
-    else
-        log::say("There is no webcam; join with --webcam DEVICE.");
-    return true;
-}
-
-// "face on" or "face off". False if it is another line.
-bool obey_face_line(FaceLine* face, const std::string& line) {
-    if (line != "face on" && line != "face off")
-        return false;
-    if (face)
-        face->show(line == "face on");
-    else
-        log::say("No tracker of your face is used; join with --face PORT.");
-    return true;
-}
-
 // Carries out a line of standard input: "depth rvl", "depth rvl 2", "latency 200". False after
 // "quit".
-bool obey(client::Participant& participant, RoomLines& room, VoiceLine& voice,
-          const std::string& line) {
-    if (obey_voice_line(voice, line) || obey_consent_line(participant, line) ||
-        obey_people_line(participant, line) || obey_look_back_line(participant, line) ||
+bool obey(visit::Stay& stay, RoomLines& room, const std::string& line) {
+    client::Participant& participant = stay.participant();
+    if (const auto command = visit::stay_command(line)) {
+        if (const std::string sentence = stay.obey(*command); !sentence.empty())
+            log::say(sentence);
+        return true;
+    }
+    if (obey_people_line(participant, line) || obey_look_back_line(participant, line) ||
         refuse_looking_back(participant, line) || obey_camera_line(participant, line) ||
         obey_playback_line(participant, line) || obey_case_line(participant, line) ||
         obey_mark_line(participant, line) || obey_study_line(participant, line) ||
@@ -165,11 +136,9 @@ bool obey(client::Participant& participant, RoomLines& room, VoiceLine& voice,
 }
 
 // Executes the lines that were typed so far. False if one of them ends the program.
-bool obey(client::Participant& participant, RoomLines& room, VoiceLine& voice,
-          publish::OwnFace* webcam, FaceLine* face, InputLines& input) {
+bool obey(visit::Stay& stay, RoomLines& room, InputLines& input) {
     for (const std::string& line : input.take())
-        if (!obey_webcam_line(webcam, line) && !obey_face_line(face, line) &&
-            !obey(participant, room, voice, line))
+        if (!obey(stay, room, line))
             return false;
     return !input.closed_by_person();
 }
@@ -179,18 +148,17 @@ bool has_no_camera(const client::Participant& participant) {
     return participant.cameras(generation).empty();
 }
 
-nlohmann::json json_of(const client::Participant& participant, const VoiceLine& voice,
-                       const publish::OwnFace* webcam, const FaceLine* face,
-                       const JoinPicture* picture) {
+nlohmann::json json_of(const visit::Stay& stay, const JoinPicture* picture) {
+    const client::Participant& participant = stay.participant();
     nlohmann::json json = participant_json(participant);
     json["room"] = room_json(participant);
     json["cases"] = case_json(participant);
     json["study"] = study_json(participant);
-    json["voice"] = voice.json();
+    json["voice"] = stay.ports().voice->json();
     json["voice"]["may_record"] = participant.voice_may_record();
-    if (face)
+    if (const auto* const face = stay.ports().expression)
         json["face"] = face->json();
-    if (webcam)
+    if (const auto* const webcam = stay.ports().face)
         json["webcam"] = {{"state", publish::text_of(webcam->state())},
                           {"problem", participant.status().face_problem}};
     if (picture)
@@ -234,17 +202,14 @@ void run_join(const JoinFlags& flags) {
     client::Participant::Options options = participant_options(flags);
     options.link = parse_link_argument(flags.link);
     options.name = flags.name.value_or("guest");
-    VoiceLine voice({flags.microphone, flags.speaker, flags.voice_frame_ms, flags.push_to_talk,
-                     parse_cleaning(flags.echo_cancellation), parse_spatial(flags.spatial_voices)});
-    voice.hear_by(options);
+    visit::VoiceLine voice({flags.microphone, flags.speaker, flags.voice_frame_ms,
+                            flags.push_to_talk, parse_cleaning(flags.echo_cancellation),
+                            parse_spatial(flags.spatial_voices)});
     const auto publisher = open_own_cameras(flags, options);
     const auto face_line = open_face(flags);
     std::optional<publish::OwnFace> own_face;
-    if (!flags.webcam.empty()) {
-        options.face = own_face.emplace(flags.webcam).events();
-        own_face->show(true);
-    }
-    publish::OwnFace* const face = own_face ? &*own_face : nullptr;
+    if (!flags.webcam.empty())
+        own_face.emplace(flags.webcam).show(true);
 
     std::unique_ptr<JoinPicture> picture;
     check_picture_file(flags.offscreen);
@@ -258,17 +223,9 @@ void run_join(const JoinFlags& flags) {
     std::optional<cli::Saving> saving;
     if (picture)
         saving.emplace(picture_patience);
-    client::Participant participant(options);
-    std::optional<publish::Publishing> publishing;
-    if (publisher)
-        publishing.emplace(*publisher, participant);
-    std::optional<publish::FaceShowing> showing;
-    if (face)
-        showing.emplace(*face, participant);
-    const VoiceLine::Talking talking(voice, participant);
-    std::optional<FaceLine::Sending> sending;
-    if (face_line)
-        sending.emplace(*face_line, participant);
+    visit::Stay stay(options,
+                     {&voice, own_face ? &*own_face : nullptr, face_line.get(), publisher.get()});
+    client::Participant& participant = stay.participant();
     const bool live_line = !flags.json && flags.every <= 0 && isatty(STDOUT_FILENO);
     const bool has_end = flags.seconds > 0 || picture;
     const Duration length = seconds_to_duration(flags.seconds > 0 ? flags.seconds : 3);
@@ -277,7 +234,6 @@ void run_join(const JoinFlags& flags) {
     bool warm = flags.warmup <= 0;
     InputLines input;
     RoomLines room;
-    SourceRemarks remarks;
     StudyLines study;
 
     while (!cli::stop_requested()) {
@@ -289,21 +245,13 @@ void run_join(const JoinFlags& flags) {
             (void)participant.take_frames();
 
         const auto status = participant.status();
-        if (status.phase == client::Participant::Phase::joined)
-            voice.note(status.standing);
         if (status.phase == client::Participant::Phase::refused)
             throw Error(status.problem);
         if (status.phase == client::Participant::Phase::ended)
             break;
-        if (!obey(participant, room, voice, face, face_line.get(), input))
+        if (!obey(stay, room, input))
             break;
-        if (face) {
-            face->on_tick();
-            if (const std::string problem = face->take_problem(); !problem.empty())
-                log::say(problem);
-        }
-        if (publisher)
-            say(remarks.take(*publisher, steady_now()));
+        visit::say(stay.tick(steady_now()));
         voice.hold(false, steady_now());
         room.on_tick(participant);
         if (const auto& head = room.head())
@@ -328,9 +276,7 @@ void run_join(const JoinFlags& flags) {
         if (flags.every > 0)
             study.on_tick(participant);
         if (flags.every > 0 && now >= next_line) {
-            output::print(files::json_text(
-                              json_of(participant, voice, face, face_line.get(), picture.get())) +
-                          "\n");
+            output::print(files::json_text(json_of(stay, picture.get())) + "\n");
             next_line = now + seconds_to_duration(flags.every);
         } else if (live_line && now >= next_line) {
             output::status_line(status_line(participant));
@@ -338,8 +284,7 @@ void run_join(const JoinFlags& flags) {
         }
     }
     output::end_status_line();
-    const nlohmann::json figures =
-        json_of(participant, voice, face, face_line.get(), picture.get());
+    const nlohmann::json figures = json_of(stay, picture.get());
     if (picture)
         picture->write();
     saving.reset();

@@ -134,20 +134,20 @@ std::unique_ptr<publish::CameraPublisher> open_own_cameras(const JoinFlags& flag
     return publisher;
 }
 
-std::unique_ptr<FaceLine> open_face(const JoinFlags& flags) {
+std::unique_ptr<visit::FaceLine> open_face(const JoinFlags& flags) {
     if (flags.face.empty())
         return nullptr;
-    return std::make_unique<FaceLine>(
-        FaceLine::Options{flags.face, flags.face_model, flags.face_channels});
+    return std::make_unique<visit::FaceLine>(
+        visit::FaceLine::Options{flags.face, flags.face_model, flags.face_channels});
 }
 
-VoiceLine::Options::Cleaning parse_cleaning(const std::string& text) {
-    using Cleaning = VoiceLine::Options::Cleaning;
+visit::VoiceLine::Options::Cleaning parse_cleaning(const std::string& text) {
+    using Cleaning = visit::VoiceLine::Options::Cleaning;
     return text == "on" ? Cleaning::on : text == "off" ? Cleaning::off : Cleaning::automatic;
 }
 
-VoiceLine::Options::Spatial parse_spatial(const std::string& text) {
-    using Spatial = VoiceLine::Options::Spatial;
+visit::VoiceLine::Options::Spatial parse_spatial(const std::string& text) {
+    using Spatial = visit::VoiceLine::Options::Spatial;
     return text == "on" ? Spatial::on : text == "off" ? Spatial::off : Spatial::automatic;
 }
 

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "client/participant.h"
-#include "face_line.h"
 #include "or_screen_window.h"
 #include "publish/camera_publisher.h"
 #include "viewer/live_scene.h"
-#include "voice_line.h"
+#include "visit/face_line.h"
+#include "visit/voice_line.h"
 
 namespace theatron::app {
 
@@ -53,7 +53,7 @@ struct JoinFlags {
     std::string render_scale = "auto";
     std::string microphone, speaker;
     std::string webcam;            // empty: the face is not shown
-    std::string face, face_model;  // as FaceLine::Options; empty: no expression is sent
+    std::string face, face_model;  // as visit::FaceLine::Options; empty: no expression is sent
     bool face_channels = false;
     int voice_frame_ms = 20;
     std::set<std::string> given;  // "--size", ...: all that the person wrote
@@ -84,8 +84,8 @@ std::unique_ptr<publish::CameraPublisher> open_own_cameras(const JoinFlags& flag
 // The camera of the face: the one of --webcam, else the usual one, which is off at first.
 inline constexpr const char* usual_webcam = "/dev/video0";
 // Null without --face. Throws Error with one sentence.
-std::unique_ptr<FaceLine> open_face(const JoinFlags& flags);
-VoiceLine::Options::Cleaning parse_cleaning(const std::string& text);
-VoiceLine::Options::Spatial parse_spatial(const std::string& text);
+std::unique_ptr<visit::FaceLine> open_face(const JoinFlags& flags);
+visit::VoiceLine::Options::Cleaning parse_cleaning(const std::string& text);
+visit::VoiceLine::Options::Spatial parse_spatial(const std::string& text);
 
 }  // namespace theatron::app

@@ -52,16 +52,16 @@ void join_in_window(const JoinFlags& flags) {
     shown.viewer.people = viewer::parse_seen_people(flags.people, flags.myself);
     use_kept_settings(shown, flags.name, flags.renderer, flags.quality);
     shown.viewer.scale = parse_render_scale(flags.render_scale);
-    const bool is_named = flags.name || shown.settings.name != client::Settings().name;
+    const bool is_named = flags.name || shown.settings.now.name != client::Settings().name;
     bool asks = flags.link.empty() || (!is_named && !flags.is_alone);
     if (!flags.link.empty())
         shown.join.link = parse_link_argument(flags.link);
     window::EntryFields fields{flags.link,
-                           is_named ? shown.settings.name : "",
-                           is_named ? shown.settings.hears : true,
-                           shown.settings.speaks,
-                           flags.voice_may_record || shown.settings.voice_may_record,
-                           !flags.webcam.empty()};
+                               is_named ? shown.settings.now.name : "",
+                               is_named ? shown.settings.now.hears : true,
+                               shown.settings.now.speaks,
+                               flags.voice_may_record || shown.settings.now.voice_may_record,
+                               !flags.webcam.empty()};
     cli::catch_stop_signals();
     window::DesktopWindow window("Theatron", parse_size(flags.size));
     WindowWatch watch(window);
@@ -74,42 +74,40 @@ void join_in_window(const JoinFlags& flags) {
                 return;
             fields = entered->fields;
             shown.join.link = entered->link;
-            shown.join.name = shown.settings.name = fields.name;
-            shown.settings.hears = fields.hears;
-            shown.settings.speaks = fields.speaks;
-            shown.settings.voice_may_record = fields.voice_may_record;
-            shown.keep(shown.settings);
+            shown.join.name = shown.settings.now.name = fields.name;
+            shown.settings.now.hears = fields.hears;
+            shown.settings.now.speaks = fields.speaks;
+            shown.settings.now.voice_may_record = fields.voice_may_record;
+            shown.settings.keep(shown.settings.now);
         }
         std::string microphone = flags.microphone, speaker = flags.speaker;
-        const client::Settings& kept = shown.settings;
+        const client::Settings& kept = shown.settings.now;
         const bool are_kept = microphone.empty() && speaker.empty();
         if (microphone.empty() && kept.speaks)
             microphone = kept.microphone;
         if (speaker.empty() && kept.hears)
             speaker = kept.loudspeaker;
-        VoiceLine voice({microphone, speaker, flags.voice_frame_ms,
-                         flags.push_to_talk || shown.settings.push_to_talk,
-                         parse_cleaning(flags.echo_cancellation),
-                         parse_spatial(flags.spatial_voices), are_kept});
+        visit::VoiceLine voice({microphone, speaker, flags.voice_frame_ms,
+                                flags.push_to_talk || shown.settings.now.push_to_talk,
+                                parse_cleaning(flags.echo_cancellation),
+                                parse_spatial(flags.spatial_voices), are_kept});
         ViewerWindow now = shown;
-        now.join.voice_may_record = flags.voice_may_record || shown.settings.voice_may_record;
-        now.keep = [&shown](const client::Settings& settings) {
-            shown.keep(shown.settings = settings);
+        now.join.voice_may_record = flags.voice_may_record || shown.settings.now.voice_may_record;
+        now.settings.keep = [&shown](const client::Settings& settings) {
+            shown.settings.change(settings);
         };
         now.entered = [link = net::format_link(shown.join.link)](const std::string& session) {
             keep(client::with_newest(recent_links(), {link, session}));
         };
-        voice.hear_by(now.join);
         now.watch = &watch;
-        now.voice = &voice;
+        now.ports.voice = &voice;
         now.is_last = !asks;
         const auto publisher = open_own_cameras(flags, now.join);
-        now.publisher = publisher.get();
+        now.ports.cameras = publisher.get();
         // Off unless the person wants it now: this choice is not kept.
         publish::OwnFace face(flags.webcam.empty() ? usual_webcam : flags.webcam);
-        now.join.face = face.events();
-        now.face = &face;
-        now.expression = expression.get();
+        now.ports.face = &face;
+        now.ports.expression = expression.get();
         face.show(fields.shows_face);
         try {
             problem.clear();
@@ -131,9 +129,9 @@ void join_in_window(const JoinFlags& flags) {
         }
         // The next form begins with the person's last choices.
         fields.shows_face = face.is_wanted();
-        fields.hears = shown.settings.hears;
-        fields.speaks = shown.settings.speaks;
-        fields.voice_may_record = shown.settings.voice_may_record;
+        fields.hears = shown.settings.now.hears;
+        fields.speaks = shown.settings.now.speaks;
+        fields.voice_may_record = shown.settings.now.voice_may_record;
     }
 }
 
@@ -144,9 +142,9 @@ void join_as_or_screen(const JoinFlags& flags) {
     if (!waits)
         options.link = parse_link_argument(flags.link);
     options.name = flags.name.value_or(or_screen_name);
-    VoiceLine voice({flags.microphone, flags.speaker, flags.voice_frame_ms, flags.push_to_talk,
-                     parse_cleaning(flags.echo_cancellation), parse_spatial(flags.spatial_voices)});
-    voice.hear_by(options);
+    visit::VoiceLine voice({flags.microphone, flags.speaker, flags.voice_frame_ms,
+                            flags.push_to_talk, parse_cleaning(flags.echo_cancellation),
+                            parse_spatial(flags.spatial_voices)});
     cli::catch_stop_signals();
     window::DesktopWindow window("Theatron", parse_size(flags.size));
     show_or_screen(window, {waits ? flags.link : "", std::move(options), voice, flags.seconds});

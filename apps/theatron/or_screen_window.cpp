@@ -39,8 +39,8 @@ public:
         join.link = link;
         join.news = [this] { window_.wake(); };
         or_screen::OrScreen screen;
-        client::Participant participant(std::move(join));
-        const VoiceLine::Talking talking(options_.voice, participant);
+        visit::Stay stay(std::move(join), {.voice = &options_.voice});
+        client::Participant& participant = stay.participant();
         std::optional<TimePoint> ended;
         TimePoint next{};
         watch_.rest();
@@ -50,8 +50,7 @@ public:
                 watch_.beat();
             const auto phase = participant.status().phase;
             using Phase = client::Participant::Phase;
-            if (phase == Phase::joined)
-                options_.voice.note(participant.status().standing);
+            (void)stay.tick(now);
             if (phase == Phase::ended || phase == Phase::refused) {
                 if (!ended)
                     ended = now;
@@ -132,7 +131,7 @@ void show_or_screen(window::DesktopWindow& window, OrScreenWindow options) {
     }
 }
 
-OrScreenPicture::OrScreenPicture(Size size, std::string file, const VoiceLine& voice)
+OrScreenPicture::OrScreenPicture(Size size, std::string file, const visit::VoiceLine& voice)
     : size_(size), file_(std::move(file)), voice_(voice) {}
 
 void OrScreenPicture::take(client::Participant& participant) {

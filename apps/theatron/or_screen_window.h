@@ -9,7 +9,7 @@
 #include "join_pictures.h"
 #include "or_screen/or_screen.h"
 #include "render/offscreen_context_native.h"
-#include "voice_line.h"
+#include "visit/stay.h"
 #include "window/desktop_window_native.h"
 
 namespace theatron::app {
@@ -20,8 +20,8 @@ inline constexpr const char* or_screen_name = "OR screen";
 struct OrScreenWindow {
     std::string link_file;  // "@FILE", read again for every session; empty: join.link
     client::Participant::Options join;
-    VoiceLine& voice;    // its packets must come by `join`
-    double seconds = 0;  // end this long after the beginning; 0: never
+    visit::VoiceLine& voice;  // its packets must come by `join`
+    double seconds = 0;       // end this long after the beginning; 0: never
 };
 
 // Fills the screen until the window is closed or the program is stopped. After the end of a
@@ -31,7 +31,7 @@ void show_or_screen(window::DesktopWindow& window, OrScreenWindow options);
 class OrScreenPicture : public JoinPicture {
 public:
     // `voice` must outlive it.
-    OrScreenPicture(Size size, std::string file, const VoiceLine& voice);
+    OrScreenPicture(Size size, std::string file, const visit::VoiceLine& voice);
     void take(client::Participant& participant);
     void take(client::Participant& participant, RoomLines&) override { take(participant); }
     void write() override;
@@ -44,7 +44,7 @@ public:
 private:
     const Size size_;
     const std::string file_;
-    const VoiceLine& voice_;
+    const visit::VoiceLine& voice_;
     render::OffscreenContext context_;
     or_screen::OrScreen screen_;
 };

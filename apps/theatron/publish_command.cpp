@@ -21,7 +21,7 @@
 #include "link_argument.h"
 #include "participant_json.h"
 #include "published_cameras.h"
-#include "source_remarks.h"
+#include "visit/source_remarks.h"
 #include "wire/condition_text.h"
 
 namespace theatron::app {
@@ -109,7 +109,7 @@ void run(const PublishFlags& flags) {
     const bool live_line = flags.every <= 0 && isatty(STDOUT_FILENO);
     const TimePoint begin = steady_now();
     TimePoint next_line{};
-    SourceRemarks remarks;
+    visit::SourceRemarks remarks;
     while (!cli::stop_requested() &&
            (flags.seconds <= 0 || steady_now() - begin < seconds_to_duration(flags.seconds))) {
         std::this_thread::sleep_for(50ms);
@@ -123,7 +123,7 @@ void run(const PublishFlags& flags) {
         // Others have ended all that it shared.
         if (publisher->has_ended())
             break;
-        say(remarks.take(*publisher, steady_now()));
+        visit::say(remarks.take(*publisher, steady_now()));
         if (steady_now() < next_line)
             continue;
         if (flags.every > 0)

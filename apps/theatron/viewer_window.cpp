@@ -18,17 +18,19 @@
 #include "participant_json.h"
 #include "render/gl_driver.h"
 #include "saved_view.h"
-#include "session/permissions.h"
-#include "sound/device_watch.h"
-#include "source_remarks.h"
 #include "viewer/renderer_text.h"
+#include "visit/leaving.h"
+#include "visit/shown_stay.h"
+#include "window/keyboard_focus.h"
 #include "window/overlay_native.h"
 #include "window/scaled_picture.h"
 
 namespace theatron::app {
 namespace {
 
-constexpr Duration texts_every = 250ms, camera_pictures_every = 100ms, voices_every = 100ms;
+using Phase = client::Participant::Phase;
+
+constexpr Duration texts_every = 250ms, camera_pictures_every = 100ms;
 
 // Remarks of the participant's thread for the window's thread.
 class Remarks {
@@ -47,32 +49,10 @@ private:
     std::vector<std::string> texts_;
 };
 
-// For somebody who was in.
-bool is_over(const client::Participant::Status& status) {
-    using Phase = client::Participant::Phase;
-    return status.joins > 0 && (status.phase == Phase::ended || status.phase == Phase::refused);
-}
-
 std::string title_of(const viewer::Facts& facts, const std::string& address) {
     const std::string& host = facts.received.status.host_name;
     return (host.empty() ? address : host) + " - " + facts.way.renderer + " - Theatron";
 }
-
-// The key for leaving must be pressed twice, against leaving by accident; once is enough if no
-// session is joined.
-class Leaving {
-public:
-    static constexpr Duration confirm_within = 3s;
-
-    bool pressed(const client::Participant::Status& status, TimePoint now) {
-        const bool again = now - pressed_at_ < confirm_within;
-        pressed_at_ = now;
-        return again || status.phase != client::Participant::Phase::joined;
-    }
-
-private:
-    TimePoint pressed_at_ = TimePoint(-confirm_within);
-};
 
 std::string save_seen(window::Action action, viewer::Viewer& viewer, Size pixels,
                       const std::filesystem::path& folder, TimePoint now) {
@@ -87,126 +67,6 @@ std::string save_seen(window::Action action, viewer::Viewer& viewer, Size pixels
         return say(Phrase::no_points_yet);
     const std::string comments[] = {points_in_room, moment_text(moment, utc_now())};
     return save_view(folder, when, ".ply", encode_ply(points, comments));
-}
-
-// Each returns a line about it.
-std::string change_push_to_talk(VoiceLine& voice, ViewerWindow& options) {
-    const std::string text = voice.toggle_push_to_talk();
-    options.settings.push_to_talk = voice.pushes_to_talk();
-    if (options.keep)
-        options.keep(options.settings);
-    return text;
-}
-
-// A person who came without a microphone gets the one of the settings.
-std::string change_microphone(VoiceLine& voice, const client::Participant& participant,
-                              ViewerWindow& options) {
-    const auto state = voice.voices().microphone;
-    if (!session::may(participant.status().standing.role, session::Right::speak) ||
-        (state && state != viewer::Microphone::none && state != viewer::Microphone::missing))
-        return voice.toggle_microphone();
-    voice.use_microphone(options.settings.microphone);
-    options.settings.speaks = true;
-    if (options.keep)
-        options.keep(options.settings);
-    return say(Phrase::microphone_is_opening);
-}
-
-std::string change_voice_recording(client::Participant& participant, ViewerWindow& options) {
-    const bool agrees = !participant.voice_may_record();
-    participant.allow_voice_recording(agrees);
-    options.settings.voice_may_record = agrees;
-    if (options.keep)
-        options.keep(options.settings);
-    if (agrees && !participant.asks_voice_consent())
-        return say(Phrase::host_asks_no_consent);
-    return say(agrees ? Phrase::voice_may_record : Phrase::voice_may_not_record);
-}
-
-std::string change_face(publish::OwnFace& face, bool shown) {
-    face.show(shown);
-    return say(shown ? Phrase::webcam_is_opening : Phrase::webcam_is_off);
-}
-
-viewer::OwnFace own_face(const publish::OwnFace& face) {
-    using State = publish::OwnFace::State;
-    const State state = face.state();
-    return state == State::off    ? viewer::OwnFace::off
-           : state == State::seen ? viewer::OwnFace::seen
-                                  : viewer::OwnFace::opening;
-}
-
-// Takes over the camera that was opened, and the choice in the panel.
-void follow_face(publish::OwnFace& face, const client::Participant& participant,
-                 viewer::Viewer& viewer, TimePoint now) {
-    if (const auto wish = viewer.take_face_wish())
-        viewer.note(change_face(face, *wish), now);
-    face.on_tick();
-    if (const std::string problem = face.take_problem(); !problem.empty())
-        viewer.note(problem, now);
-    // The host does not take it: its remark has said so.
-    if (face.state() == publish::OwnFace::State::offered &&
-        !participant.status().face_problem.empty())
-        face.show(false);
-    viewer.set_own_face(own_face(face));
-}
-
-// Carries out the choice in the panel, and gives the panel the devices while it is open.
-void follow_sound(VoiceLine& voice, sound::DeviceWatch& devices, viewer::Viewer& viewer,
-                  ViewerWindow& options, TimePoint now) {
-    if (const auto wish = viewer.take_sound_wish()) {
-        client::Settings& settings = options.settings;
-        if (wish->kind == viewer::UseSound::Kind::microphone) {
-            voice.use_microphone(settings.microphone = wish->device);
-            settings.speaks = true;
-        } else {
-            voice.use_speaker(settings.loudspeaker = wish->device);
-            settings.hears = true;
-        }
-        if (options.keep)
-            options.keep(settings);
-    }
-    if (!viewer.shows_sound())
-        return;
-    viewer.set_sound_choices(voice.sound_choices(devices.devices_at(now)));
-}
-
-// The keyboard's way through the buttons. Takes the keys that it uses out of `input`; returns the
-// button that was pressed.
-std::optional<std::size_t> follow_focus(window::WindowInput& input, const window::Overlay& overlay,
-                                        std::optional<std::size_t>& focus) {
-    const std::size_t controls = overlay.controls();
-    std::optional<std::size_t> pressed;
-    const auto step_of = [&](const window::KeyPress& key) -> std::optional<window::FocusStep> {
-        using Action = window::Action;
-        if (key.action == Action::next_control)
-            return window::FocusStep::next;
-        if (key.action == Action::previous_control)
-            return window::FocusStep::previous;
-        if (!focus)
-            return std::nullopt;
-        if (key.action == Action::leave)
-            return window::FocusStep::none;
-        if (key.action != Action::nudge)
-            return std::nullopt;
-        return key.nudge == window::Nudge::left || key.nudge == window::Nudge::farther
-                   ? window::FocusStep::left
-                   : window::FocusStep::right;
-    };
-    std::erase_if(input.keys, [&](const window::KeyPress& key) {
-        if (const auto step = step_of(key)) {
-            focus = window::moved_focus(focus, *step, controls, overlay.keyboard_begin());
-            return true;
-        }
-        const bool presses =
-            key.action == window::Action::press_control || key.action == window::Action::freeze;
-        if (focus && presses && *focus < controls)
-            pressed = focus;
-        return focus && presses;
-    });
-    // The key that presses buttons is that of push to talk.
-    input.talks = input.talks && !focus;
-    return pressed;
 }
 
 // The number of the panel to which the keyboard comes first; 0: there is none.
@@ -229,6 +89,209 @@ void print_end(viewer::Viewer& viewer, const client::Participant& participant,
         log::say("The graphics driver reported " + std::to_string(window.gl_errors()) +
                  " errors, the first: " + window.first_gl_error());
 }
+
+// The window's turns: input, stay, picture, texts.
+class ViewerLoop {
+public:
+    ViewerLoop(window::DesktopWindow& window, ViewerWindow options)
+        : window_(window),
+          options_(prepared(std::move(options))),
+          stay_(options_.join, options_.ports, std::move(options_.settings)),
+          viewer_(options_.viewer, stay_.participant()),
+          shown_(stay_, viewer_) {}
+
+    WindowEnd run() {
+        while (!end_ && !cli::stop_requested())
+            turn();
+        print_end(viewer_, stay_.participant(), window_);
+        if (!over_.empty())
+            throw SessionEnded(over_);
+        const WindowEnd end = end_.value_or(WindowEnd::closed);
+        if (options_.is_last || end == WindowEnd::closed)
+            cli::begin_end();
+        return end;
+    }
+
+private:
+    ViewerWindow prepared(ViewerWindow options) {
+        options.join.news = [this] { window_.wake(); };
+        options.join.remark = [this, also = options.join.remark](const std::string& text) {
+            also(text);
+            remarks_.add(text);
+            window_.wake();
+        };
+        options.viewer.depth_codec = options.join.depth_codec;
+        options.viewer.color_codec = options.join.color_codec;
+        options.viewer.one_panel = true;
+        return options;
+    }
+
+    void turn() {
+        const TimePoint before = steady_now();
+        // Before the first picture there is nothing that looks live.
+        if (options_.watch && viewer_.pictures() > 0)
+            options_.watch->beat();
+        const bool picture_is_due = before < next_picture_ || viewer_.is_animated();
+        window_.wait((picture_is_due ? next_picture_ : next_texts_) - before);
+
+        window::WindowInput input = window_.poll();
+        const TimePoint now = steady_now();
+        if (input.close)
+            return end(WindowEnd::closed);
+        press_controls(input, now);
+        for (const window::KeyPress& key : viewer_.take_pressed())
+            input.keys.push_back(key);
+        for (const window::KeyPress& key : input.keys)
+            obey(key.action, now);
+        if (end_)
+            return;
+        shown_.tick(input.talks, now);
+        if (stay_.is_over()) {
+            over_ = say(Phrase::enter_again_later, stay_.participant().status().problem);
+            return end(WindowEnd::closed);
+        }
+        greet(now);
+        viewer_.on_input(input, input.grabbed ? picture_.distance_at(*input.grabbed) : std::nullopt,
+                         window_.pixels(), now);
+        if (const TimePoint first = viewer_.first_picture_at();
+            options_.seconds > 0 && first != TimePoint{} &&
+            now - first >= seconds_to_duration(options_.seconds))
+            return end(WindowEnd::closed);
+        for (const std::string& text : remarks_.take())
+            viewer_.remark(text, now);
+        if (now >= next_picture_)
+            draw(input, now);
+    }
+
+    void end(WindowEnd how) { end_ = how; }
+
+    // The mouse and the keyboard press buttons and move sliders and panels; what they use is taken
+    // out of `input`.
+    void press_controls(window::WindowInput& input, TimePoint now) {
+        if (const auto pressed = window::take_focus_keys(input, overlay_.controls(),
+                                                         overlay_.keyboard_begin(), focus_)) {
+            viewer_.press(overlay_.command_of(*pressed), now);
+            next_texts_ = now;
+        }
+        if (input.released)
+            slider_.reset();
+        if (input.grabbed && overlay_.covers(*input.grabbed)) {
+            if (slider_ = overlay_.slider_at(*input.grabbed); slider_ && input.grabbed_left) {
+                viewer_.press(slider_->command, now);
+                viewer_.slide(slider_->value_at(*input.grabbed));
+            } else if (const auto command = overlay_.command_at(*input.grabbed))
+                viewer_.press(*command, now);
+            input.grabbed.reset();
+            focus_.reset();
+            next_texts_ = now;
+        }
+        if (slider_ && input.pointer) {
+            viewer_.slide(slider_->value_at(*input.pointer));
+            input.steering.turn = {};
+            next_texts_ = now;
+        }
+        if (input.steering.approach != 0 && input.pointer && overlay_.covers(*input.pointer)) {
+            constexpr double rows_per_click = 3;
+            overlay_.scroll(*input.pointer,
+                            -rows_per_click * std::exchange(input.steering.approach, 0));
+            input.redraw = true;
+        }
+        input.pointer_covered = input.pointer && overlay_.covers(*input.pointer);
+    }
+
+    // The keys that are not the viewer's.
+    void obey(window::Action action, TimePoint now) {
+        using window::Action;
+        if (const auto command = visit::stay_command(action))
+            return viewer_.note(stay_.obey(*command), now);
+        if (action == Action::full_screen || (action == Action::leave && window_.is_full_screen()))
+            return window_.toggle_full_screen();
+        if (action == Action::save_picture || action == Action::save_points)
+            return viewer_.note(save_seen(action, viewer_, window_.pixels(), options_.save_to, now),
+                                now);
+        if (action != Action::leave && action != Action::leave_session)
+            return;
+        const bool is_joined = stay_.participant().status().phase == Phase::joined;
+        if (leaving_.pressed(is_joined, now))
+            return end(WindowEnd::left);
+        viewer_.ask_leave(now, visit::Leaving::confirm_within);
+        viewer_.note(say(action == Action::leave ? Phrase::esc_again : Phrase::bar_leave_again),
+                     now);
+    }
+
+    void greet(TimePoint now) {
+        const client::Participant::Status status = stay_.participant().status();
+        if (status.phase == Phase::joined && options_.entered)
+            std::exchange(options_.entered, nullptr)(status.host_name);
+        if (viewer_.first_picture_at() != TimePoint{} && !options_.greeting.empty())
+            viewer_.note(std::exchange(options_.greeting, {}), now);
+    }
+
+    void draw(const window::WindowInput& input, TimePoint now) {
+        const bool scene = viewer_.step(window_.pixels(), now);
+        shown_.place_voices();
+        const bool texts = change_texts(input, now);
+        if ((!scene && !texts && !input.redraw) || !window_.is_visible())
+            return;
+        next_picture_ = now + window_.picture_time();
+        if (scene)
+            viewer_.draw(window_.pixels(), picture_.begin(window_.pixels(), viewer_.way().scale),
+                         now);
+        const TimePoint submitted = steady_now();
+        picture_.show(window_.pixels());
+        overlay_.draw(texts_, window_.pixels(), window_.text_pixels());
+        window_.present();
+        if (scene)
+            viewer_.on_presented(now, (is_software_ ? steady_now() : submitted) - now,
+                                 steady_now());
+    }
+
+    // True if the texts are others than those of the last picture.
+    bool change_texts(const window::WindowInput& input, TimePoint now) {
+        const auto hovered = input.pointer ? overlay_.control_at(*input.pointer) : std::nullopt;
+        bool changed = texts_.hovered != hovered || texts_.focused != focus_;
+        texts_.hovered = hovered;
+        texts_.focused = focus_;
+        if (now < next_texts_ && input.keys.empty())
+            return changed;
+        const viewer::Facts facts = viewer_.facts(now);
+        window::OverlayContent content = viewer::overlay_of(facts, address_, host::shown_filter);
+        content.hovered = hovered;
+        // Another button may stand where the keyboard was.
+        if ((content.tools && texts_.tools &&
+             content.tools->tools.size() != texts_.tools->tools.size()) ||
+            keyboard_of(content) != keyboard_of(texts_))
+            focus_.reset();
+        content.focused = focus_;
+        changed = changed || content != texts_;
+        texts_ = std::move(content);
+        next_texts_ = now + (texts_.pictures.empty() ? texts_every : camera_pictures_every);
+        stay_.settings().change(viewer_.settings(stay_.settings().now));
+        if (std::string newest = title_of(facts, address_); newest != title_)
+            window_.set_title(title_ = std::move(newest));
+        return changed;
+    }
+
+    window::DesktopWindow& window_;
+    Remarks remarks_;
+    ViewerWindow options_;
+    visit::Stay stay_;
+    viewer::Viewer viewer_;
+    visit::ShownStay shown_;
+    window::ScaledPicture picture_;
+    window::Overlay overlay_;
+    const bool is_software_ = render::is_software(render::driver_name());
+    const std::string address_ = net::host_and_port(options_.join.link);
+
+    visit::Leaving leaving_;
+    window::OverlayContent texts_;
+    std::string title_;
+    TimePoint next_picture_{}, next_texts_{};
+    std::optional<window::Overlay::Slider> slider_;  // held with the mouse
+    std::optional<std::size_t> focus_;               // the button that has the keyboard
+    std::optional<WindowEnd> end_;
+    std::string over_;  // why the session is, for good
+};
 
 }  // namespace
 
@@ -262,212 +325,20 @@ void use_kept_settings(ViewerWindow& window, const std::optional<std::string>& n
     window.viewer.shows_people = kept.shows_people;
     window.viewer.shows_facts = kept.shows_facts;
     window.join.name = name.value_or(kept.name);
-    window.settings = kept;
-    window.settings.name = window.join.name;
-    window.settings.quality = quality.value_or(kept.quality);
-    window.viewer.room.quality = parse_quality(window.settings.quality);
-    window.keep = [folder](const client::Settings& settings) {
+    client::Settings settings = kept;
+    settings.name = window.join.name;
+    settings.quality = quality.value_or(kept.quality);
+    window.viewer.room.quality = parse_quality(settings.quality);
+    window.settings.now = kept;
+    window.settings.keep = [folder](const client::Settings& settings) {
         if (const std::string trouble = client::save_settings(folder, settings); !trouble.empty())
             log::say(trouble);
     };
-    if (window.settings != kept)
-        window.keep(window.settings);
+    window.settings.change(settings);
 }
 
 WindowEnd show(window::DesktopWindow& window, ViewerWindow options) {
-    window::ScaledPicture picture;
-    window::Overlay overlay;
-    Remarks remarks;
-    options.join.news = [&] { window.wake(); };
-    options.join.remark = [&, also = options.join.remark](const std::string& text) {
-        also(text);
-        remarks.add(text);
-        window.wake();
-    };
-    const std::string address = net::host_and_port(options.join.link);
-    options.viewer.depth_codec = options.join.depth_codec;
-    options.viewer.color_codec = options.join.color_codec;
-    client::Participant participant(std::move(options.join));
-    std::optional<publish::Publishing> publishing;
-    if (options.publisher)
-        publishing.emplace(*options.publisher, participant);
-    std::optional<publish::FaceShowing> showing;
-    if (options.face)
-        showing.emplace(*options.face, participant);
-    std::optional<VoiceLine::Talking> talking;
-    if (options.voice)
-        talking.emplace(*options.voice, participant);
-    std::optional<FaceLine::Sending> sending;
-    if (options.expression)
-        sending.emplace(*options.expression, participant);
-    options.viewer.one_panel = true;
-    viewer::Viewer viewer(std::move(options.viewer), participant);
-    const bool is_software = render::is_software(render::driver_name());
-
-    window::OverlayContent texts;
-    std::string title;
-    Leaving leaving;
-    SourceRemarks sources;
-    TimePoint next_picture{}, next_texts{}, next_voices{};
-    std::optional<window::Overlay::Slider> slider;  // held with the mouse
-    std::optional<std::size_t> focus;           // the button that has the keyboard
-    sound::DeviceWatch sound_devices;
-    WindowEnd end = WindowEnd::closed;
-    std::string over;  // why the session is, for good
-    while (!cli::stop_requested()) {
-        const TimePoint before = steady_now();
-        // Before the first picture there is nothing that looks live.
-        if (options.watch && viewer.pictures() > 0)
-            options.watch->beat();
-        const bool picture_is_due = before < next_picture || viewer.is_animated();
-        window.wait((picture_is_due ? next_picture : next_texts) - before);
-
-        window::WindowInput input = window.poll();
-        const TimePoint now = steady_now();
-        if (input.close)
-            break;
-        if (const auto pressed = follow_focus(input, overlay, focus)) {
-            viewer.press(overlay.command_of(*pressed), now);
-            next_texts = now;
-        }
-        if (input.released)
-            slider.reset();
-        if (input.grabbed && overlay.covers(*input.grabbed)) {
-            if (slider = overlay.slider_at(*input.grabbed); slider && input.grabbed_left) {
-                viewer.press(slider->command, now);
-                viewer.slide(slider->value_at(*input.grabbed));
-            } else if (const auto command = overlay.command_at(*input.grabbed))
-                viewer.press(*command, now);
-            input.grabbed.reset();
-            focus.reset();
-            next_texts = now;
-        }
-        for (const window::KeyPress& key : viewer.take_pressed())
-            input.keys.push_back(key);
-        bool left = false;
-        for (const window::KeyPress& key : input.keys) {
-            const bool leave = key.action == window::Action::leave;
-            const bool leaves_by_button = key.action == window::Action::leave_session;
-            if (key.action == window::Action::full_screen || (leave && window.is_full_screen()))
-                window.toggle_full_screen();
-            else if ((leave || leaves_by_button) && leaving.pressed(participant.status(), now))
-                left = true;
-            else if (key.action == window::Action::microphone && options.voice)
-                viewer.note(change_microphone(*options.voice, participant, options), now);
-            else if (key.action == window::Action::push_to_talk && options.voice)
-                viewer.note(change_push_to_talk(*options.voice, options), now);
-            else if (key.action == window::Action::voice_recording)
-                viewer.note(change_voice_recording(participant, options), now);
-            else if (key.action == window::Action::own_face && options.face)
-                viewer.note(change_face(*options.face, !options.face->is_wanted()), now);
-            else if (key.action == window::Action::save_picture ||
-                     key.action == window::Action::save_points)
-                viewer.note(save_seen(key.action, viewer, window.pixels(), options.save_to, now),
-                            now);
-            else if (leave || leaves_by_button) {
-                viewer.ask_leave(now, Leaving::confirm_within);
-                viewer.note(say(leave ? Phrase::esc_again : Phrase::bar_leave_again), now);
-            }
-        }
-        if (left) {
-            end = WindowEnd::left;
-            break;
-        }
-        if (slider && input.pointer) {
-            viewer.slide(slider->value_at(*input.pointer));
-            input.steering.turn = {};
-            next_texts = now;
-        }
-        if (input.steering.approach != 0 && input.pointer && overlay.covers(*input.pointer)) {
-            constexpr double rows_per_click = 3;
-            overlay.scroll(*input.pointer,
-                           -rows_per_click * std::exchange(input.steering.approach, 0));
-            input.redraw = true;
-        }
-        input.pointer_covered = input.pointer && overlay.covers(*input.pointer);
-        if (options.face)
-            follow_face(*options.face, participant, viewer, now);
-        if (const auto status = participant.status();
-            status.phase == client::Participant::Phase::joined) {
-            if (options.voice)
-                options.voice->note(status.standing);
-            if (options.entered)
-                std::exchange(options.entered, nullptr)(status.host_name);
-        } else if (is_over(status)) {
-            over = say(Phrase::enter_again_later, status.problem);
-            break;
-        }
-        if (options.voice)
-            options.voice->hold(input.talks, now);
-        if (options.voice && now >= next_voices) {
-            viewer::Voices voices = options.voice->voices();
-            if (participant.asks_voice_consent())
-                voices.may_record = participant.voice_may_record();
-            viewer.set_voices(std::move(voices));
-            follow_sound(*options.voice, sound_devices, viewer, options, now);
-            next_voices = now + voices_every;
-        }
-        viewer.on_input(input, input.grabbed ? picture.distance_at(*input.grabbed) : std::nullopt,
-                        window.pixels(), now);
-        if (const TimePoint first = viewer.first_picture_at();
-            options.seconds > 0 && first != TimePoint{} &&
-            now - first >= seconds_to_duration(options.seconds))
-            break;
-        if (viewer.first_picture_at() != TimePoint{} && !options.greeting.empty())
-            viewer.note(std::exchange(options.greeting, {}), now);
-        for (const std::string& text : remarks.take())
-            viewer.remark(text, now);
-        if (options.publisher)
-            for (const std::string& text : sources.take(*options.publisher, now))
-                viewer.note(text, now);
-        if (now < next_picture)
-            continue;
-
-        const bool scene = viewer.step(window.pixels(), now);
-        // The eye's pose has y down.
-        if (options.voice && viewer.first_picture_at() != TimePoint{})
-            options.voice->place(viewer.told_eye() * Pose{Quat{0, 1, 0, 0}, {}}, participant);
-        const auto hovered = input.pointer ? overlay.control_at(*input.pointer) : std::nullopt;
-        bool texts_changed = texts.hovered != hovered || texts.focused != focus;
-        texts.hovered = hovered;
-        texts.focused = focus;
-        if (now >= next_texts || !input.keys.empty()) {
-            const viewer::Facts facts = viewer.facts(now);
-            window::OverlayContent content = viewer::overlay_of(facts, address, host::shown_filter);
-            content.hovered = hovered;
-            // Another button may stand where the keyboard was.
-            if ((content.tools && texts.tools &&
-                 content.tools->tools.size() != texts.tools->tools.size()) ||
-                keyboard_of(content) != keyboard_of(texts))
-                focus.reset();
-            content.focused = focus;
-            texts_changed = texts_changed || content != texts;
-            texts = std::move(content);
-            next_texts = now + (texts.pictures.empty() ? texts_every : camera_pictures_every);
-            if (const auto settings = viewer.settings(options.settings);
-                options.keep && settings != options.settings)
-                options.keep(options.settings = settings);
-            if (std::string newest = title_of(facts, address); newest != title)
-                window.set_title(title = std::move(newest));
-        }
-        if ((!scene && !texts_changed && !input.redraw) || !window.is_visible())
-            continue;
-        next_picture = now + window.picture_time();
-        if (scene)
-            viewer.draw(window.pixels(), picture.begin(window.pixels(), viewer.way().scale), now);
-        const TimePoint submitted = steady_now();
-        picture.show(window.pixels());
-        overlay.draw(texts, window.pixels(), window.text_pixels());
-        window.present();
-        if (scene)
-            viewer.on_presented(now, (is_software ? steady_now() : submitted) - now, steady_now());
-    }
-    print_end(viewer, participant, window);
-    if (!over.empty())
-        throw SessionEnded(over);
-    if (options.is_last || end == WindowEnd::closed)
-        cli::begin_end();
-    return end;
+    return ViewerLoop(window, std::move(options)).run();
 }
 
 }  // namespace theatron::app

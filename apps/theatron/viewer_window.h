@@ -8,27 +8,19 @@
 #include <string>
 
 #include "base/error.h"
-#include "face_line.h"
-#include "publish/camera_publisher.h"
-#include "publish/own_face.h"
 #include "viewer/viewer.h"
-#include "voice_line.h"
-#include "window_watch.h"
+#include "visit/stay.h"
 #include "window/desktop_window_native.h"
+#include "window_watch.h"
 
 namespace theatron::app {
 
 struct ViewerWindow {
     client::Participant::Options join;
-    publish::CameraPublisher* publisher = nullptr;  // of own cameras, if there are any
-    publish::OwnFace* face = nullptr;               // its events must be in `join`; may be null
-    FaceLine* expression = nullptr;                 // of the own face; may be null
-    WindowWatch* watch = nullptr;                   // of the window; may be null
-    VoiceLine* voice = nullptr;                     // its packets must come by `join`; may be null
+    visit::Ports ports;
+    WindowWatch* watch = nullptr;  // of the window; may be null
     viewer::Viewer::Options viewer;
-    // Called with the person's settings whenever they have changed from `settings`.
-    client::Settings settings;
-    std::function<void(const client::Settings&)> keep;
+    visit::KeptSettings settings;
     // Called once the host has let the person in, with the session's name.
     std::function<void(const std::string& session)> entered;
     std::string greeting;                 // shown for some seconds after the first picture

@@ -57,7 +57,7 @@ struct Page {
     unsigned headset_framebuffer = 0;  // its name, once it was used
     std::unique_ptr<Visit> visit;      // this
     std::unique_ptr<FlatVisit> flat;   // or this, or none
-    window::InputQueue input;              // since the last picture
+    window::InputQueue input;          // since the last picture
     client::PictureSender screen;      // that the person shows; outlives a visit
     std::string problem;               // why the visit ended; a sentence
     std::string text;                  // that the last function returned

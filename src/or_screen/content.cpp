@@ -3,11 +3,11 @@
 
 #include <algorithm>
 
+#include "pace/drawing_watch.h"
 #include "phrases/phrase.h"
 #include "room/people.h"
 #include "room/srgb.h"
 #include "viewer/age_text.h"
-#include "pace/drawing_watch.h"
 
 namespace theatron::or_screen {
 namespace {

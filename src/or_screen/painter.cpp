@@ -211,8 +211,8 @@ void Painter::camera(const Content& content, const Rect& rect,
     // An old picture must not be taken for the present.
     const bool is_old = !content.warning.empty();
     const ImU32 tint = is_old ? IM_COL32(110, 110, 110, 255) : IM_COL32(255, 255, 255, 255);
-    list_.AddImageRounded(window::texture_of(picture->texture()), from(rect), to(rect), {0, 0}, {1, 1},
-                          tint, rounding);
+    list_.AddImageRounded(window::texture_of(picture->texture()), from(rect), to(rect), {0, 0},
+                          {1, 1}, tint, rounding);
     list_.PushClipRect(from(rect), to(rect), true);
     there_.clear();
     for (const PictureMark& one : content.marks)

@@ -247,7 +247,7 @@ void AdjustPanel::add_panel(RoomPanel& panel) const {
                                   {{"-", command({What::step, {}, part, -by})},
                                    {"+", command({What::step, {}, part, by})}},
                                   window::PanelSlider{part_of(value, part), -most, most,
-                                                  command({What::slide, {}, part, 0})}});
+                                                      command({What::slide, {}, part, 0})}});
         }
         if (is_chosen)
             shown.rows.push_back({"",
@@ -256,11 +256,11 @@ void AdjustPanel::add_panel(RoomPanel& panel) const {
                                    {say(Phrase::reset_camera), command({What::reset, {}, 0, 0})}}});
         if (is_chosen && camera.has_region) {
             window::PanelRow region{say(draws_              ? Phrase::draw_rectangle
-                                    : adjustment.region ? Phrase::a_region
-                                                        : Phrase::whole_picture),
-                                "",
-                                {{say(draws_ ? Phrase::stop : Phrase::draw_region),
-                                  command({What::draw, {}, 0, 0})}}};
+                                        : adjustment.region ? Phrase::a_region
+                                                            : Phrase::whole_picture),
+                                    "",
+                                    {{say(draws_ ? Phrase::stop : Phrase::draw_region),
+                                      command({What::draw, {}, 0, 0})}}};
             if (adjustment.region)
                 region.buttons.push_back(
                     {say(Phrase::whole_picture), command({What::whole, {}, 0, 0})});

@@ -12,8 +12,8 @@
 #include "phrases/phrase.h"
 #include "viewer/own_face.h"
 #include "viewer/voices.h"
-#include "wire/role.h"
 #include "window/tool_bar.h"
+#include "wire/role.h"
 
 namespace theatron::viewer {
 

@@ -7,13 +7,13 @@
 #include <iterator>
 #include <utility>
 
+#include "pace/drawing_watch.h"
 #include "viewer/age_text.h"
 #include "viewer/picture_dot.h"
 #include "viewer/still_cover.h"
 #include "viewer/trust_panel.h"
 #include "wire/condition_text.h"
 #include "wire/sentence.h"
-#include "pace/drawing_watch.h"
 
 namespace theatron::viewer {
 namespace {
@@ -88,7 +88,8 @@ window::Fact moment_fact(const Facts& facts) {
 }
 
 // A live camera with a problem that its picture does not show: it was moved, or plays damage.
-void add_problems(const std::vector<client::CameraFigures>& cameras, std::vector<window::Fact>& line) {
+void add_problems(const std::vector<client::CameraFigures>& cameras,
+                  std::vector<window::Fact>& line) {
     for (const client::CameraFigures& one : cameras) {
         const wire::CameraState& state = one.camera.state;
         if (state.condition == wire::CameraCondition::live && !state.problem.empty())
@@ -165,15 +166,16 @@ void add_pictures(const Facts& facts,
         {say(Phrase::filter), filter_name(filter == say(Phrase::none) ? std::string() : filter)});
 }
 
-std::vector<window::Fact> line_of(const Facts& facts, const std::string& address,
-                              const std::function<std::string(const std::string&)>& filter_name) {
+std::vector<window::Fact> line_of(
+    const Facts& facts, const std::string& address,
+    const std::function<std::string(const std::string&)>& filter_name) {
     using Phase = client::Participant::Phase;
     const auto& [status, cameras, recordings, moments] = facts.received;
     std::vector<window::Fact> line;
     line.push_back({say(Phrase::host), status.host_name.empty() ? address : status.host_name});
     const window::Fact age{say(Phrase::age_of_picture),
-                       facts.age_ms ? age_text(*facts.age_ms) : say(Phrase::unknown),
-                       facts.age_ms && *facts.age_ms > old_picture_ms};
+                           facts.age_ms ? age_text(*facts.age_ms) : say(Phrase::unknown),
+                           facts.age_ms && *facts.age_ms > old_picture_ms};
     if (!facts.visitors.empty())
         line.push_back({say(Phrase::at_the_door), visitors_text(facts.visitors), true});
     if (status.phase == Phase::joined) {
@@ -339,8 +341,9 @@ std::string slow_text(const Facts& facts) {
                    : Phrase::slow_not_connection);
 }
 
-window::OverlayContent overlay_of(const Facts& facts, const std::string& address,
-                              const std::function<std::string(const std::string&)>& filter_name) {
+window::OverlayContent overlay_of(
+    const Facts& facts, const std::string& address,
+    const std::function<std::string(const std::string&)>& filter_name) {
     window::OverlayContent content;
     content.facts = line_of(facts, address, filter_name);
     // A hidden line still shows facts that need attention.

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "client/participant_figures.h"
+#include "pace/drawing_pace.h"
 #include "viewer/own_face.h"
 #include "viewer/voices.h"
-#include "pace/drawing_pace.h"
 #include "window/overlay_content.h"
 
 namespace theatron::viewer {
@@ -31,12 +31,12 @@ struct Facts {
     std::string notice;  // a recent event; empty: none
     bool help = false;
     std::vector<window::Panel> panels;             // of people and places, while they are shown
-    bool line = true;                          // of facts, at the bottom
+    bool line = true;                              // of facts, at the bottom
     std::vector<window::OverlayPicture> pictures;  // of the cameras, while they are shown
-    bool frozen = false;                       // the clouds, by the person at the window
-    std::string pointed;                       // the place under the mouse; empty: none
+    bool frozen = false;                           // the clouds, by the person at the window
+    std::string pointed;                           // the place under the mouse; empty: none
     Voices voices;
-    std::optional<window::PanelRow> bar = {};                 // of the recording that the host plays
+    std::optional<window::PanelRow> bar = {};             // of the recording that the host plays
     std::optional<std::pair<Vec2, Vec2>> rectangle = {};  // that is being drawn over the picture
     OwnFace own_face = OwnFace::none;
     // The moment that is shown, while it is not the present (looking_back.h); else empty.
@@ -48,7 +48,7 @@ struct Facts {
     // what it would say in facts and warnings.
     std::optional<window::ToolBar> tools = {};
     std::vector<window::PanelRow> offers = {};  // notices with buttons
-    std::size_t unrest = 0;                 // CameraUnrest::count()
+    std::size_t unrest = 0;                     // CameraUnrest::count()
 
     // The present is not what is seen: it is frozen, looked back at, or played.
     bool is_of_another_time() const { return frozen || !past.empty() || !played.empty(); }
@@ -59,7 +59,8 @@ std::string slow_text(const Facts& facts);
 
 // `address` is shown until the host's name is known. `filter_name` turns a filter's spelling into
 // a text for people.
-window::OverlayContent overlay_of(const Facts& facts, const std::string& address,
-                              const std::function<std::string(const std::string&)>& filter_name);
+window::OverlayContent overlay_of(
+    const Facts& facts, const std::string& address,
+    const std::function<std::string(const std::string&)>& filter_name);
 
 }  // namespace theatron::viewer

@@ -24,8 +24,8 @@ public:
     // distance of the cloud at input.grabbed, along the view's axis: an object behind it cannot be
     // grabbed. `aspect` is the picture's width divided by its height.
     // `part`: a part of an organ is held, not the organ.
-    void on_input(window::WindowInput& input, bool part, std::optional<double> surface_m, double aspect,
-                  const render::CameraView& view, Meeting& meeting,
+    void on_input(window::WindowInput& input, bool part, std::optional<double> surface_m,
+                  double aspect, const render::CameraView& view, Meeting& meeting,
                   client::Participant& participant, TimePoint now);
 
     // Asks for a new brick before an eye.

@@ -14,8 +14,8 @@
 #include "viewer/age_text.h"
 #include "viewer/looking_back.h"
 #include "viewer/still_cover.h"
-#include "wire/condition_text.h"
 #include "window/font.h"
+#include "wire/condition_text.h"
 
 namespace theatron::viewer {
 namespace {

@@ -74,10 +74,10 @@ void LookingBack::add_panel(const std::string& past, bool knows_objects,
         return panel.button(label, LookBackTo{ago});
     };
     window::PanelRow row{past.empty() ? say(Phrase::the_present) : past,
-                     past.empty()    ? ""
-                     : knows_objects ? say(Phrase::people_are_of_now)
-                                     : say(Phrase::objects_are_unknown),
-                     {}};
+                         past.empty()    ? ""
+                         : knows_objects ? say(Phrase::people_are_of_now)
+                                         : say(Phrase::objects_are_unknown),
+                         {}};
     if (past.empty())
         for (const int ago : {10, 30, 60})
             row.buttons.push_back(

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "pace/drawing_watch.h"
 #include "phrases/phrase.h"
 #include "viewer/age_text.h"
-#include "pace/drawing_watch.h"
 
 namespace theatron::viewer {
 namespace {
@@ -28,9 +28,9 @@ window::PictureDot picture_dot(const DotFacts& facts) {
     using Phase = client::Participant::Phase;
     const auto dot = [](Level level, const std::string& words) {
         return window::PictureDot{level, words,
-                              say(level == Level::good   ? Phrase::dot_good_hint
-                                  : level == Level::slow ? Phrase::dot_slow_hint
-                                                         : Phrase::dot_bad_hint)};
+                                  say(level == Level::good   ? Phrase::dot_good_hint
+                                      : level == Level::slow ? Phrase::dot_slow_hint
+                                                             : Phrase::dot_bad_hint)};
     };
     if (facts.phase == Phase::connecting || facts.phase == Phase::waiting)
         return {Level::slow, say(Phrase::dot_is_connecting), ""};

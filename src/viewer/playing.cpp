@@ -77,7 +77,7 @@ void Playing::on_tick(client::Participant& participant, TimePoint now) {
 }
 
 std::optional<window::PanelRow> Playing::bar(const client::Participant& participant, bool may_play,
-                                         TimePoint now, RoomPanel& panel) const {
+                                             TimePoint now, RoomPanel& panel) const {
     const auto playback = participant.playback();
     if (!playback)
         return std::nullopt;

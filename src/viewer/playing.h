@@ -32,7 +32,7 @@ public:
 
     // The bar, if the host plays a recording; with buttons if this person may use them.
     std::optional<window::PanelRow> bar(const client::Participant& participant, bool may_play,
-                                    TimePoint now, RoomPanel& panel) const;
+                                        TimePoint now, RoomPanel& panel) const;
 
 private:
     void seek(client::Participant& participant, Duration position, TimePoint now);

@@ -5,9 +5,9 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "pace/drawing_pace.h"
 #include "phrases/phrase.h"
 #include "render/cloud_set.h"
-#include "pace/drawing_pace.h"
 
 namespace theatron::viewer {
 namespace {

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "pace/drawing_watch.h"
 #include "phrases/phrase.h"
 #include "room/people.h"
 #include "viewer/age_text.h"
 #include "wire/condition_text.h"
-#include "pace/drawing_watch.h"
 
 namespace theatron::viewer {
 namespace {

@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "geometry/screen.h"
+#include "pace/drawing_watch.h"
 #include "phrases/phrase.h"
 #include "viewer/age_text.h"
-#include "pace/drawing_watch.h"
 
 namespace theatron::viewer {
 

@@ -184,7 +184,8 @@ void StudyPanel::add_texts(window::Panel& rows) const {
         rows.rows.push_back({step_->problem, "", {}});
 }
 
-window::PanelButton StudyPanel::answer(const std::string& label, int value, RoomPanel& panel) const {
+window::PanelButton StudyPanel::answer(const std::string& label, int value,
+                                       RoomPanel& panel) const {
     return panel.button(marked(label, chosen_ == value), StudyPress{What::choose, value});
 }
 

@@ -50,7 +50,7 @@ std::string exactness_text(const client::CameraFigures& camera) {
 }
 
 window::Panel trust_panel(const client::ParticipantFigures& figures,
-                      const std::function<std::string(const std::string&)>& filter_name) {
+                          const std::function<std::string(const std::string&)>& filter_name) {
     window::Panel panel{say(Phrase::cameras), {}};
     for (const client::CameraFigures& camera : figures.cameras) {
         const wire::CameraState& state = camera.camera.state;

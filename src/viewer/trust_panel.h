@@ -17,7 +17,7 @@ std::string exactness_text(const client::CameraFigures& camera);
 
 // `filter_name` as in overlay_of().
 window::Panel trust_panel(const client::ParticipantFigures& figures,
-                      const std::function<std::string(const std::string&)>& filter_name);
+                          const std::function<std::string(const std::string&)>& filter_name);
 
 // "Camera left is NOT LIVE: 12 s old", of the cameras that sent pictures and no longer do; empty:
 // all are live.

@@ -13,6 +13,8 @@
 #include "base/statistics.h"
 #include "client/participant.h"
 #include "client/settings.h"
+#include "pace/drawing_pace.h"
+#include "pace/drawing_rest.h"
 #include "render/vignette.h"
 #include "session/permissions.h"
 #include "session/renderer_choice.h"
@@ -34,8 +36,6 @@
 #include "viewer/sound_panel.h"
 #include "viewer/study_panel.h"
 #include "viewer/tools/tool.h"
-#include "pace/drawing_pace.h"
-#include "pace/drawing_rest.h"
 #include "window/window_input.h"
 
 namespace theatron::viewer {
@@ -309,7 +309,7 @@ private:
     pace::DrawingRest rest_;
     unsigned preparations_ = 0;  // calls of prepare()
     TimePoint receiving_noted_;
-    std::uint64_t dropped_ = 0;                   // then
+    std::uint64_t dropped_ = 0;                     // then
     std::optional<pace::DrawingPace> window_pace_;  // before the headset
     bool fading_ = false, moving_ = false;
     bool scene_changed_ = true;

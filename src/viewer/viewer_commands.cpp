@@ -25,7 +25,8 @@ void Viewer::on(const StudyPress& press, TimePoint now) {
 
 void Viewer::on(const PressKey& key, TimePoint) {
     if (headset_)  // its plate has no other keys
-        return open_plate(key.action == window::Action::adjust_cameras ? Sheet::adjust : Sheet::none);
+        return open_plate(key.action == window::Action::adjust_cameras ? Sheet::adjust
+                                                                       : Sheet::none);
     // The panel of the rest has done its work.
     if (sheet_ == Sheet::more && key.action != window::Action::more)
         open_sheet(Sheet::none);

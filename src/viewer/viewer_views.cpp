@@ -138,7 +138,8 @@ void Viewer::keep_present(window::WindowInput& input, TimePoint now) {
         std::remove_if(input.keys.begin(), input.keys.end(), [](const window::KeyPress& key) {
             return key.action == window::Action::new_brick || key.action == window::Action::give ||
                    key.action == window::Action::remove || key.action == window::Action::marks ||
-                   key.action == window::Action::undo_mark || key.action == window::Action::slice_here;
+                   key.action == window::Action::undo_mark ||
+                   key.action == window::Action::slice_here;
         });
     input.keys.erase(last, input.keys.end());
     if (input.points || input.keys.size() < count)

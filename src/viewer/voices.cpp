@@ -36,7 +36,7 @@ std::optional<window::Fact> microphone_fact(const Voices& voices, const wire::St
         return std::nullopt;
     const auto fact = [&](Phrase text, bool warning) {
         return window::Fact{say(Phrase::microphone), say(text, meter_text(voices.own_level_db)),
-                        warning};
+                            warning};
     };
     switch (*voices.microphone) {
         case Microphone::none:

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "base/ids.h"
-#include "wire/control.h"
 #include "window/overlay_content.h"
+#include "wire/control.h"
 
 namespace theatron::viewer {
 

@@ -34,27 +34,4 @@ ToolBarLayout tool_bar_layout(std::size_t tools, Size window, double text_pixels
     return layout;
 }
 
-std::optional<std::size_t> moved_focus(std::optional<std::size_t> focus, FocusStep step,
-                                       std::size_t controls, std::size_t begin) {
-    if (controls == 0 || step == FocusStep::none)
-        return std::nullopt;
-    const std::size_t last = controls - 1;
-    // Controls may have gone since the last key.
-    if (focus)
-        focus = std::min(*focus, last);
-    switch (step) {
-        case FocusStep::next:
-            return !focus ? std::min(begin, last) : *focus == last ? 0 : *focus + 1;
-        case FocusStep::previous:
-            return !focus || *focus == 0 ? last : *focus - 1;
-        case FocusStep::left:
-            return focus && *focus > 0 ? *focus - 1 : focus;
-        case FocusStep::right:
-            return focus ? std::min(*focus + 1, last) : focus;
-        case FocusStep::none:
-            break;
-    }
-    return std::nullopt;
-}
-
 }  // namespace theatron::window

@@ -64,10 +64,4 @@ struct ToolBarLayout {
 // `text_pixels` is the height of a normal text.
 ToolBarLayout tool_bar_layout(std::size_t tools, Size window, double text_pixels);
 
-// The control that has the keyboard after a key: Tab goes round, first to `begin` (with Shift to
-// the last); the arrows go on to the neighbour and stay at the ends. nullopt: none has it.
-enum class FocusStep { next, previous, left, right, none };
-std::optional<std::size_t> moved_focus(std::optional<std::size_t> focus, FocusStep step,
-                                       std::size_t controls, std::size_t begin = 0);
-
 }  // namespace theatron::window

@@ -43,22 +43,5 @@ TEST(ToolBar, TheToolsStandInTheMiddleOfAWideWindow) {
     EXPECT_EQ(layout.dot.left, 0);
 }
 
-TEST(Focus, TabGoesRoundAndArrowsStayAtTheEnds) {
-    EXPECT_EQ(moved_focus({}, FocusStep::next, 3), 0u);
-    EXPECT_EQ(moved_focus({}, FocusStep::next, 3, 1), 1u);
-    EXPECT_EQ(moved_focus({}, FocusStep::next, 3, 7), 2u) << "controls have gone";
-    EXPECT_EQ(moved_focus(2, FocusStep::next, 3, 1), 0u);
-    EXPECT_EQ(moved_focus({}, FocusStep::previous, 3), 2u);
-    EXPECT_EQ(moved_focus(2, FocusStep::next, 3), 0u);
-    EXPECT_EQ(moved_focus(0, FocusStep::previous, 3), 2u);
-    EXPECT_EQ(moved_focus(1, FocusStep::right, 3), 2u);
-    EXPECT_EQ(moved_focus(2, FocusStep::right, 3), 2u);
-    EXPECT_EQ(moved_focus(0, FocusStep::left, 3), 0u);
-    EXPECT_EQ(moved_focus({}, FocusStep::right, 3), std::nullopt) << "the arrows are the room's";
-    EXPECT_EQ(moved_focus(9, FocusStep::next, 3), 0u) << "a panel has closed";
-    EXPECT_EQ(moved_focus(1, FocusStep::none, 3), std::nullopt);
-    EXPECT_EQ(moved_focus(1, FocusStep::next, 0), std::nullopt);
-}
-
 }  // namespace
 }  // namespace theatron::window

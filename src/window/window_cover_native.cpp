@@ -154,7 +154,7 @@ void WindowCover::run() {
                 cover.emplace(window_);
             is_covered = cover->show(words_(*still));
         }
-        if (still && !is_covered && *still >= uncovered_end_after && !is_told) {
+        if (still && !is_covered && *still >= pace::uncovered_end_after && !is_told) {
             is_told = true;
             cannot_cover_();
         }

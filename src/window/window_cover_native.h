@@ -30,7 +30,7 @@ public:
     WindowCover(const WindowCover&) = delete;
     WindowCover& operator=(const WindowCover&) = delete;
 
-    // As DrawingWatch, now.
+    // As pace::DrawingWatch, now.
     void beat();
     void rest();
 
@@ -42,7 +42,7 @@ private:
     const std::function<void()> cannot_cover_;
     std::mutex mutex_;
     std::condition_variable changed_;
-    DrawingWatch watch_;  // with mutex_, as the next
+    pace::DrawingWatch watch_;  // with mutex_, as the next
     bool stops_ = false;
     std::thread thread_;
 };

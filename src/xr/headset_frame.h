@@ -14,9 +14,9 @@
 
 namespace theatron::xr {
 
-// A picture of one eye: its tangents as in render::CameraView, and where it is drawn: a framebuffer by
-// its name of GL (eyes share one, or each has its own), and the lower left corner (x, y) and size of its
-// part there.
+// A picture of one eye: its tangents as in render::CameraView, and where it is drawn: a framebuffer
+// by its name of GL (eyes share one, or each has its own), and the lower left corner (x, y) and
+// size of its part there.
 struct HeadsetEye {
     Pose floor_from_eye;
     double left = -1, right = 1, top = -1, bottom = 1;
@@ -44,7 +44,8 @@ struct HandState {
 enum Side { left_side, right_side };
 
 struct HeadsetFrame {
-    // From now until the picture is seen, as the runtime predicts it; poses are those of that moment.
+    // From now until the picture is seen, as the runtime predicts it; poses are those of that
+    // moment.
     Duration until_shown{};
     Pose floor_from_head;
     std::vector<HeadsetEye> eyes;                   // left, right; one on a flat display

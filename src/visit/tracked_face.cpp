@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracked_face.h"
+#include "visit/tracked_face.h"
 
 #include <algorithm>
 
 #include "base/steady_clock.h"
-#include "cli/stop_signal.h"
 
-namespace theatron::app {
+namespace theatron::visit {
 
 face::FaceNow TrackedFace::next(TimePoint end) {
     TimePoint now = steady_now();
@@ -15,8 +14,8 @@ face::FaceNow TrackedFace::next(TimePoint end) {
         now = steady_now();
         if (!packet.empty() && osc_.take(packet, now))
             input_.put(osc_.mapped(), now);
-    } while (now < end && !cli::stop_requested());
+    } while (now < end);
     return input_.at(now);
 }
 
-}  // namespace theatron::app
+}  // namespace theatron::visit

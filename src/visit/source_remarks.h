@@ -11,7 +11,7 @@
 #include "publish/camera_publisher.h"
 #include "wire/control.h"
 
-namespace theatron::app {
+namespace theatron::visit {
 
 class SourceRemarks {
 public:
@@ -44,4 +44,4 @@ private:
 // Writes them on the terminal.
 void say(const std::vector<std::string>& remarks);
 
-}  // namespace theatron::app
+}  // namespace theatron::visit

@@ -7,7 +7,7 @@
 #include "base/bytes.h"
 #include "base/time.h"
 
-namespace theatron::app {
+namespace theatron::visit {
 
 class FaceSocket {
 public:
@@ -33,4 +33,4 @@ private:
     Bytes buffer_;
 };
 
-}  // namespace theatron::app
+}  // namespace theatron::visit

@@ -4,10 +4,10 @@
 
 #include "face/face_input.h"
 #include "face/osc_face.h"
-#include "face_files.h"
-#include "face_socket.h"
+#include "visit/face_files.h"
+#include "visit/face_socket.h"
 
-namespace theatron::app {
+namespace theatron::visit {
 
 // Time between two looks at a tracker.
 inline constexpr Duration face_step = std::chrono::milliseconds(16);
@@ -17,7 +17,7 @@ public:
     // Throws Error.
     explicit TrackedFace(const FacePort& at) : socket_(FaceSocket::bound(at.address, at.port)) {}
 
-    // Takes what arrives until `end`, or until the program must end.
+    // Takes what arrives until `end`, and waits for it.
     face::FaceNow next(TimePoint end);
     const face::OscCounts& counts() const { return osc_.counts(); }
 
@@ -27,4 +27,4 @@ private:
     face::FaceInput input_;
 };
 
-}  // namespace theatron::app
+}  // namespace theatron::visit

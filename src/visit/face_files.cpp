@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "face_files.h"
+#include "visit/face_files.h"
 
 #include "base/error.h"
 #include "files/file_bytes.h"
 
-namespace theatron::app {
+namespace theatron::visit {
 namespace {
 
 constexpr std::size_t max_face_recording_bytes = std::size_t(256) << 20;
@@ -37,4 +37,4 @@ face::Network read_face_network(const std::string& file) {
     return *network;
 }
 
-}  // namespace theatron::app
+}  // namespace theatron::visit

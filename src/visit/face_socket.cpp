@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "face_socket.h"
+#include "visit/face_socket.h"
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
@@ -14,7 +14,7 @@
 #include "base/error.h"
 #include "face/osc.h"
 
-namespace theatron::app {
+namespace theatron::visit {
 namespace {
 
 sockaddr_in socket_address(const std::string& address, int port) {
@@ -76,4 +76,4 @@ void FaceSocket::send(ByteView packet) {
     (void)::send(socket_, packet.data(), packet.size(), 0);
 }
 
-}  // namespace theatron::app
+}  // namespace theatron::visit

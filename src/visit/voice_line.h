@@ -19,7 +19,7 @@
 #include "viewer/voices.h"
 #include "voice/talk_switch.h"
 
-namespace theatron::app {
+namespace theatron::visit {
 
 // All functions from one thread.
 class VoiceLine {
@@ -127,4 +127,4 @@ private:
     std::unique_ptr<sound::KeptDevice> microphone_;
 };
 
-}  // namespace theatron::app
+}  // namespace theatron::visit

@@ -16,9 +16,9 @@
 
 #include "client/participant.h"
 #include "face/emotion_reader.h"
-#include "tracked_face.h"
+#include "visit/tracked_face.h"
 
-namespace theatron::app {
+namespace theatron::visit {
 
 // The part of a face that the others get, without its time. Anger that is not told (face::decide)
 // counts as neutral.
@@ -72,4 +72,4 @@ private:
     std::string state_ = "off", emotion_;  // for json()
 };
 
-}  // namespace theatron::app
+}  // namespace theatron::visit

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "source_remarks.h"
+#include "visit/source_remarks.h"
 
 #include "base/log.h"
 
-namespace theatron::app {
+namespace theatron::visit {
 namespace {
 
 using wire::CameraCondition;
@@ -65,4 +65,4 @@ void say(const std::vector<std::string>& remarks) {
         log::say(remark);
 }
 
-}  // namespace theatron::app
+}  // namespace theatron::visit

@@ -7,7 +7,7 @@
 #include "face/network.h"
 #include "face/recording.h"
 
-namespace theatron::app {
+namespace theatron::visit {
 
 struct FacePort {
     std::string address = "127.0.0.1";
@@ -19,4 +19,4 @@ face::Recording read_face_recording(const std::string& file);
 face::Network read_face_network(const std::string& file);
 face::Source face_source(const std::string& name);
 
-}  // namespace theatron::app
+}  // namespace theatron::visit

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "face_line.h"
+#include "visit/face_line.h"
 
 #include <algorithm>
 #include <charconv>
@@ -10,12 +10,11 @@
 #include "base/fault.h"
 #include "base/log.h"
 #include "base/steady_clock.h"
-#include "cli/stop_signal.h"
 #include "face/synthetic_faces.h"
 #include "face/training.h"
 #include "session/expression_track.h"
 
-namespace theatron::app {
+namespace theatron::visit {
 namespace {
 
 FacePort port_of(const std::string& source) {
@@ -114,7 +113,7 @@ void FaceLine::send(client::Participant& participant, const std::stop_token& sto
     bool is_calibrated = !tracked_;  // the actor is at rest where its channels are 0
     wire::FaceExpression sent;       // the last one; at first as if it said that there is none
     TimePoint sent_at;
-    while (!stop.stop_requested() && !cli::stop_requested()) {
+    while (!stop.stop_requested()) {
         due = std::max(due + face_step, steady_now());
         const face::FaceNow face = next(due);
         if (!is_calibrated && face.tracking == face::Tracking::tracked) {
@@ -160,4 +159,4 @@ nlohmann::json FaceLine::json() const {
     return {{"state", state_}, {"emotion", emotion_}};
 }
 
-}  // namespace theatron::app
+}  // namespace theatron::visit

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "voice_line.h"
+#include "visit/voice_line.h"
 #include "phrases/phrase.h"
 
 #include <utility>
@@ -9,7 +9,7 @@
 #include "base/steady_clock.h"
 #include "session/permissions.h"
 
-namespace theatron::app {
+namespace theatron::visit {
 namespace {
 
 // A frame of this level counts as speech.
@@ -265,4 +265,4 @@ nlohmann::json VoiceLine::json() const {
     return result;
 }
 
-}  // namespace theatron::app
+}  // namespace theatron::visit

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "source_remarks.h"
+#include "visit/source_remarks.h"
 
 #include <gtest/gtest.h>
 
-namespace theatron::app {
+namespace theatron::visit {
 namespace {
 
 using wire::CameraCondition;
@@ -48,4 +48,4 @@ TEST(SourceRemarks, AShortPauseAndReasonsThatAlternateAreNoFlood) {
 }
 
 }  // namespace
-}  // namespace theatron::app
+}  // namespace theatron::visit
