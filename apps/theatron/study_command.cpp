@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "cases/manifest.h"
 #include "commands.h"
 #include "files/file_bytes.h"
 #include "files/json_text.h"
@@ -35,13 +36,16 @@ std::string order_text(const Study& study, int participant) {
 void check_study(const std::string& place, bool json) {
     const Study study = load_study(place);
     const std::vector<std::string> others = begun_with_another_text(study);
+    const std::vector<std::string> bare =
+        study::without_anchors(study.protocol, study.questionnaires);
     const auto steps = study::steps_of(study.protocol, study.questionnaires, 1);
     if (json) {
         nlohmann::ordered_json out{{"study", study.protocol.title},
                                    {"phases", study.protocol.phases.size()},
                                    {"steps", steps.size()},
                                    {"orders", nlohmann::ordered_json::array()},
-                                   {"begun_with_another_text", others}};
+                                   {"begun_with_another_text", others},
+                                   {"without_anchors", bare}};
         for (int p = 1; p <= shown_orders; ++p)
             out["orders"].push_back(order_text(study, p));
         std::cout << files::json_text(out) << std::endl;
@@ -55,6 +59,11 @@ void check_study(const std::string& place, bool json) {
     if (study.protocol.conditions.size() > 1)
         for (int p = 1; p <= shown_orders; ++p)
             std::printf("P%02d: %s\n", p, order_text(study, p).c_str());
+    for (const std::string& name : bare)
+        std::printf(
+            "Items of '%s' do not say what their lowest and highest points mean; write lines "
+            "'anchors = LOWEST | HIGHEST' into its file.\n",
+            name.c_str());
     if (const std::string note = another_text_note(others); !note.empty())
         std::printf("%s\n", note.c_str());
     std::printf("The study can be run.\n");
@@ -85,11 +94,12 @@ void print_form(const std::string& name) {
         "# Take the # away before each line that you complete, then name this file in the "
         "protocol.\n\nquestionnaire = %s\n# anchors = lowest point | highest point\n",
         one->title.c_str(), one->source.c_str(), one->texts_at.c_str(), one->id.c_str());
+    std::printf("# An item with points of its own has a line 'anchors' below it.\n");
     for (const study::Item& item : one->items) {
         std::string scales;
         for (const std::size_t s : item.scales)
             scales += (scales.empty() ? "" : ", ") + one->scales[s].title;
-        std::printf("\n# %s%s; %d to %d\nitem = %s\n# text = \n", scales.c_str(),
+        std::printf("\n# %s%s; %d to %d\nitem = %s\n# text = \n# anchors = \n", scales.c_str(),
                     item.reversed ? "; reversed" : "", item.lowest, item.highest, item.id.c_str());
     }
 }
@@ -97,6 +107,12 @@ void print_form(const std::string& name) {
 void write_text(const fs::path& path, const std::string& text) {
     files::write_file(path, as_bytes(text));
     std::printf("%s\n", path.c_str());
+}
+
+// "#c4281b".
+Rgb color_of(const std::string& code) {
+    const unsigned long value = std::stoul(code.substr(1), nullptr, 16);
+    return {std::uint8_t(value >> 16), std::uint8_t(value >> 8), std::uint8_t(value)};
 }
 
 // One construction: a plan to print, its answers, and its bricks by colour for a case.
@@ -125,11 +141,23 @@ void write_plan(const Study& study, std::size_t phase, int position, const fs::p
     write_text(out / (name + ".json"), files::json_text(json, 1) + "\n");
     write_text(out / (name + ".txt"), study::construction_text(made));
     fs::create_directories(out / name);
+    medical::Case parts;
+    parts.name = study.protocol.title + ": " + name;
+    parts.deidentified = true;  // no patient has ever been in it
     for (int c = 0; c < study::brick_colors; ++c) {
         const auto color = study::BrickColor(c);
-        if (const std::string obj = study::construction_obj(made, color); !obj.empty())
-            write_text(out / name / (std::string(study::name_of(color)) + " bricks.obj"), obj);
+        const std::string obj = study::construction_obj(made, color);
+        if (obj.empty())
+            continue;
+        medical::Part part;
+        part.name = std::string(study::name_of(color)) + " bricks";
+        part.file = part.name + ".obj";
+        part.color = color_of(study::code_of(color));
+        write_text(out / name / part.file, obj);
+        parts.parts.push_back(std::move(part));
     }
+    // The import takes colours from it.
+    write_text(out / name / cases::manifest_name, cases::manifest_text(parts));
 }
 
 void write_plans(const std::string& folder, const std::string& out) {

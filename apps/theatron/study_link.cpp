@@ -55,7 +55,11 @@ void lead_study(const Study& study, const StudyRunFlags& flags, study::StudyRun&
         paths.note(session_time(), "reply", id);
     };
     events.waits = [&](const std::string& why) { terminal.wait(why); };
-    events.found = [&](ParticipantId) { terminal.found(); };
+    // Nobody but the person in charge knows who began the run before.
+    const bool goes_on = run.position() > 0;
+    events.found = [&](const lead::Present& one) {
+        terminal.found(one.name, std::uint32_t(one.id), goes_on);
+    };
     lead::StudyLeader leader(run, study.protocol, flags.person, participant, std::move(events));
 
     std::optional<TimePoint> over;

@@ -29,10 +29,14 @@ LEVEL = 0.05
 POWER = 0.8
 RESAMPLES = 9999
 SEED = 20220914  # of the bootstrap: the same tables give the same report
+MOST_NEEDED = 1000  # larger numbers of participants say only that the difference seen is next to none
 MOST_PERMUTATIONS = 200_000  # beyond them the normal approximation is used, and named
 # Efficiency of the signed-rank test relative to the t test where differences are normal (3 / pi).
 EFFICIENCY = 3 / math.pi
 APPROXIMATE = "normal approximation"
+APPROXIMATE_CHI = "chi-squared approximation"
+EXACT = "exact"
+MOST_ORDERED = 6  # conditions whose orders are all counted: 720 a participant
 
 
 # Statistics
@@ -152,6 +156,29 @@ def friedman(table):
     return float(done.statistic), freedom, float(done.pvalue)
 
 
+def friedman_exact(table):
+    """(p, method) of the same statistic: by all orders of each participant's ranks where they can be counted, else by the
+    normal theory's chi squared. Ties within a participant stay, so the sum of squares of the rank sums orders the tables."""
+    ranks = np.apply_along_axis(stats.rankdata, 1, rounded(table))
+    n, k = ranks.shape
+    doubled = np.rint(2 * ranks).astype(int)  # tied ranks have halves
+    measure = lambda sums: sum(value * value for value in sums)
+    reached, counts = measure(doubled.sum(axis=0)), {tuple(doubled[0]): 1}
+    for row in doubled[1:]:
+        orders = list(itertools.permutations(row)) if k <= MOST_ORDERED else []
+        if not orders or len(counts) * len(orders) > MOST_PERMUTATIONS:
+            return friedman(table)[2], APPROXIMATE_CHI
+        following = {}
+        for sums, count in counts.items():
+            for order in orders:
+                # The order of the columns does not matter to the measure.
+                key = tuple(sorted(a + b for a, b in zip(sums, order)))
+                following[key] = following.get(key, 0) + count
+        counts = following
+    total = sum(counts.values())
+    return sum(count for sums, count in counts.items() if measure(sums) >= reached) / total, EXACT
+
+
 def t_power(effect, n):
     """Power of a paired t test for a difference of `effect` standard deviations."""
     edge = stats.t.ppf(1 - LEVEL / 2, n - 1)
@@ -188,7 +215,9 @@ KEYS = ["phase", "questionnaire", "scale", "title"]
 def in_order(scores, conditions):
     """The rows by questionnaire and scale as they first stand there, and by the protocol's order of conditions."""
     places = {condition: place for place, condition in enumerate(["", *conditions])}
-    scales = {key: place for place, key in enumerate(dict.fromkeys(map(tuple, scores[KEYS].values)))}
+    # The participant with the most scales has them in the order of the protocol; others may have left some out.
+    by_length = scores.assign(length=scores.groupby("participant").participant.transform("size")).sort_values("length", ascending=False, kind="stable")
+    scales = {key: place for place, key in enumerate(dict.fromkeys(map(tuple, by_length[KEYS].values)))}
     order = sorted(range(len(scores)), key=lambda i: (scales[tuple(scores[KEYS].iloc[i])], places[scores.condition.iloc[i]]))
     return scores.iloc[order].reset_index(drop=True)
 
@@ -239,9 +268,10 @@ def compared(scores, conditions):
         wide = group.pivot_table(index="participant", columns="condition", values="score").reindex(columns=conditions)
         whole = wide.dropna()
         if len(conditions) > 2 and len(whole) > 1:
-            chi2, freedom, p = friedman(whole.to_numpy())
+            chi2, freedom, p_chi2 = friedman(whole.to_numpy())
+            p, method = friedman_exact(whole.to_numpy())
             rows.append({**dict(zip(KEYS, key)), "test": "Friedman", "pair": "all", "n": len(whole), "nonzero": len(whole),
-                         "statistic": chi2, "freedom": freedom, "p": p, "method": "chi squared"})
+                         "statistic": chi2, "freedom": freedom, "p": p, "method": method, "p_chi_squared": p_chi2})
         for a, b in itertools.combinations(conditions, 2):
             pairs = wide[[a, b]].dropna()
             differences = (pairs[b] - pairs[a]).to_numpy()
@@ -249,7 +279,7 @@ def compared(scores, conditions):
                 continue
             w, p_sum, method_sum = rank_sum(pairs[b], pairs[a])
             rows.append({**pair_row(key, f"{b} - {a}", differences), "rank_sum_w": w, "rank_sum_p": p_sum, "rank_sum_method": method_sum})
-    table = pd.DataFrame(rows)
+    table = pd.DataFrame(rows, columns=None if rows else [*KEYS, "test", "pair", "n", "nonzero", "statistic", "p", "method"])
     if len(table):
         for _, places in table.groupby("test").groups.items():
             table.loc[places, "p_holm"] = holm(list(table.loc[places, "p"]))
@@ -260,7 +290,15 @@ def compared(scores, conditions):
 def conclusion(row):
     """Words on one comparison."""
     if row.test == "Friedman":
-        return "the conditions differ" if row.p_holm < LEVEL else "no difference was found, which does not show that there is none"
+        lowest = math.factorial(int(row.freedom) + 1) ** (1 - int(row.n))  # all agree
+        if lowest > LEVEL:
+            return f"too small to conclude: {int(row.n)} participants never reach p < {LEVEL}"
+        if row.method == APPROXIMATE_CHI and row.n < 6:
+            return f"too small to conclude: p is an approximation that {int(row.n)} participants do not allow"
+        if row.p_holm < LEVEL:
+            return "the conditions differ"
+        return ("a hint, which does not hold after Holm's correction" if row.p < LEVEL
+                else "too small to conclude: no difference was found, which does not show that there is none")
     if 2 * 0.5 ** row.nonzero > LEVEL:
         return f"too small to conclude: {int(row.nonzero)} of {int(row.n)} pairs differ, and fewer than 6 never reach p < {LEVEL}"
     if row.p_holm < LEVEL:
@@ -432,11 +470,19 @@ def number(value, digits=2):
 
 
 def p_text(p, method=""):
-    return "-" if math.isnan(p) else ("< 0.001" if p < 0.001 else f"{p:.3f}") + (" ~" if method == APPROXIMATE else "")
+    return "-" if math.isnan(p) else ("< 0.001" if p < 0.001 else f"{p:.3f}") + (" ~" if method in (APPROXIMATE, APPROXIMATE_CHI) else "")
 
 
-def share_text(share):
-    return "-" if math.isnan(share) else f"{100 * share:.0f} %"
+def share_text(share, n):
+    return "-" if math.isnan(share) else f"{round(share * n)} of {n}"
+
+
+def needed_text(n):
+    return f"> {MOST_NEEDED}" if n > MOST_NEEDED else number(n)
+
+
+def people(n):
+    return "1 participant" if n == 1 else f"{n} participants"
 
 
 def table_text(heads, rows, texts=1):
@@ -453,7 +499,7 @@ def description_table(rows, with_condition):
     heads = ["Scale", *(["Condition"] if with_condition else []), "n", "Median", "1st quartile", "3rd quartile", "Lowest", "Highest",
              "In lowest third", "In highest third"]
     return table_text(heads, [[r.title, *([r.condition or "-"] if with_condition else []), r.n, number(r.median), number(r.q1), number(r.q3),
-                               number(r.minimum), number(r.maximum), share_text(r.lowest_third), share_text(r.highest_third)]
+                               number(r.minimum), number(r.maximum), share_text(r.lowest_third, r.n), share_text(r.highest_third, r.n)]
                               for r in rows.itertuples()], 2 if with_condition else 1)
 
 
@@ -462,32 +508,52 @@ def comparison_tables(rows):
     if len(rows) and len(whole := rows[rows.test == "Friedman"]):
         lines.append("<h3>All conditions (Friedman)</h3>")
         lines.append(table_text(["Scale", "n", "Chi squared", "df", "p", "p (Holm)", "Conclusion"],
-                                [[r.title, r.n, number(r.statistic), int(r.freedom), p_text(r.p), p_text(r.p_holm), conclusion(r)]
+                                [[r.title, r.n, number(r.statistic), int(r.freedom), p_text(r.p, r.method), p_text(r.p_holm), conclusion(r)]
                                  for r in whole.itertuples()]))
     if len(rows) and len(pairs := rows[rows.test == "signed-rank"]):
         lines.append("<h3>Pairs of conditions (Wilcoxon signed-rank)</h3>")
         lines.append(table_text(
             ["Scale", "Pair", "n", "V", "p", "p (Holm)", "Effect r [95 %]", "n needed", "Rank-sum W, p", "Conclusion"],
             [[r.title, r.pair, r.n, number(r.statistic, 1), p_text(r.p, r.method), p_text(r.p_holm),
-              f"{r.effect:.2f}" + ("" if math.isnan(r.effect_low) else f" [{r.effect_low:.2f}, {r.effect_high:.2f}]"), number(r.needed_n),
+              f"{r.effect:.2f}" + ("" if math.isnan(r.effect_low) else f" [{r.effect_low:.2f}, {r.effect_high:.2f}]"), needed_text(r.needed_n),
               "-" if math.isnan(r.rank_sum_p) else f"{number(r.rank_sum_w, 1)}, {p_text(r.rank_sum_p, r.rank_sum_method)}", conclusion(r)] for r in pairs.itertuples()], 2))
     return lines
 
 
-def size_note(n, conditions):
-    """A sentence on what this number of participants can tell at all."""
+def complete_pairs(comparisons):
+    """(fewest, most) participants of a comparison of two conditions; None: there is none."""
+    pairs = comparisons[comparisons.test == "signed-rank"].n if len(comparisons) else []
+    return (int(min(pairs)), int(max(pairs))) if len(pairs) else None
+
+
+def size_note(agreed, conditions, pairs=None):
+    """A sentence on what this number of participants can tell at all. `pairs`: as of complete_pairs()."""
+    n = agreed if conditions < 2 else pairs[1] if pairs else 0
+    if conditions >= 2 and agreed > 0 and n == 0:
+        return f"{people(agreed)} agreed, and nobody has rated two conditions yet, so there is nothing to compare."
     if n == 0:
         return "Nobody has agreed to take part yet, so there is nothing to describe."
     if conditions < 2:
         half = stats.binomtest(n // 2, n).proportion_ci(method="exact")
-        return (f"{n} participants and no two conditions: this report describes and compares nothing. A share of so few people is inexact: where "
+        return (f"{people(n)} and no two conditions: this report describes and compares nothing. A share of so few people is inexact: where "
                 f"{n // 2} of {n} say something, {100 * half.low:.0f} to {100 * half.high:.0f} % of all may do so (95 % interval of Clopper and Pearson).")
+    who = f"{n} of {people(agreed)} rated two conditions" if n < agreed else people(n)
+    who += f" (in some comparisons {pairs[0]})" if pairs[0] < n else ""
     if n < 6:
-        return (f"{n} participants: no comparison of two conditions can reach p &lt; {LEVEL}, whatever they reply. "
-                "The study is too small to conclude; this report describes.")
+        return (f"{who}: no comparison of two conditions can reach p &lt; {LEVEL}, whatever they reply. "
+                "The study is too small to conclude on pairs; this report describes.")
     effect = next(d / 100 for d in range(5, 1000) if t_power(d / 100, n * EFFICIENCY) >= POWER)
-    return (f"{n} participants: with a probability of {100 * POWER:.0f} % a comparison of two conditions finds differences of at least {effect:.2f} standard "
+    return (f"{who}: with a probability of {100 * POWER:.0f} % a comparison of two conditions finds differences of at least {effect:.2f} standard "
             "deviations of the differences, before any correction. Smaller ones stay unseen, so \"no difference was found\" never means that there is none.")
+
+
+def order_note(participants, conditions):
+    """A sentence where those who completed the study did not see all orders equally often; empty: they did."""
+    orders = participants[participants.state == "complete"].order.value_counts()
+    if conditions < 2 or not len(orders) or (orders.max() == orders.min() and (len(orders) > 1 or orders.max() == 1)):
+        return ""
+    return ("The orders of conditions are not equally frequent among those who completed the study, so an effect of the order looks like one of "
+            "the conditions: " + "; ".join(f"{order} ({count})" for order, count in orders.items()) + ".")
 
 
 def tell(text):
@@ -503,13 +569,13 @@ def read(folder, name):
 
 
 METHOD = f"""<p>Quartiles interpolate linearly. Two conditions are compared within participants by Wilcoxon's signed-rank test, two-sided; differences of 0 do not
-count, and tied ranks are averaged. p is exact, by all permutations; where a ~ follows, it is the normal approximation. Holm's correction covers all tests of one
+count, and tied ranks are averaged. p is exact, by all permutations, also of Friedman's test; where a ~ follows, it is the normal or the chi-squared approximation. Holm's correction covers all tests of one
 kind in this report. The effect r is the rank-biserial correlation of matched pairs, with the interval of a percentile bootstrap ({RESAMPLES} samples of
-participants); there is none where all differ in one direction. "n needed" is the number of pairs with which a difference as large as the one seen would be found with a probability of {100 * POWER:.0f} %;
+participants), not corrected for the number of comparisons; there is none where all differ in one direction. "n needed" is the number of pairs, at a single test, with which a difference as large as the one seen would be found with a probability of {100 * POWER:.0f} %;
 the differences of small studies vary much, and so does this number. The rank-sum test stands beside them for comparison with studies that report it; it does
 not know that the same people saw both conditions.</p>
 <p>A scale that lacks a reply has no value. The time of a step during which the program was started again is left out. Tables: participants.csv, replies.csv,
-scores.csv, tasks.csv, descriptions.csv, statistics.csv.</p>"""
+scores.csv, tasks.csv, items.csv, descriptions.csv, statistics.csv.</p>"""
 
 
 def write_report(folder):
@@ -525,9 +591,11 @@ def write_report(folder):
 
     agreed = int((participants.state != "declined").sum())
     page = [f"<h1>{html.escape(study['title'])}</h1>",
-            f"<p>{agreed} participants agreed, {int((participants.state == 'complete').sum())} of them completed the study. "
+            f"<p>{people(agreed)} agreed, {int((participants.state == 'complete').sum())} of them completed the study. "
             + (f"Order of conditions: {html.escape(study['order'])}, seed {study['seed']}.</p>" if conditions else "</p>"),
-            f"<p class='note'>{size_note(agreed, len(conditions))}</p>"]
+            f"<p class='note'>{size_note(agreed, len(conditions), complete_pairs(comparisons))}</p>"]
+    if note := order_note(participants, len(conditions)):
+        page.append(f"<p class='note'>{html.escape(note)}</p>")
     if study["left_out"]:
         page.append(f"<p class='note'>Left out, because they began with another text of the protocol: {html.escape(', '.join(study['left_out']))}.</p>")
     if conditions:

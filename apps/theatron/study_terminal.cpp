@@ -5,6 +5,8 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "base/outside_text.h"
+
 namespace theatron::app {
 namespace {
 
@@ -182,10 +184,14 @@ void StudyTerminal::over() const {
     std::fflush(stdout);
 }
 
-void StudyTerminal::found() const {
+void StudyTerminal::found(const std::string& name, std::uint32_t number, bool goes_on) const {
+    // The name of a person stands on the terminal alone: lines of JSON are often kept.
     if (json_)
-        return say({{"event", "found"}});
-    std::printf("The participant is here.\n");
+        return say({{"event", "found"}, {"id", number}});
+    std::printf(
+        "The participant is here: %s, #%u.%s\n", clean_text(name, name.size()).c_str(),
+        unsigned(number),
+        goes_on ? " If somebody else began this run, stop now, and start with --person '#n'." : "");
     std::fflush(stdout);
 }
 

@@ -2,6 +2,7 @@
 // The output of 'theatron study run': for the person in charge, or as lines of JSON for a script.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "study_folder.h"
@@ -26,7 +27,7 @@ public:
     // The time to watch is over.
     void over() const;
     // The participant of a session: has come, or why the run waits.
-    void found() const;
+    void found(const std::string& name, std::uint32_t number, bool goes_on) const;
     void wait(const std::string& why) const;
     void end(const study::StudyRun& run) const;
 

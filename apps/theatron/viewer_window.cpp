@@ -168,6 +168,15 @@ private:
     // The mouse and the keyboard press buttons and move sliders and panels; what they use is taken
     // out of `input`.
     void press_controls(window::WindowInput& input, TimePoint now) {
+        std::erase_if(input.keys, [&](const window::KeyPress& key) {
+            using window::Nudge;
+            if (key.action != window::Action::nudge ||
+                (key.nudge != Nudge::up && key.nudge != Nudge::down) ||
+                !overlay_.turn_page(key.nudge == Nudge::down ? 1 : -1))
+                return false;
+            input.redraw = true;
+            return true;
+        });
         if (const auto pressed = window::take_focus_keys(input, overlay_.controls(),
                                                          overlay_.keyboard_begin(), focus_)) {
             viewer_.press(overlay_.command_of(*pressed), now);

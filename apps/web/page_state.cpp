@@ -57,8 +57,13 @@ json to_json(const window::OverlayContent& overlay) {
             for (const window::PanelButton& button : row.buttons)
                 buttons.push_back({{"label", button.label}, {"command", button.command}});
             rows.push_back({{"text", row.text}, {"detail", row.detail}, {"buttons", buttons}});
+            if (row.subject)
+                rows.back()["subject"] = *row.subject;
         }
-        panels.push_back({{"title", panel.title}, {"kind", kind_of(panel)}, {"rows", rows}});
+        panels.push_back({{"title", panel.title},
+                          {"kind", kind_of(panel)},
+                          {"keyboard", panel.keyboard},
+                          {"rows", rows}});
     }
     return {
         {"facts", facts},           {"message", overlay.message},

@@ -162,7 +162,7 @@ bool StudyLeader::find_person() {
     person_ = found->id;
     waiting_.clear();
     if (events_.found)
-        events_.found(found->id);
+        events_.found(*found);
     return true;
 }
 

@@ -38,7 +38,7 @@ public:
         std::function<void()> shown;                        // the current step, for the first time
         std::function<void(const std::string& id)> kept;    // the reply to this step
         std::function<void(const std::string& why)> waits;  // a sentence
-        std::function<void(ParticipantId)> found;           // the participant, anew
+        std::function<void(const Present&)> found;          // the participant, anew
     };
 
     // `run` and `participant` must outlive it; the latter keeps the room and knows studies.

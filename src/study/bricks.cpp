@@ -18,10 +18,6 @@ BrickColor random_color(SplitMix& random) {
     return BrickColor(random.below(brick_colors));
 }
 
-bool overlaps(const Brick& a, const Brick& b) {
-    return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.depth && b.y < a.y + a.depth;
-}
-
 bool is_free(const Construction& construction, const Brick& brick) {
     return brick.x >= 0 && brick.y >= 0 && brick.x + brick.width <= side_studs &&
            brick.y + brick.depth <= side_studs && brick.layer >= 0 && brick.layer < layers &&
@@ -90,6 +86,10 @@ const char* code_of(BrickColor color) {
     constexpr const char* codes[brick_colors] = {"#c4281b", "#0d69ac", "#f5cd2f",
                                                  "#287f47", "#f2f3f2", "#333333"};
     return codes[int(color)];
+}
+
+bool overlaps(const Brick& a, const Brick& b) {
+    return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.depth && b.y < a.y + a.depth;
 }
 
 std::string kind_of(const Brick& brick) {

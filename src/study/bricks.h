@@ -22,6 +22,9 @@ struct Brick {
     bool operator==(const Brick&) const = default;
 };
 
+// One is over a part of the other, whatever their layers are.
+bool overlaps(const Brick& a, const Brick& b);
+
 // The kind of a brick, however it is turned: "red 2x4".
 std::string kind_of(const Brick& brick);
 

@@ -47,7 +47,16 @@ std::string letter_of(BrickColor color) {
     return color == BrickColor::black ? "K" : std::string(1, char(name_of(color)[0] - 'a' + 'A'));
 }
 
-std::string drawn(const Brick& brick, double x, double y, double scale) {
+// Nothing is below it: it holds by the layer above alone.
+bool hangs(const Brick& brick, const Construction& construction) {
+    return brick.layer > 0 && std::none_of(construction.bricks.begin(), construction.bricks.end(),
+                                           [&](const Brick& other) {
+                                               return other.layer == brick.layer - 1 &&
+                                                      overlaps(brick, other);
+                                           });
+}
+
+std::string drawn(const Brick& brick, bool hangs, double x, double y, double scale) {
     const double pitch = stud_mm * scale;
     std::string svg = rectangle(
         x + brick.x * pitch, y + brick.y * pitch, brick.width * pitch, brick.depth * pitch,
@@ -63,7 +72,8 @@ std::string drawn(const Brick& brick, double x, double y, double scale) {
     svg += "<text x='" + decimal(x + (brick.x + brick.width / 2.0) * pitch) + "' y='" +
            decimal(y + (brick.y + brick.depth / 2.0) * pitch + 1.5 * scale) +
            "' font-size='4' font-weight='bold' text-anchor='middle' fill='" +
-           (is_dark ? "#fff" : "#000") + "'>" + letter_of(brick.color) + "</text>\n";
+           (is_dark ? "#fff" : "#000") + "'>" + letter_of(brick.color) + (hangs ? "^" : "") +
+           "</text>\n";
     return svg;
 }
 
@@ -105,10 +115,13 @@ private:
 std::string construction_text(const Construction& construction) {
     std::string text;
     for (const Brick& brick : construction.bricks)
-        text += "layer " + std::to_string(brick.layer + 1) + ": " + kind_of(brick) + " at " +
-                std::to_string(brick.x) + "," + std::to_string(brick.y) + ", " +
-                std::to_string(brick.width) + " wide and " + std::to_string(brick.depth) +
-                " deep\n";
+        text +=
+            "layer " + std::to_string(brick.layer + 1) + ": " + kind_of(brick) + " at " +
+            std::to_string(brick.x) + "," + std::to_string(brick.y) + ", " +
+            std::to_string(brick.width) + " wide and " + std::to_string(brick.depth) + " deep" +
+            (hangs(brick, construction) ? ", hangs from layer " + std::to_string(brick.layer + 2)
+                                        : "") +
+            "\n";
     return text;
 }
 
@@ -129,7 +142,7 @@ std::string construction_plan(const Construction& construction, const std::strin
     // Two layers side by side. A large construction is drawn smaller.
     const int across = std::max(high_x - low_x, 1), down = std::max(high_y - low_y, 1);
     const double rows = double((by_layer.size() + 1) / 2);
-    const double free_mm = page_height_mm - 75.0 - rows * (gap_mm + 4);
+    const double free_mm = page_height_mm - 78.0 - rows * (gap_mm + 4);
     const double shown_scale =
         std::min({1.0, double(shown_studs) / across, free_mm / (rows * down * stud_mm)});
     const double cell_width = across * stud_mm * shown_scale;
@@ -148,18 +161,23 @@ std::string construction_plan(const Construction& construction, const std::strin
         margin_mm, margin_mm + 15,
         "Grey outlines: the layer below. R red, B blue, Y yellow, G green, W white, K black.",
         "3.5");
+    if (std::any_of(construction.bricks.begin(), construction.bricks.end(),
+                    [&](const Brick& brick) { return hangs(brick, construction); }))
+        svg += text_at(margin_mm, margin_mm + 19,
+                       "^ has no brick below it: put it under its brick of the next layer first.",
+                       "3.5");
     int place = 0;
-    double bottom = margin_mm + 20;
+    double bottom = margin_mm + 23;
     for (const auto& [layer, bricks] : by_layer) {
         const double x = margin_mm + place % 2 * (cell_width + 3 * gap_mm);
-        const double y = margin_mm + 24 + place / 2 * (cell_height + gap_mm + 4);
+        const double y = margin_mm + 27 + place / 2 * (cell_height + gap_mm + 4);
         svg += text_at(x, y - 1.5, "Layer " + std::to_string(layer + 1), "3.5");
         svg += rectangle(x, y, cell_width, cell_height,
                          "fill='none' stroke='#bbb' stroke-width='0.2'");
         const double pitch = stud_mm * shown_scale;
         const double left = x - low_x * pitch, top = y - low_y * pitch;
         for (const Brick& brick : bricks)
-            svg += drawn(brick, left, top, shown_scale);
+            svg += drawn(brick, hangs(brick, construction), left, top, shown_scale);
         if (const auto below = by_layer.find(layer - 1); below != by_layer.end())
             for (const Brick& brick : below->second)
                 svg += rectangle(left + brick.x * pitch, top + brick.y * pitch, brick.width * pitch,
@@ -185,9 +203,11 @@ std::string construction_obj(const Construction& construction, BrickColor color)
             continue;
         // A small play, so that bricks side by side do not share their faces.
         constexpr double play_mm = 0.1;
-        const double x0 = brick.x * stud_mm + play_mm, y0 = brick.y * stud_mm + play_mm;
+        // The plan is seen from above and its y goes down; here z goes up, so y goes the other way.
+        const double x0 = brick.x * stud_mm + play_mm;
         const double x1 = (brick.x + brick.width) * stud_mm - play_mm;
-        const double y1 = (brick.y + brick.depth) * stud_mm - play_mm;
+        const double y0 = -(brick.y + brick.depth) * stud_mm + play_mm;
+        const double y1 = -brick.y * stud_mm - play_mm;
         const double bottom = brick.layer * layer_mm, top = bottom + layer_mm;
         obj.add_prism<4>({{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}}, bottom, top);
         for (int i = 0; i < brick.width * brick.depth; ++i) {
@@ -196,7 +216,8 @@ std::string construction_obj(const Construction& construction, BrickColor color)
                 const double angle = double(k) * quarter_turn / 2;
                 around[k] = {
                     (brick.x + i % brick.width + 0.5) * stud_mm + stud_radius_mm * std::cos(angle),
-                    (brick.y + i / brick.width + 0.5) * stud_mm + stud_radius_mm * std::sin(angle)};
+                    -(brick.y + i / brick.width + 0.5) * stud_mm +
+                        stud_radius_mm * std::sin(angle)};
             }
             obj.add_prism<8>(around, top, top + stud_height_mm);
         }

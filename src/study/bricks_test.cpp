@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <map>
 #include <set>
 #include <sstream>
@@ -15,6 +16,7 @@ namespace theatron::study {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 // A red 2x4 with a blue 1x2 on its corner, half of which hangs over.
 Construction small() {
@@ -144,6 +146,33 @@ TEST(Bricks, TheMeshIsClosedAndHasTheVolumeOfItsBricks) {
     const double octagon = 2 * std::sqrt(2.0) * 2.4 * 2.4;
     EXPECT_NEAR(volume, 31.8 * 15.8 * 9.6 + 8 * octagon * 1.7, 15);
     EXPECT_EQ(construction_obj(small(), BrickColor::green), "");
+}
+
+TEST(Bricks, TheMeshIsThePlanAndNotItsMirrorImage) {
+    // Seen from above, x to the right: what is further down on the plan has a smaller y.
+    const Construction two{{{BrickColor::red, 2, 2, 0, 0, 0}, {BrickColor::blue, 2, 2, 0, 3, 0}}};
+    const auto first_y = [&](BrickColor color) {
+        const std::string obj = construction_obj(two, color);
+        double x = 0, y = 0;
+        EXPECT_EQ(std::sscanf(obj.c_str() + obj.find("\nv "), "\nv %lf %lf", &x, &y), 2);
+        return y;
+    };
+    EXPECT_GT(first_y(BrickColor::red), first_y(BrickColor::blue));
+}
+
+TEST(Bricks, ABrickThatHangsIsMarked) {
+    const Construction bridge{{{BrickColor::red, 2, 2, 0, 0, 0},
+                               {BrickColor::white, 6, 2, 0, 0, 1},
+                               {BrickColor::blue, 2, 2, 4, 0, 0}}};
+    EXPECT_THAT(construction_plan(bridge, "t"), Not(HasSubstr("^")));
+    const Construction hanging{{{BrickColor::red, 2, 2, 0, 0, 1},
+                                {BrickColor::white, 6, 2, 0, 0, 2},
+                                {BrickColor::blue, 2, 2, 0, 0, 0},
+                                {BrickColor::green, 2, 2, 4, 0, 1}}};
+    EXPECT_THAT(construction_plan(hanging, "t"), HasSubstr("G^"));
+    EXPECT_THAT(construction_plan(hanging, "t"), HasSubstr("^ has no brick below it"));
+    EXPECT_THAT(construction_plan(hanging, "t"), Not(HasSubstr("R^")));
+    EXPECT_THAT(construction_text(hanging), HasSubstr("2 deep, hangs from layer 3"));
 }
 
 }  // namespace

@@ -328,6 +328,22 @@ std::vector<ConfigMistake> check_questionnaires(const Protocol& protocol,
     return mistakes;
 }
 
+std::vector<std::string> without_anchors(const Protocol& protocol, const Questionnaires& known) {
+    std::vector<std::string> names;
+    for (const Phase& phase : protocol.phases)
+        for (const std::string& name : phase.questionnaires) {
+            const Questionnaire* one = known.find(name);
+            const bool is_bare =
+                one && std::any_of(one->items.begin(), one->items.end(), [](const Item& item) {
+                    return !item.scales.empty() && item.choices.empty() && item.left.empty() &&
+                           item.right.empty();
+                });
+            if (is_bare && std::count(names.begin(), names.end(), name) == 0)
+                names.push_back(name);
+        }
+    return names;
+}
+
 std::string values_text(const Condition& condition) {
     std::string text;
     const auto add = [&](const char* key, const std::string& value) {

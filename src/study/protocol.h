@@ -84,6 +84,9 @@ ReadProtocol parse_protocol(std::string_view text);
 std::vector<ConfigMistake> check_questionnaires(const Protocol& protocol,
                                                 const Questionnaires& known);
 
+// Questionnaires of the protocol with a rated item whose points have no meaning.
+std::vector<std::string> without_anchors(const Protocol& protocol, const Questionnaires& known);
+
 // The beginning of a new study: an example with comments, which is right and runs at once.
 std::string_view example_protocol();
 

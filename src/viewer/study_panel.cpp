@@ -42,7 +42,7 @@ bool StudyPanel::take(const std::optional<client::Participant::Study>& study, Ti
     if (is_same && step_->problem.empty())  // told again: what the person has chosen stays
         return false;
     chosen_.reset();
-    negative_ = aside_ = asks_end_ = false;
+    negative_ = types_ = aside_ = asks_end_ = false;
     return true;
 }
 
@@ -66,6 +66,26 @@ bool StudyPanel::is_typed() const {
     return step_->kind == StudyKind::number ||
            (step_->kind == StudyKind::rating &&
             (std::int64_t(step_->highest) - step_->lowest) / step_->step_size >= most_points);
+}
+
+bool StudyPanel::types_digits() const {
+    const auto [lowest, highest] = bounds();
+    const bool has_points = step_->kind == StudyKind::rating || step_->kind == StudyKind::choice;
+    return is_typed() || (has_points && (lowest < 0 || highest > 9));
+}
+
+void StudyPanel::type_digit(int digit) {
+    constexpr int most_digits_value = 99'999;
+    const auto [lowest, highest] = bounds();
+    const bool has_one_digit = lowest >= -9 && highest <= 9;
+    // A button was pressed before, or the reply has one digit: the number begins anew.
+    if (!types_ || (has_one_digit && chosen_)) {
+        negative_ = negative_ && !chosen_;
+        chosen_.reset();
+    }
+    types_ = true;
+    if (const int before = std::abs(chosen_.value_or(0)); before <= most_digits_value)
+        chosen_ = (before * 10 + digit) * (negative_ ? -1 : 1);
 }
 
 bool StudyPanel::is_point(std::int64_t value) const {
@@ -95,15 +115,16 @@ std::optional<wire::StudyReply> StudyPanel::carry_out(const StudyPress& press, T
         asks_end_ = false;
         return wire::StudyReply{step_->step, action, value};
     };
-    constexpr int most_digits_value = 99'999;
     switch (press.what) {
         case What::choose:
-            if (is_point(press.value))
-                chosen_ = press.value;
+            if (!is_point(press.value))
+                break;
+            chosen_ = press.value;
+            negative_ = press.value < 0;
+            types_ = false;
             break;
         case What::digit:
-            if (const int before = std::abs(chosen_.value_or(0)); before <= most_digits_value)
-                chosen_ = (before * 10 + press.value) * (negative_ ? -1 : 1);
+            type_digit(press.value);
             break;
         case What::minus:
             negative_ = !negative_;
@@ -152,21 +173,17 @@ std::optional<StudyPress> StudyPanel::press_of(const StudyKey& key, TimePoint no
         return std::nullopt;
     switch (key.what) {
         case Key::digit:
-            if (is_typed())
+            if (types_digits())
                 return StudyPress{What::digit, key.digit};
             if (step_->kind == StudyKind::rating || step_->kind == StudyKind::choice)
                 return StudyPress{What::choose, key.digit};
             break;
         case Key::minus:
-            if (bounds().first >= 0)
-                break;
-            if (is_typed())
+            if (types_digits() && bounds().first < 0)
                 return StudyPress{What::minus};
-            if (chosen_)
-                return StudyPress{What::choose, -*chosen_};
             break;
         case Key::erase:
-            if (is_typed())
+            if (types_digits())
                 return StudyPress{What::erase};
             break;
         case Key::go_on:
@@ -230,15 +247,22 @@ void StudyPanel::add_answers(window::Panel& rows, RoomPanel& panel) const {
                     {say(Phrase::study_points, std::to_string(point), meaning), "", {}});
         if (is_typed())
             return add_keys(rows, panel);
+        // The meanings of the lowest and the highest point stand between the question and its
+        // points.
+        const std::string question = step_->texts.empty() ? "" : step_->texts.back().text;
         window::PanelRow points;
+        points.subject = question;
         for (std::int64_t point = step_->lowest; point <= step_->highest;
              point += step_->step_size) {
             if (points.buttons.size() == std::size_t(points_in_row))
-                rows.rows.push_back(std::exchange(points, {}));
+                rows.rows.push_back(std::exchange(points, {"", "", {}, {}, question}));
             points.buttons.push_back(answer(std::to_string(point), int(point), panel));
         }
         rows.rows.push_back(std::move(points));
     }
+    // A number that is being typed need not be a point yet.
+    if (types_digits() && (negative_ || (types_ && chosen_)))
+        rows.rows.push_back({typed_text(), "", {}});
 }
 
 // Rows without buttons, because their texts change by themselves.
@@ -267,6 +291,7 @@ void StudyPanel::add_ways_on(window::Panel& rows, RoomPanel& panel, TimePoint no
         return;
     }
     window::PanelRow on;
+    on.subject = "";
     if (may_go_on(now))
         on.buttons.push_back(button(Phrase::study_go_on, What::go_on));
     if (step_->kind >= StudyKind::number)
@@ -276,7 +301,9 @@ void StudyPanel::add_ways_on(window::Panel& rows, RoomPanel& panel, TimePoint no
     rows.rows.push_back(
         {say(Phrase::study_step, std::to_string(step_->step), std::to_string(step_->steps)),
          "",
-         {button(Phrase::study_aside, What::aside), button(Phrase::study_end, What::ask_end)}});
+         {button(Phrase::study_aside, What::aside), button(Phrase::study_end, What::ask_end)},
+         {},
+         ""});
 }
 
 // Never 0. Another one where the keyboard has to find its button anew.

@@ -52,6 +52,9 @@ private:
     std::pair<int, int> bounds() const;
     bool is_question() const;
     bool is_typed() const;
+    // Keys type a number, since a reply may have more than one digit or a sign.
+    bool types_digits() const;
+    void type_digit(int digit);
     bool is_point(std::int64_t value) const;
     bool takes_replies() const;
     std::string typed_text() const;
@@ -72,6 +75,7 @@ private:
     TimePoint shown_;
     std::optional<int> chosen_;
     bool negative_ = false;  // the number that is typed, also before its first digit
+    bool types_ = false;     // `chosen_` was begun by keys, and the next digit goes behind it
     bool sent_ = false;
     bool aside_ = false;
     bool asks_end_ = false;

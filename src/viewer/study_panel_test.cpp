@@ -233,6 +233,39 @@ TEST_F(StudyPanelOfAPerson, NegativeNumbersAreTypedWhereTheyAreAllowed) {
     key(Key::digit, 2);
     key(Key::minus);
     EXPECT_TRUE(has("[-2]"));
+    key(Key::digit, 3);
+    EXPECT_TRUE(has("[3]")) << "a reply of one digit begins anew";
+    key(Key::erase);
+    key(Key::minus);
+    EXPECT_TRUE(says("Your reply: -"));
+    key(Key::digit, 1);
+    EXPECT_TRUE(has("[-1]"));
+}
+
+TEST_F(StudyPanelOfAPerson, RepliesOfMoreThanOneDigitAreTyped) {
+    wire::StudyStep load = step(StudyKind::rating);
+    load.highest = 100;
+    load.step_size = 5;
+    show(load);
+    key(Key::digit, 1);
+    EXPECT_TRUE(says("Your reply: 1"));
+    EXPECT_EQ(key(Key::go_on), std::nullopt) << "1 is no point";
+    key(Key::digit, 5);
+    EXPECT_TRUE(has("[15]"));
+    key(Key::erase);
+    EXPECT_FALSE(has("[15]") || has("Go on"));
+    press("35");
+    key(Key::digit, 5);
+    EXPECT_TRUE(has("[5]")) << "a pressed point is replaced and not continued";
+    key(Key::digit, 0);
+    EXPECT_EQ(key(Key::go_on), (wire::StudyReply{1, StudyAction::answer, 50}));
+
+    wire::StudyStep choice = step(StudyKind::choice);
+    choice.choices.resize(20, {"one of them"});
+    show(choice);
+    key(Key::digit, 1);
+    key(Key::digit, 5);
+    EXPECT_EQ(key(Key::go_on), (wire::StudyReply{2, StudyAction::answer, 15}));
 }
 
 TEST_F(StudyPanelOfAPerson, TheKeyboardFindsItsButtonAnewWithEachStep) {

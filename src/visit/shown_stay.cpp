@@ -29,7 +29,12 @@ void ShownStay::tick(bool talks, TimePoint now) {
         viewer_.note(stay_.obey(ShowFace{*wish}), now);
     for (const std::string& sentence : stay_.tick(now))
         viewer_.note(sentence, now);
-    viewer_.set_own_face(shown(stay_.ports().face));
+    // The host does not take the face: its remark has said so, and the button is off again.
+    publish::OwnFace* const face = stay_.ports().face;
+    if (face && face->state() == publish::OwnFace::State::offered &&
+        !stay_.participant().status().face_problem.empty())
+        face->show(false);
+    viewer_.set_own_face(shown(face));
     if (VoiceLine* const voice = stay_.ports().voice) {
         voice->hold(talks, now);
         follow_voice(now);

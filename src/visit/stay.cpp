@@ -139,10 +139,6 @@ std::vector<std::string> Stay::tick(TimePoint now) {
         ports_.face->on_tick();
         if (std::string problem = ports_.face->take_problem(); !problem.empty())
             sentences.push_back(std::move(problem));
-        // The host does not take it: its remark has said so.
-        if (ports_.face->state() == publish::OwnFace::State::offered &&
-            !status.face_problem.empty())
-            ports_.face->show(false);
     }
     if (ports_.cameras)
         for (std::string& text : sources_.take(*ports_.cameras, now))

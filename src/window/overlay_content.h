@@ -41,6 +41,9 @@ struct PanelRow {
     std::string text, detail;  // the detail is smaller and below, in one or several lines
     std::vector<PanelButton> buttons;
     std::optional<PanelSlider> slider = {};  // left of the buttons
+    // The text that its buttons belong to, for a screen reader; nullopt: that of the row, or else
+    // of the row above.
+    std::optional<std::string> subject = {};
 
     bool operator==(const PanelRow&) const = default;
 };

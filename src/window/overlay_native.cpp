@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "phrases/phrase.h"
 #include "window/imgui_fonts_native.h"
@@ -90,10 +91,20 @@ struct Overlay::Parts {
     float controls_width(const PanelRow& row, float least = 0) const;
     float wanted_width(const Panel& panel) const;
     float panels(const std::vector<Panel>& panels, const Area& free);
+    // The row of the panel that has the control which got the keyboard since the last picture.
+    std::optional<std::size_t> focused_row(const Panel& panel) const;
+    // Buttons of rows that are scrolled out: the keyboard reaches them, the mouse does not.
+    void hide_buttons(const PanelRow& row);
     std::vector<Area> panel_areas;
     std::vector<std::string> panel_titles;  // of each of them
     std::vector<std::pair<Area, int>> buttons;
     std::optional<std::size_t> keyboard_begin;  // in `buttons`
+    // The panel to which the keyboard comes first.
+    std::uint64_t keyboard = 0;  // its number in the last picture
+    std::string keyboard_title;  // empty: there is none
+    std::size_t keyboard_rows = 0, keyboard_left_out = 0;
+    std::optional<std::size_t> focused;  // control that has the keyboard
+    bool focus_moved = false;            // since the last picture
     std::vector<std::pair<Area, PanelSlider>> sliders;
     void slider(const PanelSlider& slider, const Area& place);
     float bar(const PanelRow& row, float bottom);
@@ -411,6 +422,24 @@ float Overlay::Parts::wanted_width(const Panel& panel) const {
     return width;
 }
 
+std::optional<std::size_t> Overlay::Parts::focused_row(const Panel& panel) const {
+    if (!focus_moved || !focused || *focused < buttons.size())
+        return std::nullopt;
+    std::size_t control = buttons.size();
+    for (std::size_t row = 0; row < panel.rows.size(); ++row) {
+        control += panel.rows[row].buttons.size();
+        if (*focused < control)
+            return row;
+    }
+    return std::nullopt;
+}
+
+void Overlay::Parts::hide_buttons(const PanelRow& row) {
+    const Area nowhere{{-2, -2}, {-2, -2}};
+    for (const PanelButton& button : row.buttons)
+        buttons.push_back({nowhere, button.command});
+}
+
 // Rows that do not fit are left out, and a last line says how many; the mouse wheel shows them. A
 // panel higher than the others' share of the window is the first to lose rows. Where not all have
 // space for a row, the last ones are counted below the others. Returns the right edge of the
@@ -494,15 +523,29 @@ float Overlay::Parts::panels(const std::vector<Panel>& shown, const Area& free) 
                 break;
         }
         double& wanted = scrolled[panel.title];
+        if (panel.keyboard != 0 && panel.keyboard != keyboard)
+            wanted = 0;  // another step begins with its first row
         wanted = std::clamp(wanted, 0.0, double(last_first));
-        const auto first = std::size_t(std::lround(wanted));
         float height = 0;
-        std::size_t end = first;
-        for (; end < panel.rows.size(); ++end) {
-            const float more = place_of(panel, panel.rows[end], width).height;
-            if (!fits(height + more, end + 1 - first))
-                break;
-            height += more;
+        // Behind the last row that fits below `first`.
+        const auto end_below = [&](std::size_t first) {
+            height = 0;
+            std::size_t end = first;
+            for (; end < panel.rows.size(); ++end) {
+                const float more = place_of(panel, panel.rows[end], width).height;
+                if (!fits(height + more, end + 1 - first))
+                    break;
+                height += more;
+            }
+            return end;
+        };
+        auto first = std::size_t(std::lround(wanted));
+        std::size_t end = end_below(first);
+        if (const auto row = focused_row(panel)) {
+            first = std::min(first, *row);
+            for (end = end_below(first); end <= *row && first < last_first; end = end_below(first))
+                ++first;
+            wanted = double(first);
         }
         const std::size_t left_out = panel.rows.size() - (end - first);
         const Area area{{left, top},
@@ -517,6 +560,8 @@ float Overlay::Parts::panels(const std::vector<Panel>& shown, const Area& free) 
         float y = top + padding;
         text(small, {left + padding, y}, colors::label, panel.title);
         y += normal->FontSize + gap;
+        for (std::size_t i = 0; i < first; ++i)
+            hide_buttons(panel.rows[i]);
         for (std::size_t i = first; i < end; ++i) {
             const PanelRow& row = panel.rows[i];
             const RowPlace place = place_of(panel, row, width);
@@ -548,11 +593,20 @@ float Overlay::Parts::panels(const std::vector<Panel>& shown, const Area& free) 
                 text(small, {left + padding, below}, colors::label, row.detail, width + rounding);
             y += place.height;
         }
-        if (panel.keyboard != 0 && !keyboard_begin && buttons.size() > first_button)
-            keyboard_begin = first_button;
+        for (std::size_t i = end; i < panel.rows.size(); ++i)
+            hide_buttons(panel.rows[i]);
+        if (panel.keyboard != 0 && keyboard_title.empty()) {
+            keyboard = panel.keyboard;
+            keyboard_title = panel.title;
+            keyboard_rows = end - first;
+            keyboard_left_out = left_out;
+            if (buttons.size() > first_button)
+                keyboard_begin = first_button;
+        }
         if (left_out > 0)
             text(small, {left + padding, y}, colors::label,
-                 say(Phrase::more_rows, std::to_string(left_out)));
+                 say(panel.keyboard != 0 ? Phrase::more_rows_by_key : Phrase::more_rows,
+                     std::to_string(left_out)));
         list->PopClipRect();
         top = area.to.y + unit;
         right_edge = std::max(right_edge, area.to.x);
@@ -572,6 +626,15 @@ void Overlay::scroll(Vec2 place, double rows) {
     for (std::size_t i = 0; i < parts_->panel_areas.size(); ++i)
         if (parts_->panel_areas[i].has(pixel))
             parts_->scrolled[parts_->panel_titles[i]] += rows;
+}
+
+bool Overlay::turn_page(int pages) {
+    if (parts_->keyboard_title.empty() || parts_->keyboard_left_out == 0)
+        return false;
+    // The last row of a page is the first one of the next.
+    const auto rows = std::max<std::size_t>(parts_->keyboard_rows, 2) - 1;
+    parts_->scrolled[parts_->keyboard_title] += pages * double(rows);
+    return true;
 }
 
 std::optional<int> Overlay::command_at(Vec2 place) const {
@@ -630,6 +693,8 @@ void Overlay::draw(const OverlayContent& content, Size window, double text_pixel
     p.panel_titles.clear();
     p.buttons.clear();
     p.keyboard_begin.reset();
+    p.keyboard_title.clear();
+    p.focus_moved = std::exchange(p.focused, content.focused) != content.focused;
     p.sliders.clear();
     float bottom = content.tools ? p.tool_bar(*content.tools, content.hovered) : 0;
     bottom = p.facts(content.facts, bottom);

@@ -26,8 +26,8 @@ public:
     bool covers(Vec2 place) const;                    // a panel or a plain picture
     std::optional<int> command_at(Vec2 place) const;  // of a panel's button or a plain picture
 
-    // All buttons of the last picture in the order of the keyboard: those of the bar at the bottom,
-    // of offers, of panels; in each of them as they are read.
+    // All buttons in the order of the keyboard: those of the bar at the bottom, of offers, of
+    // panels, in each of them as they are read. Rows that do not fit have theirs, too.
     std::size_t controls() const;
     // The first button of the panel to which the keyboard comes first; 0 without such a panel.
     std::size_t keyboard_begin() const;
@@ -50,6 +50,10 @@ public:
     // Moves the rows of the panel at this place, which may have more of them than fit. `rows` > 0:
     // later ones come into sight. The next picture shows it.
     void scroll(Vec2 place, double rows);
+    // The same by the keyboard, for the panel to which it comes first, as many rows as are in
+    // sight. False if there is none, or all its rows are in sight. A control that gets the keyboard
+    // comes into sight by itself.
+    bool turn_page(int pages);
 
 private:
     struct Parts;

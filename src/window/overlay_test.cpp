@@ -36,6 +36,52 @@ TEST(Overlay, ALongNameMakesAPanelHigherInsteadOfVeryWide) {
     EXPECT_LT(button().x, 0.6 * 1280);
 }
 
+TEST(Overlay, TheKeyboardReachesRowsThatAreScrolledOut) {
+    render::test_context().release();
+    const render::OffscreenContext without_window(render::tested_gl());
+    Overlay overlay;
+    Panel panel{"Study", {}};
+    panel.keyboard = 1;
+    for (int i = 0; i < 60; ++i)
+        panel.rows.push_back({"a paragraph", "", {}});
+    panel.rows.push_back({"", "", {{"Yes", 1}, {"No", 2}}});
+    OverlayContent content;
+    const auto draw = [&] {
+        content.panels = {panel};
+        overlay.draw(content, {1280, 720}, 16);
+    };
+    const auto in_sight = [&](int command) {
+        for (int x = 0; x < 1280; x += 4)
+            for (int y = 0; y < 720; y += 4)
+                if (overlay.command_at({x / 1280.0, y / 720.0}) == command)
+                    return true;
+        return false;
+    };
+    draw();
+    ASSERT_EQ(overlay.controls(), 2u);
+    EXPECT_EQ(overlay.command_of(1), 2);
+    EXPECT_FALSE(in_sight(1) || in_sight(2));
+    content.focused = 1;
+    draw();
+    EXPECT_TRUE(in_sight(1) && in_sight(2));
+    overlay.scroll({0.03, 0.08}, -100);
+    draw();
+    EXPECT_FALSE(in_sight(1)) << "the wheel goes on where the keyboard stays";
+
+    // Page by page, and another step begins with its first row.
+    content.focused.reset();
+    int pages = 0;
+    for (draw(); !in_sight(1) && pages < 10; draw(), ++pages)
+        ASSERT_TRUE(overlay.turn_page(1));
+    EXPECT_GT(pages, 1) << "no paragraph is passed over";
+    panel.keyboard = 2;
+    draw();
+    EXPECT_FALSE(in_sight(1));
+    panel.rows.resize(3);
+    draw();
+    EXPECT_FALSE(overlay.turn_page(1)) << "all is in sight";
+}
+
 TEST(Overlay, LettersThatTheFontLacksAreHollowBoxes) {
     render::test_context();
     ImGuiContext* const context = ImGui::CreateContext();

@@ -101,13 +101,41 @@ class Statistics(unittest.TestCase):
         # binom.test(6, 12)$conf.int: 0.2109446 0.7890554
         self.assertIn("where 6 of 12 say something, 21 to 79 % of all may do so", report.size_note(12, 0))
         self.assertIn("Nobody has agreed", report.size_note(0, 2))
-        self.assertIn("too small to conclude", report.size_note(5, 2))
-        self.assertIn("differences of at least", report.size_note(7, 2))
+        self.assertIn("5 participants: no comparison", report.size_note(5, 2, (5, 5)))
+        self.assertIn("too small to conclude", report.size_note(5, 2, (5, 5)))
+        self.assertIn("7 participants: with a probability", report.size_note(7, 2, (7, 7)))
+        self.assertIn("differences of at least", report.size_note(7, 2, (7, 7)))
+        # Those who agreed and broke off compare nothing.
+        self.assertIn("5 of 13 participants rated two conditions: no comparison", report.size_note(13, 2, (5, 5)))
+        self.assertIn("12 participants (in some comparisons 6): with a probability", report.size_note(12, 2, (6, 12)))
+        self.assertIn("nobody has rated two conditions yet", report.size_note(1, 2))
 
     def test_friedman(self):
         # friedman.test(cbind(a12, b12, c12)); friedman.test(cbind(a7, b7, c7))
         self.same(report.friedman(np.transpose([A12, B12, C12])), (6.7826086956521738, 2, 0.033664737722352886))
         self.same(report.friedman(np.transpose([A7, B7, C7])), (3.9, 2, 0.14227407158651359))
+
+    def test_friedman_of_few_is_exact(self):
+        """Against all orders of all participants' ranks, counted one by one; a table with ties."""
+        import itertools
+        from scipy import stats
+        for table in ([[1, 2, 3], [2, 2, 5], [0, 4, 4], [3, 1, 6]], [[1, 2, 3, 4], [4, 2, 2, 9], [0, 1, 5, 5]]):
+            ranks = [stats.rankdata(row) for row in table]
+            seen = np.square(np.sum(ranks, axis=0)).sum()
+            all_of_them = [np.square(np.sum(orders, axis=0)).sum()
+                           for orders in itertools.product(*(itertools.permutations(row) for row in ranks))]
+            p, method = report.friedman_exact(table)
+            self.same([p], [np.mean(np.array(all_of_them) >= seen - 1e-9)])
+            self.assertEqual(method, report.EXACT)
+        self.assertEqual(report.friedman_exact(np.arange(24).reshape(2, 12))[1], report.APPROXIMATE_CHI)
+
+    def test_a_few_participants_conclude_nothing_on_many_conditions(self):
+        row = types.SimpleNamespace(test="Friedman", n=2, freedom=2, p=1 / 6, p_holm=1 / 6, method=report.EXACT)
+        self.assertEqual(report.conclusion(row), "too small to conclude: 2 participants never reach p < 0.05")
+        row = types.SimpleNamespace(test="Friedman", n=2, freedom=11, p=0.024, p_holm=0.024, method=report.APPROXIMATE_CHI)
+        self.assertIn("too small to conclude", report.conclusion(row))
+        row = types.SimpleNamespace(test="Friedman", n=3, freedom=2, p=1 / 36, p_holm=1 / 36, method=report.EXACT)
+        self.assertEqual(report.conclusion(row), "the conditions differ")
 
     def test_needed_pairs(self):
         # ceiling(power.t.test(delta=mean(d), sd=sd(d), power=.8, type="paired")$n), divided by 3/pi: 15 and 22
@@ -143,6 +171,8 @@ class Statistics(unittest.TestCase):
         self.assertEqual(report.signed_rank([0, 0, 2]), (1.0, 1.0, "exact"))
         self.assertEqual(report.rank_sum([2, 2], [2, 2])[1:], (1.0, "no difference"))
         self.assertEqual(report.friedman([[1, 1, 1], [2, 2, 2]])[2], 1.0)
+        self.assertEqual(report.friedman_exact([[1, 1, 1], [2, 2, 2]]), (1.0, report.EXACT))
+
         # 0.1 + 0.2 is not 0.3 in floating point; scores that are equal on paper are equal here.
         self.assertEqual(report.signed_rank([0.1 + 0.2 - 0.3] * 7)[1], 1.0)
 

@@ -341,6 +341,18 @@ class Studies(unittest.TestCase):
         colors = {brick["color"] for brick in json.loads((plans / "build-1.json").read_text())["bricks"]}
         parts = json.loads((case / "case.json").read_text())["parts"]
         self.assertEqual({part["name"].split()[0] for part in parts}, colors)
+        # A question asks for the blue bricks.
+        shown = {part["name"].split()[0]: part["color"] for part in parts}
+        self.assertEqual(len(set(shown.values())), len(colors))
+        self.assertEqual(shown.get("red", "#c4281b"), "#c4281b")
+
+    def test_scales_without_a_meaning_of_their_points_are_told(self):
+        make_study(self.study, COMPARISON)
+        self.assertEqual(json.loads(run("study", "check", self.study, "--json")[1])["without_anchors"], ["ipq"])
+        self.assertIn("Items of 'ipq' do not say what", run("study", "check", self.study)[1])
+        form = (self.study / "texts.conf").read_text()
+        (self.study / "texts.conf").write_text(form.replace("# anchors = \n", "anchors = no | yes\n"))
+        self.assertEqual(json.loads(run("study", "check", self.study, "--json")[1])["without_anchors"], [])
 
 
 if __name__ == "__main__":

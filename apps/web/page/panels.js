@@ -47,11 +47,17 @@ function update(place, content, fill) {
     shown.set(place.id, key);
     const focus = document.activeElement?.dataset?.place;
     const had_focus = place.id === "study" && place.contains(document.activeElement);
+    // Another step of a study has other buttons, even where they have the same place.
+    const is_other = place.dataset.keyboard !== String(content?.[0]?.keyboard);
+    place.dataset.keyboard = content?.[0]?.keyboard;
     place.replaceChildren();
     fill(place, content);
-    const buttons = [...place.querySelectorAll("button")];
-    if (focus)
-        (buttons.find(button => button.dataset.place === focus) ?? (had_focus ? buttons[0] : null))?.focus();
+    const same = focus && [...place.querySelectorAll("button")].find(button => button.dataset.place === focus);
+    // A key that is pressed once more must press no other button.
+    if (had_focus && (is_other || !same))
+        place.focus();
+    else if (same)
+        same.focus();
 }
 
 // The room's panels are not rebuilt while one of their buttons is pressed: the click would be lost.
@@ -84,9 +90,9 @@ export function command_of(button, panels) {
     return chosen?.command ?? null;
 }
 
-// A row of buttons alone belongs to the text above it.
+// A row of buttons alone belongs to the text above it, unless it says its own.
 function subject_of(panel, i) {
-    return panel.rows.slice(0, i + 1).findLast(({ text }) => text)?.text ?? "";
+    return panel.rows[i].subject ?? panel.rows.slice(0, i + 1).findLast(({ text }) => text)?.text ?? "";
 }
 
 function place_of(panel, i) {
