@@ -9,6 +9,7 @@
 namespace theatron::world {
 namespace {
 
+using ::testing::ElementsAre;
 using Phase = client::Participant::Phase;
 
 // The pictures that a person has seen, by their numbers.
@@ -50,6 +51,20 @@ struct Stage {
 std::vector<client::Participant::Camera> cameras(Person& person) {
     std::uint64_t generation = 0;
     return person->cameras(generation);
+}
+
+// More wishes than the host takes at once: it keeps the last one for later.
+TEST(WorldCameras, TheLastOfManyWishesHolds) {
+    Stage stage;
+    stage.begin();
+    ASSERT_TRUE(stage.world.until([&] { return !stage.seen.numbers.empty(); }));
+    const int wishes = 101;
+    for (int i = 0; i < wishes; ++i)
+        stage.anna->choose_codecs(i % 2 == 0 ? "raw" : "rvl", "");
+    EXPECT_TRUE(stage.world.until(
+        [&] { return stage.camera.codecs() == std::vector<std::string>{"raw"}; }));
+    stage.world.advance(10s);
+    EXPECT_THAT(stage.camera.codecs(), ElementsAre("raw"));
 }
 
 TEST(WorldCameras, EachPictureIsSeenOnceAndInOrder) {

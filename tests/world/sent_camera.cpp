@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "world/sent_camera.h"
 
+#include <algorithm>
+
 #include "video/depth_codecs.h"
 
 namespace theatron::world {
@@ -50,6 +52,14 @@ void SentCamera::start() {
 
 void SentCamera::stop() {
     person_->publish({});
+}
+
+std::vector<std::string> SentCamera::codecs() const {
+    std::vector<std::string> texts;
+    for (const auto& [setting, encoder] : encoders_)
+        texts.push_back(encoder->parsed.text);
+    std::sort(texts.begin(), texts.end());
+    return texts;
 }
 
 void SentCamera::on_published(const std::vector<CameraId>& numbers) {

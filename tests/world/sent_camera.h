@@ -29,6 +29,8 @@ public:
     bool is_published() const { return number_.has_value(); }
     // Pictures that were taken while the host wanted them.
     int sent() const { return sent_; }
+    // Those in which the host wants its depth, sorted.
+    std::vector<std::string> codecs() const;
 
     // The number in a picture of such a camera.
     static int number_in(DepthView depth) { return depth.row(0)[0] - 1000; }
