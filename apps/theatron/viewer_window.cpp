@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer_window.h"
-#include "phrases/phrase.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -16,6 +15,7 @@
 #include "files/state_folder.h"
 #include "host/filter_choice.h"
 #include "participant_json.h"
+#include "phrases/phrase.h"
 #include "render/gl_driver.h"
 #include "saved_view.h"
 #include "session/permissions.h"
@@ -27,6 +27,14 @@
 
 namespace theatron::app {
 namespace {
+
+// In the person's language, where it has a word for them.
+std::string filter_name(const std::string& spelling) {
+    if (spelling.empty())
+        return say(Phrase::nothing_chosen);
+    const std::string shown = host::shown_filter(spelling);
+    return shown == "default" ? say(Phrase::usual) : shown;
+}
 
 constexpr Duration texts_every = 250ms, camera_pictures_every = 100ms, voices_every = 100ms;
 
@@ -433,7 +441,7 @@ WindowEnd show(xr::DesktopWindow& window, ViewerWindow options) {
         texts.focused = focus;
         if (now >= next_texts || !input.keys.empty()) {
             const viewer::Facts facts = viewer.facts(now);
-            xr::OverlayContent content = viewer::overlay_of(facts, address, host::shown_filter);
+            xr::OverlayContent content = viewer::overlay_of(facts, address, filter_name);
             content.hovered = hovered;
             // Another button may stand where the keyboard was.
             if ((content.tools && texts.tools &&

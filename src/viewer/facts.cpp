@@ -109,7 +109,7 @@ std::string common(const std::vector<client::CameraFigures>& cameras, const Text
             return say(Phrase::several);
         text = value;
     }
-    return text.empty() ? say(Phrase::none) : text;
+    return text.empty() ? say(Phrase::nothing_chosen) : text;
 }
 
 // "h264 (lossy)" where a camera's newest depth image is not exact everywhere.
@@ -161,8 +161,8 @@ void add_pictures(const Facts& facts,
     line.push_back(
         {say(Phrase::color_fact), common(cameras, [](const auto& c) { return c.color.codec; })});
     const std::string filter = common(cameras, [](const auto& c) { return c.camera.state.filter; });
-    line.push_back(
-        {say(Phrase::filter), filter_name(filter == say(Phrase::none) ? std::string() : filter)});
+    line.push_back({say(Phrase::filter),
+                    filter_name(filter == say(Phrase::nothing_chosen) ? std::string() : filter)});
 }
 
 std::vector<xr::Fact> line_of(const Facts& facts, const std::string& address,
