@@ -25,7 +25,7 @@ std::string frames(double per_second) {
 std::string megabits(double per_second) {
     char text[40];
     std::snprintf(text, sizeof(text), "%.1f Mbit/s", per_second);
-    return text;
+    return decimal(text);
 }
 
 std::string first_sentence(const std::string& text) {

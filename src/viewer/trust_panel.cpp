@@ -28,8 +28,8 @@ double age_ms(const client::CameraFigures& camera) {
 std::string rates(const client::CameraFigures& camera) {
     char mbit[32];
     std::snprintf(mbit, sizeof(mbit), "%.1f", camera.mbit_per_second());
-    return say(Phrase::rates, std::to_string(std::lround(camera.depth.frames_per_second)), mbit,
-               std::to_string(camera.dropped()));
+    return say(Phrase::rates, std::to_string(std::lround(camera.depth.frames_per_second)),
+               decimal(mbit), std::to_string(camera.dropped()));
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ constexpr KeyHelp help[] = {
       "Montrer votre visage sur votre avatar avec votre webcam, ou le masquer"}},
     {{"P", "P", "P"},
      {"People: go to somebody, see through their eyes", "Personen: zu jemandem gehen, mitsehen",
-      "Participants : rejoindre quelqu'un, voir par ses yeux"}},
+      "Présents : rejoindre quelqu'un, voir par ses yeux"}},
     {{"O", "O", "O"},
      {"The case: open it, its parts, cuts and images",
       "Der Fall: ihn öffnen, seine Teile, Schnitte und Schichten",

@@ -145,10 +145,10 @@ function fill_panels(place, panels) {
 
 function fill_facts(place, facts) {
     for (const { label, value, warning } of facts) {
-        if (label === "Help" && by_touch())
+        if (value === "F1" && by_touch())
             continue;  // it names a key
         const fact = element("span");
-        fact.append(element("span", `${label}: `, "label"), element("span", value, warning ? "warning" : ""));
+        fact.append(element("span", text("labelled", { label, value: "" }), "label"), element("span", value, warning ? "warning" : ""));
         place.append(fact);
     }
 }

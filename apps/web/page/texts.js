@@ -5,7 +5,7 @@ import { by_touch } from "./touch_mode.js";
 const tables = {
     en: {
         // For the pattern of keys in brackets, below.
-        key_words: "F, held|Enter|End", labelled: "{label}: {value}",
+        key_words: "F, held|Enter|End", labelled: "{label}: {value}", also: "{first}; {second}",
         your_name: "Your name",
         enter: "Enter the room",
         view: "The room. Keys walk and act here; H explains them.", tools: "Bar of buttons", study: "Study",
@@ -152,7 +152,7 @@ const tables = {
         ],
     },
     de: {
-        key_words: "F, gehalten|Eingabe|Ende", labelled: "{label}: {value}",
+        key_words: "F, gehalten|Eingabe|Ende", labelled: "{label}: {value}", also: "{first}; {second}",
         your_name: "Ihr Name",
         enter: "Den Raum betreten",
         view: "Der Raum. Tasten gehen und handeln hier; H erklärt sie.", tools: "Leiste der Knöpfe", study: "Studie",
@@ -298,7 +298,7 @@ const tables = {
         ],
     },
     fr: {
-        key_words: "F maintenue|Entrée|Fin|Z, ou W en AZERTY", labelled: "{label} : {value}",
+        key_words: "F maintenue|Entrée|Fin|Z, ou W en AZERTY", labelled: "{label} : {value}", also: "{first} ; {second}",
         your_name: "Votre nom",
         enter: "Entrer dans la salle",
         view: "La salle. Ici, des touches permettent de marcher et d'agir ; H les explique.", tools: "Barre de boutons", study: "Étude",
@@ -312,7 +312,7 @@ const tables = {
         graphics_lost_again: "L'affichage graphique du navigateur s'est arrêté de nouveau. Entrez encore une fois, ou choisissez comme vue l'image d'une caméra.",
         certificate_title: "Si le navigateur vous a mis en garde contre cette page",
         certificate_text: "Cette page ne peut pas vérifier à quel hôte elle est connectée : un faux hôte pourrait tout afficher ici. Si le navigateur n'a pas donné d'avertissement, il a vérifié lui-même le certificat, et il n'y a rien à comparer. S'il a donné un avertissement, l'hôte a fait lui-même son certificat, ou quelqu'un se trouve entre vous et lui. Comparez alors l'empreinte SHA-256 que le navigateur affiche derrière l'icône à côté de l'adresse avec cert= dans le lien tel que vous l'avez reçu, dans le message ou comme code, et non tel que cette page l'affiche. L'adresse ouverte ici a :",
-        people: "Participants", show_people_title: "Participants (P)", case: "Cas", show_case_title: "Cas (O)",
+        people: "Présents", show_people_title: "Présents (P)", case: "Cas", show_case_title: "Cas (O)",
         draw: "Dessiner", draw_title: "Dessiner et mesurer (Z, ou W en AZERTY)", point_title: "Pointer (F maintenue)", webcam: "Webcam",
         webcam_on_title: "Webcam : montrer mon visage", webcam_off_title: "Webcam : masquer mon visage",
         speak: "Parler", speak_title: "Parler (L)", mute: "Couper", mute_title: "Couper le micro (L)", leave_title: "Quitter",
@@ -421,7 +421,7 @@ const tables = {
             ["Bouton gauche de la souris, un doigt", "Tourner autour de ce qui est sous le pointeur ; sur un objet : le tenir"],
             ["Bouton droit de la souris, deux doigts", "Se déplacer de côté, vers le haut et le bas"],
             ["Molette, deux doigts écartés", "S'approcher, s'éloigner ; avec un objet tenu : plus près, plus loin"],
-            ["W A S D ou flèches, Q E (AZERTY : Z Q S D, A E)", "Marcher ; Q (A) descend, E monte ; plus vite avec Maj"],
+            ["W A S D ou flèches, Q E", "Marcher ; Q descend, E monte (AZERTY : Z Q S D ; A descend) ; plus vite avec Maj"],
             ["T maintenue", "Viser un endroit du sol ; relâcher pour s'y placer"],
             ["N ; G ; Suppr", "Nouvelle brique ; donner ce que vous tenez à la personne la plus proche ; le supprimer"],
             ["F maintenue", "Pointer ce qui est sous le pointeur : les autres le voient avec votre nom"],
@@ -430,7 +430,7 @@ const tables = {
             ["F7 ; Entrée maintenue", "Appuyer pour parler, ou parler de nouveau sans cela ; parler"],
             ["F8", "Autoriser les autres à enregistrer votre voix, ou ne plus l'autoriser"],
             ["X", "S'asseoir ou se lever"],
-            ["P, O", "Participants et emplacements ; le cas"],
+            ["P, O", "Présents et emplacements ; le cas"],
             ["K, J", "Appeler les autres ; rejoindre la personne qui vous appelle"],
             ["Y, U", "Responsables : admettre la personne à la porte, ou la refuser"],
             ["R ou Début, 1 à 9, 0", "Vue de départ ; vue de la première à la neuvième caméra ; d'en haut"],
