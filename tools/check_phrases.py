@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Checks that everything which the page, the headset or the window's scene says is in a table, in German, too.
+"""Checks that everything which the page, the headset or the window's scene says is in a table, in every language.
 
 The tables: src/phrases/*.inc (by key), src/wire/text.cpp (by code of the wire), apps/web/page/texts.js
-(the page itself). A missing German text, other arguments in one language, a key that nothing uses, and a
-sentence in the sources that is in no table are problems.
+(the page itself). A text that a language lacks or has in English, other arguments in one language, French without
+its spaces, a key that nothing uses, and a sentence in the sources that is in no table are problems. The languages and
+their order: src/phrases/language.h.
 """
 import pathlib
 import re
@@ -12,6 +13,8 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 STRING = r'"((?:[^"\\]|\\.)*)"'
+TEXT = r'(?:"(?:[^"\\]|\\.)*"\s*)+'  # of one language
+LANGUAGES = re.findall(r'^    \{"(\w+)", "\w+", ', (ROOT / "src/phrases/language.h").read_text(), re.M)
 
 # Folders and files whose sentences a person reads on the page, in the headset or over the window's picture.
 SPEAKING = ["src/client", "src/room", "src/viewer", "src/or_screen", "src/net/client.cpp", "src/net/client_web.cpp",
@@ -48,16 +51,31 @@ def sources(*tops, endings=(".cpp", ".h")):
                 yield file
 
 
-def compare(what, english, german, problems):
-    if not english.strip() or not german.strip():
+def is_in_english(english, other):
+    """Not said of words that two languages share, such as "Live", and of texts without words."""
+    return english == other and re.search(r"[A-Za-z]{2,} [a-z]{2,}", re.sub(r"\{\w+\}", "", english))
+
+
+def compare(what, texts, problems):
+    """`texts`: one for each language."""
+    if len(texts) != len(LANGUAGES) or not all(text.strip() for text in texts):
         problems.append(f"{what}: a language has no text")
-    elif arguments(english) != arguments(german):
-        problems.append(f"{what}: English and German have other arguments")
+        return
+    english = texts[0]
+    for language, text in zip(LANGUAGES[1:], texts[1:]):
+        if arguments(english) != arguments(text):
+            problems.append(f"{what}: en and {language} have other arguments")
+        if is_in_english(english, text):
+            problems.append(f"{what}: {language} is in English")
+    french = texts[LANGUAGES.index("fr")]
+    # A line never begins with such a sign: the space before it is U+00A0.
+    if re.search(r"(?<=[^\u00a0]) [:;?!»]|« |[\w)}][:;?!»](?![\w/])|«(?!\u00a0)", french):
+        problems.append(f"{what}: fr has another space than U+00A0 before : ; ? ! » or after «")
 
 
 def check_phrases(problems):
     keys = {}
-    row = re.compile(rf"PHRASE\((\w+),\s*((?:{STRING}\s*)+),\s*((?:{STRING}\s*)+)\)")
+    row = re.compile(rf"PHRASE\((\w+),\s*({TEXT}(?:,\s*{TEXT})*)\)")
     for file in sorted((ROOT / "src/phrases").glob("*.inc")):
         text = file.read_text()
         if file.name == "touch.inc":
@@ -65,10 +83,10 @@ def check_phrases(problems):
         rows = row.findall(text)
         if len(rows) != len(re.findall(r"^PHRASE\(", text, re.M)):
             problems.append(f"{file.name}: a row is not understood")
-        for key, english, _, german, _ in rows:
+        for key, texts in rows:
             if file.name != "touch.inc":  # the phrases of the other tables in other words
                 keys[key] = file.name
-            compare(f"{file.name}: {key}", joined(english), joined(german), problems)
+            compare(f"{file.name}: {key}", [joined(text) for text in re.findall(TEXT, texts)], problems)
     used = set()
     for file in sources("src", "apps"):
         if file.parent.name != "phrases":
@@ -82,12 +100,11 @@ def check_codes(problems):
     header = (ROOT / "src/wire/text.h").read_text()
     codes = re.findall(r"^    (\w+) = \d+,", header, re.M)
     text = (ROOT / "src/wire/text.cpp").read_text()
-    strings = rf"((?:{STRING}\s*)+)"
-    pair = rf"\{{{strings},\s*{strings}\}}"
+    sentence = rf"\{{({TEXT}(?:,\s*{TEXT})*)\}}"
     rows = {}
     table = re.search(r"constexpr Row rows\[\] = \{(.*?)\n\};", text, re.S)[1]
     for row in table.split("{TextCode::")[1:]:
-        rows[re.match(r"\w+", row)[0]] = re.findall(pair, row)
+        rows[re.match(r"\w+", row)[0]] = re.findall(sentence, row)
     used = set()
     for file in sources("src", "apps"):
         if file.parent.name != "wire" or file.stem != "text":
@@ -96,9 +113,9 @@ def check_codes(problems):
         if code == "none":
             continue
         if not rows.get(code):
-            problems.append(f"text.cpp: {code} has no English and German")
-        for english, _, german, _ in rows.get(code, []):
-            compare(f"text.cpp: {code}", joined(english), joined(german), problems)
+            problems.append(f"text.cpp: {code} has no texts")
+        for texts in rows.get(code, []):
+            compare(f"text.cpp: {code}", [joined(text) for text in re.findall(TEXT, texts)], problems)
         if code not in used | {"as_written"}:
             problems.append(f"text.h: nothing says {code}")
     return len(codes)
@@ -106,21 +123,27 @@ def check_codes(problems):
 
 def check_page(problems):
     page = ROOT / "apps/web/page"
-    tables = (page / "texts.js").read_text().split("\n    de: {")
-    if len(tables) != 2:
-        problems.append("texts.js: there are not two tables")
+    tables = dict(re.findall(r"^    (\w+): \{\n(.*?)^    \},\n", (page / "texts.js").read_text(), re.M | re.S))
+    if list(tables) != LANGUAGES:
+        problems.append(f"texts.js: its languages are not {', '.join(LANGUAGES)}")
         return 0
-    english, german = (dict(re.findall(rf"\b(\w+): {STRING}", table)) for table in tables)
-    for key in english.keys() ^ german.keys():
-        problems.append(f"texts.js: {key} is in one language only")
-    for key in english.keys() & german.keys():
-        compare(f"texts.js: {key}", english[key], german[key], problems)
-    counts = [len(re.findall(r"^            \[", table, re.M)) for table in tables]
-    if counts[0] != counts[1]:
+    texts = [dict(re.findall(rf"\b(\w+): {STRING}", table)) for table in tables.values()]
+    english = texts[0]
+    for language, of_language in zip(LANGUAGES, texts):
+        for key in english.keys() ^ of_language.keys():
+            problems.append(f"texts.js: {language} and en have not both {key}")
+    for key in set.intersection(*(set(of_language) for of_language in texts)):
+        compare(f"texts.js: {key}", [of_language[key] for of_language in texts], problems)
+    # The meanings of the keys and the touches, in the help.
+    meanings = [re.findall(rf"^            \[{STRING}, {STRING}\]", table, re.M) for table in tables.values()]
+    if len({len(rows) for rows in meanings}) > 1:
         problems.append("texts.js: the keys of one language have other rows")
+    for rows in zip(*meanings):
+        compare(f"texts.js: {rows[0][0]}", [row[1] for row in rows], problems)
     others = "".join(file.read_text() for file in sources("apps/web/page", endings=(".js", ".html"))
                      if file.name != "texts.js")
-    states = set(re.findall(r"\b(\w+): \"", "".join(re.findall(r"(?:states|roles): \{([^}]*)\}", tables[0]))))
+    others += (page / "texts.js").read_text().split("\n};\n")[-1]
+    states = set(re.findall(r"\b(\w+): \"", "".join(re.findall(r"(?:states|roles): \{([^}]*)\}", tables["en"]))))
     for key in sorted(english.keys() - states):
         # text() takes that one in place of the other where a person has no keyboard.
         if key.endswith("_touch") and key.removesuffix("_touch") in english:

@@ -3,6 +3,7 @@
 
 #include "cli/choice_check.h"
 #include "cli/seconds_option.h"
+#include "phrases/language.h"
 #include "viewer/renderer_text.h"
 
 namespace theatron::app {
@@ -14,11 +15,30 @@ std::string join_names(const std::vector<std::string>& names) {
     return text;
 }
 
+namespace {
+
+std::vector<std::string> language_codes() {
+    std::vector<std::string> codes;
+    for (const LanguageFacts& language : languages)
+        codes.emplace_back(language.code);
+    return codes;
+}
+
+// "en (English), de (German)".
+std::string named_languages() {
+    std::vector<std::string> names;
+    for (const LanguageFacts& language : languages)
+        names.push_back(std::string(language.code) + " (" + std::string(language.name) + ")");
+    return join_names(names);
+}
+
+}  // namespace
+
 void add_picture_options(CLI::App& command, JoinFlags& flags) {
     command
         .add_option("--language", flags.language,
-                    "Language of the texts in the window, and of news: en, or de for German")
-        ->check(cli::one_of({"en", "de"}))
+                    "Language of the texts in the window, and of news: " + named_languages())
+        ->check(cli::one_of(language_codes()))
         ->capture_default_str();
     command.add_option("--offscreen", flags.offscreen,
                        "Without a window: draw the last picture into this PNG file");

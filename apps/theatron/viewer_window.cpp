@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer_window.h"
-#include "phrases/phrase.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -16,6 +15,7 @@
 #include "files/state_folder.h"
 #include "host/filter_choice.h"
 #include "participant_json.h"
+#include "phrases/phrase.h"
 #include "render/gl_driver.h"
 #include "saved_view.h"
 #include "viewer/renderer_text.h"
@@ -29,6 +29,14 @@ namespace theatron::app {
 namespace {
 
 using Phase = client::Participant::Phase;
+
+// In the person's language, where it has a word for them.
+std::string filter_name(const std::string& spelling) {
+    if (spelling.empty())
+        return say(Phrase::nothing_chosen);
+    const std::string shown = host::shown_filter(spelling);
+    return shown == "default" ? say(Phrase::usual) : shown;
+}
 
 constexpr Duration texts_every = 250ms, camera_pictures_every = 100ms;
 
@@ -264,7 +272,7 @@ private:
         if (now < next_texts_ && input.keys.empty())
             return changed;
         const viewer::Facts facts = viewer_.facts(now);
-        window::OverlayContent content = viewer::overlay_of(facts, address_, host::shown_filter);
+        window::OverlayContent content = viewer::overlay_of(facts, address_, filter_name);
         content.hovered = hovered;
         // Another button may stand where the keyboard was.
         if ((content.tools && texts_.tools &&

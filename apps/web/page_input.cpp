@@ -13,6 +13,13 @@ std::optional<window::KeyPress> pressed(std::string_view key, std::string_view c
         if (code.size() == row.size() + 1 && code.substr(0, row.size()) == row &&
             code.back() >= '1' && code.back() <= '9')
             return window::KeyPress{Action::view_camera, code.back() - '1'};
+    if (code == "Digit0")
+        return window::KeyPress{Action::from_above};
+    // On AZERTY keyboards, the place of W has the letter Z and walks; that of Z has the letter W.
+    if (code == "KeyW" && key == "z")
+        return std::nullopt;
+    if (code == "KeyZ" && key == "w")
+        return window::KeyPress{Action::marks};
     static const std::map<std::string_view, Action> actions = {
         {"b", Action::facts},
         {"m", Action::next_renderer},
@@ -40,6 +47,7 @@ std::optional<window::KeyPress> pressed(std::string_view key, std::string_view c
         {" ", Action::freeze},
         {",", Action::seek_back},
         {".", Action::seek_forward},
+        {";", Action::seek_forward},  // beside the comma where the full stop needs Shift
         {"end", Action::live},
     };
     const auto found = actions.find(key);

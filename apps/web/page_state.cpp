@@ -17,7 +17,9 @@ namespace {
 using nlohmann::json;
 
 std::string filter_name(const std::string& filter) {
-    return filter.empty() ? say(Phrase::none) : filter == "default" ? say(Phrase::usual) : filter;
+    return filter.empty()        ? say(Phrase::nothing_chosen)
+           : filter == "default" ? say(Phrase::usual)
+                                 : filter;
 }
 
 // The page shows one kind at a time. The panel of the case has the case's name.

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "phrases/language.h"
 
+#include <algorithm>
 #include <atomic>
+#include <iterator>
 
 namespace theatron {
 namespace {
@@ -20,11 +22,12 @@ void set_language(Language language) {
 
 std::optional<Language> parse_language(std::string_view text) {
     const std::string_view name = text.substr(0, text.find_first_of("-_.@"));
-    if (name == "de")
-        return Language::german;
-    if (name == "en")
-        return Language::english;
-    return std::nullopt;
+    const auto* found =
+        std::find_if(std::begin(languages), std::end(languages),
+                     [&](const LanguageFacts& facts) { return facts.code == name; });
+    if (found == std::end(languages))
+        return std::nullopt;
+    return Language(found - std::begin(languages));
 }
 
 std::string filled_in(std::string_view sentence, const std::vector<std::string>& arguments) {
@@ -39,6 +42,11 @@ std::string filled_in(std::string_view sentence, const std::vector<std::string>&
         i += 2;
     }
     return result;
+}
+
+std::string decimal(std::string number, Language which) {
+    std::replace(number.begin(), number.end(), '.', facts_of(which).decimal_sign);
+    return number;
 }
 
 }  // namespace theatron

@@ -9,7 +9,7 @@ namespace theatron {
 namespace {
 
 constexpr Sentence phrases[] = {
-#define PHRASE(key, english, german) {english, german},
+#define PHRASE(key, ...) {__VA_ARGS__},
 #include "phrases/bar.inc"
 #include "phrases/connection.inc"
 #include "phrases/form.inc"
@@ -19,19 +19,20 @@ constexpr Sentence phrases[] = {
 #include "phrases/window.inc"
 #undef PHRASE
 };
-static_assert(std::none_of(std::begin(phrases), std::end(phrases), [](const Sentence& sentence) {
-    return sentence.english.empty() || sentence.german.empty();
-}));
+static_assert(std::all_of(std::begin(phrases), std::end(phrases),
+                          [](const Sentence& sentence) { return sentence.is_complete(); }));
 
 struct WithoutKeys {
     Phrase phrase;
     Sentence sentence;
 };
 constexpr WithoutKeys without_keys[] = {
-#define BY_TOUCH(key, english, german) {Phrase::key, {english, german}},
+#define BY_TOUCH(key, ...) {Phrase::key, {__VA_ARGS__}},
 #include "phrases/touch.inc"
 #undef BY_TOUCH
 };
+static_assert(std::all_of(std::begin(without_keys), std::end(without_keys),
+                          [](const WithoutKeys& row) { return row.sentence.is_complete(); }));
 
 std::atomic<bool> is_by_touch = false;
 

@@ -2,7 +2,7 @@
 // Sentences and words that this program itself says to its person, in every language: notes, facts,
 // panels.
 //
-// The tables *.inc hold the phrases by key; a row without German does not compile.
+// The tables *.inc hold the phrases by key; a row without one of the languages does not compile.
 // tools/check_phrases.py finds keys that nothing uses, and sentences that are in no table. Texts
 // that come over the wire have codes instead: wire/text.h.
 #pragma once
@@ -16,7 +16,7 @@
 namespace theatron {
 
 enum class Phrase : std::uint16_t {
-#define PHRASE(key, english, german) key,
+#define PHRASE(key, ...) key,
 #include "phrases/bar.inc"
 #include "phrases/connection.inc"
 #include "phrases/form.inc"

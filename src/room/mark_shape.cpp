@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "phrases/language.h"
+
 namespace theatron::room {
 
 using render::LinePiece;
@@ -78,7 +80,7 @@ std::string label_of(const Mark& mark) {
                       2000 * double(mark.deviation_m));
     else
         std::snprintf(text, sizeof(text), "%.1f mm", mm);
-    return signed_text(text);
+    return signed_text(decimal(text));
 }
 
 std::vector<Vec3> label_places(const Mark& mark) {

@@ -5,6 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "testing/speaking.h"
 
 namespace theatron::viewer {
 namespace {
@@ -84,6 +89,24 @@ TEST(BarItems, TheMicrophoneIsOnOrUnmistakablyOff) {
     facts.muted = true;
     EXPECT_TRUE(bar_item(facts, ToolIcon::microphone).off) << "an operator has closed it";
     EXPECT_FALSE(bar_item(facts, ToolIcon::microphone).pressed);
+}
+
+TEST(BarItems, AreNamedApartInEveryLanguage) {
+    std::vector<BarFacts> all(5, bar_speaking());
+    all[1].muted = true;
+    all[2].asks_leave = true;
+    all[3].microphone = Microphone::waits;
+    all[4].microphone = Microphone::missing;
+    for (std::size_t i = 0; i < language_count; ++i) {
+        const testing::Speaking spoken{Language(i)};
+        for (const BarFacts& facts : all) {
+            std::set<std::string> labels, hints;
+            for (const BarItem& item : bar_items(facts)) {
+                EXPECT_TRUE(labels.insert(say(item.label)).second) << say(item.label);
+                EXPECT_TRUE(hints.insert(say(item.hint)).second) << say(item.hint);
+            }
+        }
+    }
 }
 
 TEST(BarItems, ThoseThatAreOnArePressed) {

@@ -78,7 +78,7 @@ std::string detail_of(const AskedCase& asked, const std::string& name) {
 std::string window_name(std::string_view name) {
     for (const Phrase known : {Phrase::abdomen, Phrase::liver, Phrase::vessels, Phrase::lung,
                                Phrase::bone, Phrase::brain})
-        if (name == sentence_of(known).english)
+        if (name == sentence_of(known).in(Language::english))
             return say(known);
     return std::string(name);
 }

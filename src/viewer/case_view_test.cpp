@@ -126,7 +126,7 @@ TEST(CasePanel, AsksWhetherItIsTheRightPatientBeforeACaseIsOpened) {
     EXPECT_TRUE(std::holds_alternative<LeaveClosed>(commands[0]));
 
     facts.asked->is_answered = true;
-    EXPECT_EQ(row(commands).detail, "whose case it is, you are not told");
+    EXPECT_EQ(row(commands).detail, "you are not told whose case it is");
     ASSERT_EQ(commands.size(), 2u);
     EXPECT_EQ(std::get<OpenOffered>(commands[0]).offered, facts.asked->offered);
     EXPECT_TRUE(std::holds_alternative<LeaveClosed>(commands[1]))

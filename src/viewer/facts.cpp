@@ -25,7 +25,7 @@ std::string frames(double per_second) {
 std::string megabits(double per_second) {
     char text[40];
     std::snprintf(text, sizeof(text), "%.1f Mbit/s", per_second);
-    return text;
+    return decimal(text);
 }
 
 std::string first_sentence(const std::string& text) {
@@ -110,7 +110,7 @@ std::string common(const std::vector<client::CameraFigures>& cameras, const Text
             return say(Phrase::several);
         text = value;
     }
-    return text.empty() ? say(Phrase::none) : text;
+    return text.empty() ? say(Phrase::nothing_chosen) : text;
 }
 
 // "h264 (lossy)" where a camera's newest depth image is not exact everywhere.
@@ -162,8 +162,8 @@ void add_pictures(const Facts& facts,
     line.push_back(
         {say(Phrase::color_fact), common(cameras, [](const auto& c) { return c.color.codec; })});
     const std::string filter = common(cameras, [](const auto& c) { return c.camera.state.filter; });
-    line.push_back(
-        {say(Phrase::filter), filter_name(filter == say(Phrase::none) ? std::string() : filter)});
+    line.push_back({say(Phrase::filter),
+                    filter_name(filter == say(Phrase::nothing_chosen) ? std::string() : filter)});
 }
 
 std::vector<window::Fact> line_of(

@@ -77,6 +77,26 @@ TEST(Overlay, IsGermanForAGerman) {
     EXPECT_EQ(fact(content, "Empfangen").value, "30 Bilder/s");
 }
 
+TEST(Overlay, IsFrenchForAFrenchPerson) {
+    const testing::Speaking french(Language::french);
+    Facts facts = healthy();
+    facts.age_ms = 12'000;
+    facts.received.status.standing.role = wire::Role::operator_;
+    facts.received.cameras[0].camera.description.name = "gauche";
+    facts.received.cameras[0].camera.state.problem = {wire::TextCode::camera_covered};
+    const window::OverlayContent content = overlay(facts);
+    EXPECT_EQ(content.cover, "Cette image date d'il y a 12 s");
+    EXPECT_EQ(fact(content, "Hôte").value, "OR 3");
+    EXPECT_EQ(fact(content, "Vous").value, "responsable");
+    EXPECT_EQ(fact(content, "Caméras").value, "1 en direct");
+    EXPECT_THAT(fact(content, "Caméra gauche").value, HasSubstr("Elle est couverte"));
+    EXPECT_EQ(fact(content, "Reçu").value, "30 images/s");
+    EXPECT_EQ(fact(content, "Couleur").value, "aucun");
+    facts.received.cameras[0].camera.state.condition = wire::CameraCondition::stale;
+    facts.trust = true;
+    EXPECT_THAT(overlay(facts).panels.at(0).rows.at(0).text, HasSubstr("\u00a0: PAS EN DIRECT"));
+}
+
 TEST(Overlay, SaysAboveAllThatThePictureIsOfThePast) {
     Facts facts = healthy();
     facts.past = "NOT LIVE: 23 s ago";

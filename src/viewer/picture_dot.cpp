@@ -15,10 +15,7 @@ namespace {
 std::string tenths(double ms) {
     char text[32];
     std::snprintf(text, sizeof(text), "%.1f", std::max(ms, 100.0) / 1000);
-    std::string seconds = text;
-    if (language() == Language::german)
-        std::replace(seconds.begin(), seconds.end(), '.', ',');
-    return seconds;
+    return decimal(text);
 }
 
 }  // namespace

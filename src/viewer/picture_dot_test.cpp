@@ -28,11 +28,17 @@ TEST(PictureDot, ALivePictureIsGreenWithItsAge) {
     EXPECT_EQ(picture_dot(unknown).words, "Live");
 }
 
-TEST(PictureDot, IsGermanForAGerman) {
-    const testing::Speaking german(Language::german);
+TEST(PictureDot, SpeaksTheLanguageOfItsPerson) {
     DotFacts facts = live_dot();
     facts.age_ms = 812;
-    EXPECT_EQ(picture_dot(facts).words, "Live 0,8 s");
+    {
+        const testing::Speaking german(Language::german);
+        EXPECT_EQ(picture_dot(facts).words, "Live 0,8 s");
+    }
+    const testing::Speaking french(Language::french);
+    EXPECT_EQ(picture_dot(facts).words, "Direct 0,8 s");
+    facts.age_ms = 12'300;
+    EXPECT_EQ(picture_dot(facts).words, "Il y a 12 s");
 }
 
 TEST(PictureDot, ALatePictureIsYellowAndAnOldOneRed) {

@@ -3,8 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+#include <string>
+
 #include "room/moving.h"
 #include "session/room_bytes.h"
+#include "testing/speaking.h"
 #include "wire/clear_objects.h"
 
 namespace theatron::viewer {
@@ -110,6 +114,16 @@ TEST(RoomPanel, OperatorsDecideOnPeople) {
         return buttons[2].label + "; " + buttons[3].label;
     };
     EXPECT_EQ(labels(), "Clear; Remove");
+    for (std::size_t i = 0; i < language_count; ++i) {
+        const testing::Speaking spoken{Language(i)};
+        const RoomPanel of_language = room_panel(facts);
+        for (const window::Panel& shown : of_language.panels)
+            for (const window::PanelRow& row : shown.rows) {
+                std::set<std::string> different;
+                for (const window::PanelButton& button : row.buttons)
+                    EXPECT_TRUE(different.insert(button.label).second) << button.label;
+            }
+    }
     facts.asked = remove;
     EXPECT_EQ(labels(), "Clear; Really remove " + person.name);
     facts.asked = clear;

@@ -22,7 +22,7 @@ std::string state_of(const session::RoomObject& object, const session::SharedScr
     std::string text = (object.creator == ParticipantId{} ? say(Phrase::of_host)
                         : object.creator == facts.self    ? say(Phrase::you_share_it)
                                                        : say(Phrase::shared_by, screen.publisher)) +
-                       ", " + say(Phrase::meters_wide, width);
+                       ", " + say(Phrase::meters_wide, decimal(width));
     if (screen.pinned)
         text += ", " + say(Phrase::pinned);
     const ParticipantId holder = object.grip.holder;

@@ -15,7 +15,7 @@ constexpr Phrase orientation_names[] = {Phrase::slice_axial, Phrase::slice_coron
 std::string number(const char* format, double value) {
     char text[60];
     std::snprintf(text, sizeof(text), format, value);
-    return text;
+    return decimal(text);
 }
 
 }  // namespace

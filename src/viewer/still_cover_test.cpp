@@ -78,6 +78,8 @@ TEST(StillCover, SaysHowLong) {
     EXPECT_EQ(still_text(5900ms), "No picture for 5 s");
     const testing::Speaking german(Language::german);
     EXPECT_EQ(still_text(125s), "Seit 2 min kein Bild");
+    const testing::Speaking french(Language::french);
+    EXPECT_EQ(still_text(125s), "Pas d'image depuis 2 min");
 }
 
 }  // namespace

@@ -28,8 +28,8 @@ double age_ms(const client::CameraFigures& camera) {
 std::string rates(const client::CameraFigures& camera) {
     char mbit[32];
     std::snprintf(mbit, sizeof(mbit), "%.1f", camera.mbit_per_second());
-    return say(Phrase::rates, std::to_string(std::lround(camera.depth.frames_per_second)), mbit,
-               std::to_string(camera.dropped()));
+    return say(Phrase::rates, std::to_string(std::lround(camera.depth.frames_per_second)),
+               decimal(mbit), std::to_string(camera.dropped()));
 }
 
 }  // namespace
@@ -58,11 +58,12 @@ window::Panel trust_panel(const client::ParticipantFigures& figures,
         if (!camera.depth.has_come) {
             row.text = say(Phrase::row_waits, row.text);
         } else {
-            row.text += ": " + (is_played(camera)
-                                    ? say(camera.played == client::CameraFigures::Played::paused
-                                              ? Phrase::row_paused
-                                              : Phrase::row_recording)
-                                    : seen_age(age_ms(camera), is_live(camera)));
+            row.text =
+                say(Phrase::row_is, row.text,
+                    is_played(camera) ? say(camera.played == client::CameraFigures::Played::paused
+                                                ? Phrase::row_paused
+                                                : Phrase::row_recording)
+                                      : seen_age(age_ms(camera), is_live(camera)));
             row.detail = rates(camera) + "\n" +
                          say(Phrase::depth_and_filters, camera.depth.codec, exactness_text(camera),
                              filter_name(state.filter));

@@ -21,7 +21,7 @@ constexpr int legend_colors = 32;
 std::string meters(double m, int digits = 2) {
     char text[32];
     std::snprintf(text, sizeof(text), "%.*f m", digits, m);
-    return text;
+    return decimal(text);
 }
 
 std::vector<Rgb> depth_legend() {
@@ -31,11 +31,11 @@ std::vector<Rgb> depth_legend() {
     return colors;
 }
 
-// "x 0.12, y 0.93, z -1.40 m": of one width as long as the signs stay.
+// "x 0.12  y 0.93  z -1.40 m": of one width as long as the signs stay.
 std::string place_text(Vec3 place) {
     char text[96];
-    std::snprintf(text, sizeof(text), "x %.2f, y %.2f, z %.2f m", place.x, place.y, place.z);
-    return text;
+    std::snprintf(text, sizeof(text), "x %.2f  y %.2f  z %.2f m", place.x, place.y, place.z);
+    return decimal(text);
 }
 
 }  // namespace
@@ -87,7 +87,8 @@ void Viewer::change_point_size(double factor, TimePoint now) {
     const bool has_points = way().renderer == "splat" || way().renderer == "disc";
     char text[48];
     std::snprintf(text, sizeof(text), "%.2f", point_size_);
-    note(say(has_points ? Phrase::point_size : Phrase::point_size_unused, text, way().renderer),
+    note(say(has_points ? Phrase::point_size : Phrase::point_size_unused, decimal(text),
+             way().renderer),
          now);
 }
 

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -50,7 +52,7 @@ bool can_be_written_in_the_room(std::string_view text) {
 
 TEST(WristMenu, AllNotesHaveLettersInTheRoomInEveryLanguage) {
     const std::pair<Phrase, const char*> all[] = {
-#define PHRASE(key, english, german) {Phrase::key, #key},
+#define PHRASE(key, ...) {Phrase::key, #key},
 #include "phrases/connection.inc"
 #include "phrases/meeting.inc"
 #include "phrases/pictures.inc"
@@ -63,24 +65,32 @@ TEST(WristMenu, AllNotesHaveLettersInTheRoomInEveryLanguage) {
                                     Phrase::waits_at_door, Phrase::lost_connection,
                                     Phrase::no_connection_yet};
     for (const auto& [phrase, key] : all)
-        for (const Language which : {Language::english, Language::german})
+        for (const LanguageFacts& facts : languages)
             EXPECT_TRUE(messages.contains(phrase) ||
-                        can_be_written_in_the_room(sentence_of(phrase).in(which)))
-                << key;
+                        can_be_written_in_the_room(
+                            sentence_of(phrase).in(parse_language(facts.code).value())))
+                << key << " in " << facts.name;
 }
 
-TEST(WristMenu, IsGermanForAGermanAndItsRowsAreShort) {
-    const testing::Speaking german(Language::german);
-    MenuFacts facts;
-    facts.drawing = say(Phrase::drawn_automatically, "splat");
-    std::vector<MenuRow> rows = menu_rows(facts);
-    facts.real_room = facts.muted = true;
-    facts.past = "before";
-    for (const MenuRow& row : menu_rows(facts))
-        rows.push_back(row);
-    for (const MenuRow& row : rows)
-        EXPECT_LE(row.text.size(), 36u) << row.text << " is wider than the menu";
-    EXPECT_EQ(rows.back().text, "Das Headset verlassen");
+TEST(WristMenu, SpeaksEveryLanguageAndItsRowsAreShort) {
+    const std::map<Language, std::string> last_rows{
+        {Language::english, "Take off the headset's view"},
+        {Language::german, "Das Headset verlassen"},
+        {Language::french, "Quitter la vue du casque"}};
+    for (const auto& [language, last_row] : last_rows) {
+        const testing::Speaking spoken(language);
+        MenuFacts facts;
+        facts.drawing = say(Phrase::drawn_automatically, "splat");
+        std::vector<MenuRow> rows = menu_rows(facts);
+        facts.real_room = facts.muted = true;
+        facts.past = "before";
+        for (const MenuRow& row : menu_rows(facts))
+            rows.push_back(row);
+        for (const MenuRow& row : rows)
+            EXPECT_LE(row.text.size(), 36u) << row.text << " is wider than the menu";
+        EXPECT_EQ(rows.back().text, last_row);
+    }
+    EXPECT_EQ(last_rows.size(), language_count);
 }
 
 TEST(WristMenu, ManyPeopleAreCountedAndLeavingStaysTheLastRow) {

@@ -60,6 +60,13 @@ std::optional<KeyPress> pressed(const SDL_Keysym& key) {
         return KeyPress{Action::view_camera, int(key.scancode) - int(SDL_SCANCODE_1)};
     if (key.scancode >= SDL_SCANCODE_KP_1 && key.scancode <= SDL_SCANCODE_KP_9)
         return KeyPress{Action::view_camera, int(key.scancode) - int(SDL_SCANCODE_KP_1)};
+    if (key.scancode == SDL_SCANCODE_0)
+        return KeyPress{Action::from_above};
+    // On AZERTY keyboards, the place of W has the letter Z and flies; that of Z has the letter W.
+    if (key.scancode == SDL_SCANCODE_W && key.sym == SDLK_z)
+        return std::nullopt;
+    if (key.scancode == SDL_SCANCODE_Z && key.sym == SDLK_w)
+        return KeyPress{Action::marks};
     switch (key.sym) {
         case SDLK_ESCAPE:
             return KeyPress{Action::leave};
@@ -68,7 +75,6 @@ std::optional<KeyPress> pressed(const SDL_Keysym& key) {
             return KeyPress{Action::help};
         case SDLK_b:
             return KeyPress{Action::facts};
-        case SDLK_0:
         case SDLK_KP_0:
             return KeyPress{Action::from_above};
         case SDLK_PLUS:
@@ -97,6 +103,7 @@ std::optional<KeyPress> pressed(const SDL_Keysym& key) {
         case SDLK_COMMA:
             return KeyPress{Action::seek_back};
         case SDLK_PERIOD:
+        case SDLK_SEMICOLON:  // beside the comma where the full stop needs Shift
             return KeyPress{Action::seek_forward};
         case SDLK_END:
             return KeyPress{Action::live};

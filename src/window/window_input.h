@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "phrases/language.h"
@@ -92,6 +93,6 @@ struct WindowInput {
 struct KeyHelp {
     Sentence keys, meaning;
 };
-const std::vector<KeyHelp>& key_help();
+std::span<const KeyHelp> key_help();
 
 }  // namespace theatron::window

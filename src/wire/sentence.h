@@ -21,7 +21,7 @@ std::string sentence_without_advice(const Text& text, Language which = language(
 // As sent_part() of control.h.
 std::string sent_part(const Delivery& delivery, Language which);
 
-// The role as a word, and in "You are an expert now": in German it has no article.
+// The role as a word, and in "You are an expert now": in German and French it has no article.
 inline std::string spoken(Role role) {
     switch (role) {
         case Role::expert:

@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <set>
+#include <string>
+
 #include "testing/speaking.h"
 #include "wire/control.h"
 #include "wire/sentence.h"
@@ -60,7 +64,7 @@ TEST(Text, AnUnknownCodeStillNamesItsSubjectAndItsArguments) {
 TEST(Text, MissingAndSurplusArgumentsDoNoHarm) {
     EXPECT_EQ(english({TextCode::ceiling}), "your ceiling is ? Mbit/s");
     EXPECT_EQ(english({TextCode::wrong_token, {"a", "b"}}),
-              "The join token is wrong; ask for the host's current link.");
+              "The access code of this link is wrong; ask for the host's current link.");
 }
 
 TEST(Text, EveryoneIsToldInTheirOwnLanguageAndLogsAreEnglish) {
@@ -77,15 +81,39 @@ TEST(Text, EveryoneIsToldInTheirOwnLanguageAndLogsAreEnglish) {
     EXPECT_EQ(sentence_without_advice(moved), "Die Kamera wurde um 8.0 mm und 0.10 Grad bewegt.");
     EXPECT_NE(sentence(moved).find("Stellen Sie sie zurück"), std::string::npos);
     EXPECT_EQ(spoken(Role::operator_), "Sitzungsleitung");
+    const testing::Speaking french(Language::french);
+    EXPECT_EQ(sentence(late).rfind("Les 8 places de cette séance sont prises\u00a0; ", 0), 0u);
+    EXPECT_EQ(sentence_without_advice(moved), "La caméra a été déplacée de 8.0 mm et 0.10 degrés.");
+    EXPECT_NE(sentence(moved).find("Remettez-la en place"), std::string::npos);
+    EXPECT_EQ(spoken(Role::operator_), "responsable");
 }
 
-TEST(Text, APartOfTheFramesIsNamedInBothLanguages) {
+// The arguments that a sentence shows.
+std::set<char> shown_arguments(const std::string& sentence) {
+    std::set<char> shown;
+    for (std::size_t at = sentence.find('<'); at != sentence.npos; at = sentence.find('<', at + 1))
+        shown.insert(sentence[at + 1]);
+    return shown;
+}
+
+TEST(Text, TellsTheSameArgumentsInEveryLanguage) {
+    for (std::uint16_t code = 0; code < 1000; ++code)
+        for (std::size_t i = 0; i < language_count; ++i) {
+            const Text text{TextCode{code}, {"<0>", "<1>", "<2>", "<3>"}};
+            EXPECT_EQ(shown_arguments(sentence(text, Language(i))), shown_arguments(english(text)))
+                << code << " in " << languages[i].name;
+        }
+}
+
+TEST(Text, APartOfTheFramesIsNamedInEveryLanguage) {
     Delivery delivery;
     delivery.one_frame_of = 8;
     delivery.lossy_outside_region = true;
     EXPECT_EQ(sent_part(delivery), "one frame of 8, bounded loss outside the region");
     EXPECT_EQ(sent_part(delivery, Language::german),
               "eines von 8 Bildern, begrenzter Verlust außerhalb des wichtigen Bereichs");
+    EXPECT_EQ(sent_part(delivery, Language::french),
+              "une image sur 8, perte limitée hors de la zone d'intérêt");
 }
 
 }  // namespace

@@ -167,7 +167,7 @@ class People(unittest.TestCase):
                              (0, json.dumps({"revoked": made["name"]}, separators=(",", ":")) + "\n", ""))
             self.assert_ends_with(olga, "The link by which you came is no longer valid")
             late = stack.enter_context(self.member(made["link"], "Late"))
-            self.assert_ends_with(late, "The join token is wrong")
+            self.assert_ends_with(late, "The access code of this link is wrong")
 
             # The link of a role gets another token.
             self.assertEqual(run("link", "--state", self.state, "--revoke", "expert")[0], 0)

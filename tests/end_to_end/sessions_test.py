@@ -143,7 +143,7 @@ class Sessions(unittest.TestCase):
                 self.assertEqual(person.end(), 0, person.errors)
             late = stack.enter_context(self.member(fourth["expert"], "Late"))
             self.assertEqual(late.end(), 1)
-            self.assertIn("The join token is wrong", "".join(late.errors))
+            self.assertIn("The access code of this link is wrong", "".join(late.errors))
             frames = anna.newest_json()["cameras"][0]["frames"]
             for person in (anna, ben):
                 person.wait_for(lambda f: f["cameras"][0]["frames"] > frames + 30)

@@ -12,7 +12,7 @@ from raw_peer import FakeHost, Link, RawPeer, join_message
 from theatron_process import Process, host, run, wait_until
 
 ROLES = {"expert": 0, "publisher": 1, "observer": 2, "operator": 3, "made": 0, "lasting": 2}
-REFUSALS = {"expired": "This link has expired", "revoked": "The join token is wrong"}
+REFUSALS = {"expired": "This link has expired", "revoked": "The access code of this link is wrong"}
 
 
 def member(link, name, *options):

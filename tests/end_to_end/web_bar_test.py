@@ -124,6 +124,19 @@ class WebBar(PageCase):
         self.assertEqual(page.evaluate("theatron.state.phase"), "joined")
         self.leave(page)
 
+    def test_on_an_azerty_keyboard_w_opens_the_tools_for_drawing_and_z_which_walks_does_not(self):
+        page = self.enter()
+        page.evaluate("document.getElementById('view').focus()")
+        draws = "document.getElementById('draw').ariaPressed === '{}'"
+        page.press("w", "KeyZ")
+        page.wait_for(draws.format("true"))
+        page.press("w", "KeyZ")
+        page.wait_for(draws.format("false"))
+        page.press("z", "KeyW")
+        page.press("w", "KeyZ")
+        page.wait_for(draws.format("true"))
+        self.leave(page)
+
     def test_nothing_that_is_said_covers_a_control(self):
         for size in (*SIZES, (640, 360)):
             with self.subTest(size=size):

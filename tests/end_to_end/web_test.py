@@ -2,6 +2,7 @@
 """The browser client in a real browser: by the host's link into the room, with a native participant there."""
 import gzip
 import http.client
+import json
 import os
 import pathlib
 import signal
@@ -160,34 +161,50 @@ class Web(PageCase):
         self.assertEqual(page.evaluate("theatron.state.decoders"), 0)
         self.leave(page)
 
-    def test_a_german_browser_shows_german_also_in_the_panels(self):
-        page = self.browser.open(self.link.replace("role=expert", "role=nobody+you+know"), SIZE)
-        page.call("Emulation.setUserAgentOverride", userAgent="test", acceptLanguage="de-DE")
+    # The names of the bar's buttons that are shown, and the elements that reach beyond a narrow page's sides.
+    BAR = "[...document.querySelectorAll('#tools button')].filter(b => b.checkVisibility()).map(b => b.innerText)"
+    BESIDE = """[...document.querySelectorAll('button, p, li, h2')].filter(e => e.checkVisibility() && e.textContent !== '' &&
+        (e.getBoundingClientRect().left < 0 || e.getBoundingClientRect().right > innerWidth + 0.5)).map(e => e.textContent)"""
+
+    def in_language(self, link, wanted):
+        """The form of an invitation in a browser that wants this language first."""
+        page = self.browser.open(link, SIZE)
+        page.call("Emulation.setUserAgentOverride", userAgent="test", acceptLanguage=wanted)
         # A strict browser keeps nothing for the site.
         page.call("Page.addScriptToEvaluateOnNewDocument", source="Object.defineProperty(window, 'localStorage', "
                   "{ get() { throw new DOMException('no', 'SecurityError'); } })")
         page.reload()
-        page.wait_for("document.documentElement?.lang === 'de' && !!document.getElementById('invitation')?.textContent")
-        self.assertNotIn("nobody", page.evaluate("document.getElementById('invitation').textContent"))
-        page.enter()
-        page.wait_for("theatron.state.phase === 'joined' && theatron.state.people.length > 0")
-        page.open_sheet("people")
-        page.wait_for("document.getElementById('room_panels').innerText.includes('Niemand sonst ist hier')")
-        facts = page.wait_for("document.getElementById('facts').textContent")
-        for word in ("Gastgeber", "Kameras", "Daten"):
-            self.assertIn(word, facts)
-        # Keys of the client and its sentences, which come from the program.
-        self.assertEqual(page.evaluate("""[...document.querySelectorAll('#room_panels button')].map(b => b.textContent)
-            .filter(label => /^(Go|Call|Make|Show|Hide|Remove)/.test(label))"""), [])
-        page.evaluate("document.getElementById('leave').click()")
-        page.wait_for("theatron.state.phase === 'left'")
-        # A reason that the host gives as a code.
-        page = self.browser.open(self.link.replace("join=", "join=wrong"), SIZE)
-        page.call("Emulation.setUserAgentOverride", userAgent="test", acceptLanguage="de-DE")
-        page.reload()
-        page.wait_for("document.documentElement?.lang === 'de' && !!document.getElementById('invitation')?.textContent")
-        page.enter()
-        page.wait_for("document.getElementById('problem').textContent.startsWith('Der Zugangscode dieses Links ist falsch')")
+        page.wait_for(f"document.documentElement?.lang === '{wanted[:2]}' && !!document.getElementById('invitation')?.textContent")
+        return page
+
+    def test_a_browser_shows_its_language_also_in_the_panels(self):
+        languages = {"de-DE": ("Niemand sonst ist hier", ("Gastgeber", "Kameras", "Daten"), "Der Zugangscode dieses Links ist falsch"),
+                     "fr-CA": ("Personne d'autre n'est là", ("Hôte", "Caméras", "Données"), "Le code d'accès de ce lien est faux")}
+        for wanted, (nobody, facts_words, wrong) in languages.items():
+            with self.subTest(wanted):
+                page = self.in_language(self.link.replace("role=expert", "role=nobody+you+know"), wanted)
+                self.assertNotIn("nobody", page.evaluate("document.getElementById('invitation').textContent"))
+                page.enter()
+                page.wait_for("theatron.state.phase === 'joined' && theatron.state.people.length > 0")
+                page.open_sheet("people")
+                page.wait_for(f"document.getElementById('room_panels').innerText.includes({json.dumps(nobody)})")
+                facts = page.wait_for("document.getElementById('facts').textContent")
+                for word in facts_words:
+                    self.assertIn(word, facts)
+                # Keys of the client and its sentences, which come from the program.
+                self.assertEqual(page.evaluate("""[...document.querySelectorAll('#room_panels button')].map(b => b.textContent)
+                    .filter(label => /^(Go|Call|Make|Show|Hide|Remove)/.test(label))"""), [])
+                names = page.evaluate(self.BAR)
+                self.assertGreater(len(names), 3)
+                self.assertEqual(len(set(names)), len(names), names)
+                page.call("Emulation.setDeviceMetricsOverride", width=390, height=844, deviceScaleFactor=1, mobile=False)
+                self.assertEqual(page.evaluate(self.BESIDE), [])
+                page.evaluate("document.getElementById('leave').click()")
+                page.wait_for("theatron.state.phase === 'left'")
+                # A reason that the host gives as a code.
+                page = self.in_language(self.link.replace("join=", "join=wrong"), wanted)
+                page.enter()
+                page.wait_for(f"document.getElementById('problem').textContent.startsWith({json.dumps(wrong)})")
 
     def test_a_link_without_a_token_or_with_a_wrong_one_is_explained(self):
         page = self.browser.open(self.link.split("#")[0], SIZE)

@@ -15,7 +15,7 @@ PICTURES = os.environ.get("THEATRON_PICTURES")  # a folder where pictures of the
 CAMERA = "synthetic:seconds=2,fps=5,quality=quick,loop=1"
 SIZE = (1024, 600)
 MIDDLE = (SIZE[0] * 0.5, SIZE[1] * 0.55)
-# "press L", "F8 agrees", "Esc: leave", "Space: live again", "People (P)"
+# "press L", "F8 allows", "Esc: leave", "Space: live again", "People (P)"
 KEYS = re.compile(r"\b(press [A-Z]\b|F\d+|Esc\b|Space:|Home\b|Shift\b|Enter\b)|\([A-Z]\)")
 
 

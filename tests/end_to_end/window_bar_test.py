@@ -2,6 +2,7 @@
 """The bar of buttons at the bottom of the window, with the mouse and with the keyboard alone."""
 import pathlib
 import shutil
+import subprocess
 import tempfile
 import unittest
 
@@ -70,6 +71,21 @@ class WindowBar(unittest.TestCase):
                 x, y = self.tool(6)
                 self.screen.do("mousemove", x, y, "click", 1, "click", 1)
                 self.assertEqual(window.end(), 0, "".join(window.errors))
+
+    def test_on_an_azerty_keyboard_w_opens_the_tools_for_drawing_and_z_which_flies_does_not(self):
+        subprocess.run(["setxkbmap", "fr"], env=self.screen.environment, check=True)
+        camera = f"folder:{make_recording(self.folder / 'box', frames=1)},loop=1,preload=1,place=0:1.5:0"
+        environment = {**self.screen.environment, "XDG_STATE_HOME": str(self.folder / "home"), "SDL_AUDIODRIVER": "dummy"}
+        with host(self.folder / "state", camera) as h, \
+                Process("join", h.greeting["link"], "--name", "Wim", "--size", f"{WIDTH}x{HEIGHT}", "--renderer", "splat",
+                        "--language", "fr", env=environment):
+            wait_until(lambda: self.tool_has(0, ALARM))
+            self.screen.do("key", "w")
+            wait_until(lambda: self.tool_has(3, PRESSED))
+            self.screen.do("key", "w")
+            wait_until(lambda: not self.tool_has(3, PRESSED))
+            self.screen.do("key", "z", "key", "w")
+            wait_until(lambda: self.tool_has(3, PRESSED))
 
 
 if __name__ == "__main__":

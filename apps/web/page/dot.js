@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The dot that says how the picture is: its colour, its shape, and the age of the picture in words.
-import { text } from "./texts.js";
+import { language, text } from "./texts.js";
 
 const old_ms = 500, not_live_ms = 2000;  // as the client warns (src/viewer/facts.cpp)
 
+const tenths = new Intl.NumberFormat(language, { minimumFractionDigits: 1, maximumFractionDigits: 1 });
+
 export function seconds(ms) {
-    return ms < 9950 ? text("seconds", { s: (Math.max(ms, 100) / 1000).toFixed(1) })
+    return ms < 9950 ? text("seconds", { s: tenths.format(Math.max(ms, 100) / 1000) })
         : ms < 120000 ? text("seconds", { s: Math.floor(ms / 1000) }) : text("minutes", { min: Math.floor(ms / 60000) });
 }
 
@@ -31,7 +33,7 @@ export function show_dot(button, { level, words }) {
     const label = button.querySelector("span");
     if (label.textContent !== words)
         label.textContent = words;
-    const name = `${words}: ${text(meanings[level])}`;
+    const name = text("labelled", { label: words, value: text(meanings[level]) });
     if (button.title !== name) {
         button.title = name;
         button.setAttribute("aria-label", name);

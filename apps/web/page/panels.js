@@ -110,7 +110,7 @@ function fill_cameras(list, cameras) {
     for (const camera of cameras) {
         const row = element("li");
         const state = texts.states[camera.state] ?? camera.state;
-        row.append(element("span", `${camera.name}: ${state}`, camera.state === "live" ? "" : "warning"),
+        row.append(element("span", text("labelled", { label: camera.name, value: state }), camera.state === "live" ? "" : "warning"),
                    element("div", camera.line, "detail"), element("div", camera.detail, "detail"));
         list.append(row);
     }
@@ -134,7 +134,7 @@ function fill_panels(place, panels) {
                 button.dataset.place = `${place_of(panel, at).split(/[:,] /)[0]}/${i}`;
                 const subject = subject_of(panel, at);
                 if (subject)
-                    button.setAttribute("aria-label", `${button.textContent}: ${subject}`);
+                    button.setAttribute("aria-label", text("labelled", { label: button.textContent, value: subject }));
                 buttons.append(button);
             }
             if (row.buttons.length)
@@ -151,10 +151,10 @@ function fill_panels(place, panels) {
 
 function fill_facts(place, facts) {
     for (const { label, value, warning } of facts) {
-        if (label === "Help" && by_touch())
+        if (value === "F1" && by_touch())
             continue;  // it names a key
         const fact = element("span");
-        fact.append(element("span", `${label}: `, "label"), element("span", value, warning ? "warning" : ""));
+        fact.append(element("span", text("labelled", { label, value: "" }), "label"), element("span", value, warning ? "warning" : ""));
         place.append(fact);
     }
 }
@@ -249,10 +249,10 @@ function follow_drawing(overlay, sheet) {
 function show_chips({ overlay, is_past }) {
     const fact_of = kind => overlay.facts.find(fact => fact.kind === kind);
     const recorded = fact_of("recording"), door = fact_of("door"), [call] = of_kind(overlay, "call");
-    set_text($("recorded"), recorded ? `${recorded.label}: ${recorded.value}` : "");
-    set_text($("door"), door ? `${door.label}: ${door.value}` : "");
+    set_text($("recorded"), recorded ? text("labelled", recorded) : "");
+    set_text($("door"), door ? text("labelled", door) : "");
     $("door").hidden = !door;
-    set_text($("call"), call ? `${call.rows.map(row => row.text).join(", ")}: ${call.title}` : "");
+    set_text($("call"), call ? text("labelled", { label: call.rows.map(row => row.text).join(", "), value: call.title }) : "");
     $("call").hidden = !call;
     $("back_to_live").hidden = !is_past;
 }
@@ -284,7 +284,7 @@ export function show(state, { sheet, notices, way, way_sentence, now_ms }) {
     set_text($("message"), [overlay.message, overlay.detail].filter(Boolean).join("\n"));
     // That a picture is not of the present is said as long as it is so.
     const played = overlay.facts.find(fact => fact.kind === "not_live");
-    set_text($("not_live"), !state.is_not_live ? "" : overlay.warning || (played ? `${played.label}: ${played.value}` : ""));
+    set_text($("not_live"), !state.is_not_live ? "" : overlay.warning || (played ? text("labelled", played) : ""));
     const { shown, warning, unrest } = notices.at(now_ms, {
         warning: state.is_not_live ? "" : overlay.warning, notice: overlay.notice, of_camera: state.is_of_camera, once: way_sentence });
     set_text($("notice"), shown.join("\n"));

@@ -37,7 +37,8 @@ export class PicturePanel {
         for (const what of ["renderer", "depth", "scale"])
             $(`${what}_row`).hidden = is_flat;
         this.select("color", color?.is_chosen ? color.asked : "auto");
-        set($("color_now"), [came(cameras.map(c => c.color)), color?.is_chosen ? "" : color?.reason].filter(Boolean).join("; "));
+        const now = came(cameras.map(c => c.color)), why = color?.is_chosen ? "" : color?.reason;
+        set($("color_now"), now && why ? text("also", { first: now, second: why }) : now || why || "");
         if (is_flat)
             return;
         this.select("renderer", chosen.renderer);

@@ -35,7 +35,7 @@ void add_tool_panel(const ToolPanelFacts& facts, RoomPanel& panel) {
         buttons.push_back(button(Phrase::clear_all, ChangeMarks{[](client::Participant& p) {
                                      return clear_marks(p, true);
                                  }}));
-    rows.push_back({say(Phrase::remove), "", std::move(buttons)});
+    rows.push_back({say(Phrase::remove_marks), "", std::move(buttons)});
     // Below: the rows above keep their places when a case is opened.
     for (const ToolRow& row : tool_rows())
         if (row.needs_case && facts.has_case)
