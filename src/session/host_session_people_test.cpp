@@ -310,7 +310,7 @@ TEST_F(People, ARevokedLinkEndsTheConnectionsOfAllWhoCameByItAndOfNobodyElse) {
     EXPECT_EQ(actions_of<action::RevokeLink>(taken)[0].link, "a1");
     constexpr ParticipantId eve{5};
     come(eve, "secret");
-    EXPECT_NE(refusal_of(eve).find("token is wrong"), std::string::npos);
+    EXPECT_NE(refusal_of(eve).find("access code of this link is wrong"), std::string::npos);
 }
 
 TEST_F(People, AnOperatorDoesNotRevokeTheLinkByWhichItCame) {

@@ -24,7 +24,8 @@ TEST_F(Host, RefusesAWrongTokenWithASentence) {
     join(alice, "trvl", "guess");
     const auto actions = session.take_actions();
     ASSERT_EQ(sent<wire::Refused>(alice, actions).size(), 1u);
-    EXPECT_NE(sent<wire::Refused>(alice, actions)[0].in_english.find("token"), std::string::npos);
+    EXPECT_NE(sent<wire::Refused>(alice, actions)[0].in_english.find("access code"),
+              std::string::npos);
     EXPECT_TRUE(sent<wire::Welcome>(alice, actions).empty());
     EXPECT_EQ(count<action::Close>(actions), 1);
     // Nothing that follows counts any more.

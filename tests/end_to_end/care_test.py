@@ -74,7 +74,7 @@ class Care(unittest.TestCase):
             self.assertEqual(get(greeting, "/metrics", other)[0], 200)
             code, _, errors = run("join", greeting["link"].replace(token, other), "--no-window", "--seconds", "1")
             self.assertNotEqual(code, 0)
-            self.assertIn("token is wrong", errors)
+            self.assertIn("access code of this link is wrong", errors)
             self.assertIn("Theatron", get(greeting, "/")[2])
 
     def if_all_went_on(self, before, now):

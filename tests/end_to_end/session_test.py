@@ -179,7 +179,7 @@ class Session(unittest.TestCase):
     def test_bad_joins_are_refused_in_one_sentence(self):
         with host(self.state, self.camera) as h:
             link = h.greeting["link"]
-            self.refused("token is wrong", "join", link.replace("join=", "join=x"), "--seconds", "1", "--no-window")
+            self.refused("access code of this link is wrong", "join", link.replace("join=", "join=x"), "--seconds", "1", "--no-window")
             other = re.sub("cert=[0-9a-f]{4}", "cert=0000", link)
             self.refused("another certificate", "join", other, "--no-window", "--seconds", "1")
             self.refused("'banana' does not exist", "join", link, "--depth-codec", "banana", "--seconds", "1")

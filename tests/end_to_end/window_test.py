@@ -354,7 +354,7 @@ class Window(unittest.TestCase):
         with host(self.state, self.camera) as h, \
                 self.window(h.greeting["link"].replace("join=", "join=x")) as viewer:
             self.assertEqual(viewer.end(), 1)
-            self.assertIn("token is wrong", "".join(viewer.errors))
+            self.assertIn("access code of this link is wrong", "".join(viewer.errors))
 
     def test_without_a_display_one_sentence_says_what_to_do(self):
         environment = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
