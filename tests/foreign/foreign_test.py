@@ -10,6 +10,7 @@ import json
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -123,10 +124,12 @@ class ForeignFiles(unittest.TestCase):
         with tempfile.TemporaryDirectory() as temporary:
             folder = pathlib.Path(temporary)
             folder.chmod(0o777)
+            # The folders above the built program may be closed to that user.
+            program = shutil.copy(os.environ["THEATRON"], folder / "theatron")
             write(dicom_inputs.good() | {name: b"x" * 400 for name in closed}, folder / "source")
             for name in closed:
                 (folder / "source" / name.split("/")[0]).chmod(0)
-            done = subprocess.run([os.environ["THEATRON"], "case", "import", folder / "source", folder / "case"], cwd=folder,
+            done = subprocess.run([program, "case", "import", folder / "source", folder / "case"], cwd=folder,
                                   capture_output=True, text=True, timeout=120, **user)
             for name in closed:
                 (folder / "source" / name.split("/")[0]).chmod(0o700)
