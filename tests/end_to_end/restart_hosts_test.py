@@ -22,7 +22,9 @@ class RestartHosts(unittest.TestCase):
         self.states.mkdir()
         tools = self.folder / "bin"
         tools.mkdir()
-        (tools / "theatron").symlink_to(pathlib.Path(PROGRAM).resolve())
+        # The folders above the built program and the script may be closed to the host's user.
+        shutil.copy(PROGRAM, tools / "theatron")
+        self.script = shutil.copy(SCRIPT, self.folder / SCRIPT.name)
         # It knows the hosts whose state folders there are, and writes down what it is told.
         (tools / "systemctl").write_text(f"""#!/bin/sh
 if [ "$1" = list-units ]; then
@@ -40,7 +42,7 @@ fi
 
     def restart_hosts(self):
         """What it says, and what it told systemctl."""
-        done = subprocess.run([SCRIPT], env=self.environment, capture_output=True, text=True)
+        done = subprocess.run([self.script], env=self.environment, capture_output=True, text=True)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         told = self.folder / "told"
         return done.stdout, told.read_text().splitlines() if told.exists() else []

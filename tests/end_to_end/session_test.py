@@ -183,7 +183,7 @@ class Session(unittest.TestCase):
             other = re.sub("cert=[0-9a-f]{4}", "cert=0000", link)
             self.refused("another certificate", "join", other, "--no-window", "--seconds", "1")
             self.refused("'banana' does not exist", "join", link, "--depth-codec", "banana", "--seconds", "1")
-            self.refused("no renderer", "join", link, "--renderer", "banana", "--offscreen", self.folder / "x.png")
+            self.refused("no way of drawing", "join", link, "--renderer", "banana", "--offscreen", self.folder / "x.png")
             self.refused("link", "join", "nonsense", "--seconds", "1")
             self.refused("is in use", "host", "--state", self.folder / "other", "--camera", "folder:/opens-later", "--listen",
                          f"127.0.0.1:{h.greeting['port']}")
