@@ -74,11 +74,12 @@ void join_in_window(const JoinFlags& flags) {
                 return;
             fields = entered->fields;
             shown.join.link = entered->link;
-            shown.join.name = shown.settings.now.name = fields.name;
-            shown.settings.now.hears = fields.hears;
-            shown.settings.now.speaks = fields.speaks;
-            shown.settings.now.voice_may_record = fields.voice_may_record;
-            shown.settings.keep(shown.settings.now);
+            client::Settings chosen = shown.settings.now;
+            shown.join.name = chosen.name = fields.name;
+            chosen.hears = fields.hears;
+            chosen.speaks = fields.speaks;
+            chosen.voice_may_record = fields.voice_may_record;
+            shown.settings.change(chosen);
         }
         std::string microphone = flags.microphone, speaker = flags.speaker;
         const client::Settings& kept = shown.settings.now;

@@ -127,13 +127,10 @@ std::vector<study::Journal> load_journals(const Study& study, std::vector<std::s
         if (!read.problem.empty())
             throw Error("'" + path.string() + "', line " + std::to_string(read.line) + ": " +
                         read.problem + "; move the file away to go on without it.");
-        if (read.journal.participant != path.stem().string()) {
-            // Killed before its first line was whole: nothing was asked.
-            if (read.line == 0)
-                continue;
-            throw Error("'" + path.string() + "' is the journal of " + read.journal.participant +
-                        "; move it away, or give it that name if there is no such file.");
-        }
+        // Killed before its first line was whole: nothing was asked.
+        if (read.line == 0)
+            continue;
+        require_own_journal(path, read.journal, path.stem().string());
         if (read.journal.hash != study.hash) {
             others.push_back(read.journal.participant);
             continue;
@@ -146,6 +143,13 @@ std::vector<study::Journal> load_journals(const Study& study, std::vector<std::s
         journals.push_back(std::move(read.journal));
     }
     return journals;
+}
+
+void require_own_journal(const fs::path& file, const study::Journal& journal,
+                         const std::string& participant) {
+    if (journal.participant != participant)
+        throw Error("'" + file.string() + "' is the journal of " + journal.participant +
+                    "; move it away, or give it that name if there is no such file.");
 }
 
 std::vector<std::string> begun_with_another_text(const Study& study) {

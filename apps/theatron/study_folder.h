@@ -34,6 +34,10 @@ Study load_study(const std::filesystem::path& place);
 // on with. Journals of a study with another text are left out and named in `others`.
 std::vector<study::Journal> load_journals(const Study& study, std::vector<std::string>& others);
 
+// Throws Error if the journal in this file, which has its first line, is that of another one.
+void require_own_journal(const std::filesystem::path& file, const study::Journal& journal,
+                         const std::string& participant);
+
 // The participants who began with another text, as far as their journals can be read.
 std::vector<std::string> begun_with_another_text(const Study& study);
 

@@ -60,9 +60,8 @@ std::optional<StudyRun> begun(const Study& study, const std::string& participant
     if (!read.problem.empty())
         throw Error("'" + path + "', line " + std::to_string(read.line) + ": " + read.problem +
                     "; the run cannot go on.");
-    if (read.line > 0 && read.journal.participant != participant)
-        throw Error("'" + path + "' is the journal of " + read.journal.participant +
-                    "; move it away, or give it that name if there is no such file.");
+    if (read.line > 0)
+        require_own_journal(path, read.journal, participant);
     if (read.line > 0 && read.journal.hash != study.hash)
         throw Error(
             "The protocol or its questionnaires were changed since " + participant +
@@ -94,8 +93,9 @@ void run_study(const StudyRunFlags& flags) {
     require_other_number(study, flags.participant);
     files::JournalFile file(study.journal_of(flags.participant));
     const bool is_resumed = !file.text(study::max_journal_bytes).empty();
-    if (const auto others = begun_with_another_text(study); !is_resumed && !others.empty())
-        log::say(another_text_note(others));
+    if (!is_resumed)
+        if (const auto others = begun_with_another_text(study); !others.empty())
+            log::say(another_text_note(others));
     StudyRun run = *begun(study, flags.participant, file);
     const StudyTerminal surface(study, flags.json);
     surface.begin(run, flags.participant, is_resumed);

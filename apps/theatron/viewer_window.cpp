@@ -30,12 +30,8 @@ namespace {
 
 using Phase = client::Participant::Phase;
 
-// In the person's language, where it has a word for them.
 std::string filter_name(const std::string& spelling) {
-    if (spelling.empty())
-        return say(Phrase::nothing_chosen);
-    const std::string shown = host::shown_filter(spelling);
-    return shown == "default" ? say(Phrase::usual) : shown;
+    return viewer::filter_text(spelling.empty() ? "" : host::shown_filter(spelling));
 }
 
 constexpr Duration texts_every = 250ms, camera_pictures_every = 100ms;

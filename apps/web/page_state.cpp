@@ -16,12 +16,6 @@ namespace {
 
 using nlohmann::json;
 
-std::string filter_name(const std::string& filter) {
-    return filter.empty()        ? say(Phrase::nothing_chosen)
-           : filter == "default" ? say(Phrase::usual)
-                                 : filter;
-}
-
 // The page shows one kind at a time. The panel of the case has the case's name.
 const char* kind_of(const window::Panel& panel) {
     constexpr std::pair<Phrase, const char*> kinds[] = {
@@ -159,7 +153,7 @@ json page_state(const viewer::Viewer& viewer, const viewer::Facts& facts,
 
 json state_of(const viewer::Facts& facts, const client::Participant& participant,
               const std::string& address) {
-    auto overlay = viewer::overlay_of(facts, address, filter_name);
+    auto overlay = viewer::overlay_of(facts, address, viewer::filter_text);
     const unsigned decoders = client::decoder_pool().count;
     overlay.facts.push_back(
         {say(Phrase::decoding),

@@ -341,6 +341,12 @@ std::string slow_text(const Facts& facts) {
                    : Phrase::slow_not_connection);
 }
 
+std::string filter_text(const std::string& filter) {
+    return filter.empty()        ? say(Phrase::nothing_chosen)
+           : filter == "default" ? say(Phrase::usual)
+                                 : filter;
+}
+
 window::OverlayContent overlay_of(
     const Facts& facts, const std::string& address,
     const std::function<std::string(const std::string&)>& filter_name) {

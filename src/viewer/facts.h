@@ -57,6 +57,10 @@ struct Facts {
 // The warning that this computer draws too slowly; empty: it does not.
 std::string slow_text(const Facts& facts);
 
+// A filter as its host or shown_filter() names it, in the person's language where that has a word
+// for it; empty: there is none.
+std::string filter_text(const std::string& filter);
+
 // `address` is shown until the host's name is known. `filter_name` turns a filter's spelling into
 // a text for people.
 window::OverlayContent overlay_of(

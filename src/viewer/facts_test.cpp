@@ -42,6 +42,13 @@ window::Fact fact(const window::OverlayContent& content, const std::string& labe
     return found == content.facts.end() ? window::Fact{} : *found;
 }
 
+TEST(FilterText, HasTheWordsOfThePersonsLanguage) {
+    const testing::Speaking french(Language::french);
+    EXPECT_EQ(filter_text(""), "aucun");
+    EXPECT_EQ(filter_text("default"), "par défaut");
+    EXPECT_EQ(filter_text("holes+kalman"), "holes+kalman");
+}
+
 TEST(Overlay, SaysNothingAloudWhileAllIsWell) {
     const window::OverlayContent content = overlay(healthy());
     EXPECT_EQ(content.message + content.warning + content.notice, "");
