@@ -5,12 +5,6 @@
 macro(theatron_pkg_config name)
   pkg_check_modules(THEATRON_${name} REQUIRED IMPORTED_TARGET ${ARGN})
   set_property(GLOBAL PROPERTY THEATRON_PKG_CONFIG_${name} ${ARGN})
-  # It means nothing to today's C library, and GCC takes precompiled headers only where all definitions are the same.
-  get_target_property(options PkgConfig::THEATRON_${name} INTERFACE_COMPILE_OPTIONS)
-  if(options)
-    list(REMOVE_ITEM options -D_REENTRANT)
-    set_target_properties(PkgConfig::THEATRON_${name} PROPERTIES INTERFACE_COMPILE_OPTIONS "${options}")
-  endif()
 endmacro()
 
 # theatron_outside_libraries(RESULT library...): the same libraries; a file that find_library() gave is linked by its place

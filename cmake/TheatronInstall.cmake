@@ -15,7 +15,7 @@ set(THEATRON_PAGE ${CMAKE_SOURCE_DIR}/build/web/apps/web/page CACHE PATH "The br
 set(packaging ${CMAKE_SOURCE_DIR}/packaging)
 
 install(TARGETS theatron RUNTIME COMPONENT program)
-install(FILES ${CMAKE_SOURCE_DIR}/apps/theatron/study_report.py DESTINATION ${CMAKE_INSTALL_DATADIR}/theatron COMPONENT program)
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/apps/theatron/study_report DESTINATION ${CMAKE_INSTALL_DATADIR}/theatron COMPONENT program FILES_MATCHING PATTERN "*.py")
 # Where the target `sbom` was built, as for packages.
 install(FILES ${CMAKE_BINARY_DIR}/theatron.spdx.json DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program OPTIONAL)
 if(NOT CMAKE_CROSSCOMPILING)

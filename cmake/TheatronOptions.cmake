@@ -16,8 +16,6 @@ find_program(CCACHE ccache)
 if(CCACHE)
   # Paths below the base are kept as relative ones, so every clone finds what another has compiled.
   set(launcher ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${CMAKE_SOURCE_DIR} CCACHE_NOHASHDIR=1)
-  # Without them it keeps nothing that is compiled with precompiled headers. No source uses __TIME__ or __DATE__.
-  list(APPEND launcher CCACHE_SLOPPINESS=pch_defines,time_macros)
   if(THEATRON_SANITIZE)
     list(APPEND launcher CCACHE_EXTRAFILES=${CMAKE_SOURCE_DIR}/cmake/sanitizer_ignorelist.txt)
   endif()

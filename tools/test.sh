@@ -39,6 +39,7 @@ may_be_left_out() {
     [ "$code" -eq 77 ] || return "$code"
 }
 
+tools/scipy.sh
 step "Format and licence lines" tools/check_sources.py
 step "Directions of dependencies" tools/check_includes.py
 step "Build: release" tools/build.sh release

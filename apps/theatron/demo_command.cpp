@@ -3,8 +3,10 @@
 // hardware, in a window or as pictures of what the viewer sees.
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <thread>
 
 #include "base/error.h"
@@ -99,7 +101,10 @@ void show_pictures(const DemoFlags& flags, const std::filesystem::path& folder,
         scene.take(viewer);
         screen.take(screen_viewer);
         const TimePoint now = steady_now();
-        if (scene.can_draw() && screen.has_picture() && now >= next_picture) {
+        const bool can_draw =
+            std::all_of(std::begin(views), std::end(views),
+                        [&](const View& view) { return scene.can_draw(view.choice); });
+        if (can_draw && screen.has_picture() && now >= next_picture) {
             for (const View& view : views)
                 files::write_png(folder / view.file,
                                  scene.picture({view.choice, size, view.renderer, {}}).view());

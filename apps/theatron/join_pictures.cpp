@@ -77,7 +77,7 @@ void OffscreenPicture::add_to(nlohmann::json& json) const {
 }
 
 void OffscreenPicture::write() {
-    if (!scene_.can_draw())
+    if (!scene_.has_picture())
         throw Error("No picture came from the host, so none was written.");
     if (const std::string cover = viewer::still_text(scene_.still()); !cover.empty())
         log::say(cover + "; it stands on the picture that is written.");

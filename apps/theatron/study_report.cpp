@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* script_name = "study_report.py";
+constexpr const char* script_name = "study_report/study_report.py";
 // Debian's interpreter has Debian's SciPy, also where another one comes first in PATH.
 constexpr const char* interpreter = "/usr/bin/python3";
 

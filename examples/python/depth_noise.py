@@ -16,7 +16,7 @@ STEP_M = 0.5
 
 def main(recording, camera=0):
     frames = theatron.Recording(recording).frames(int(camera))
-    before, pairs, squares, depth = None, 0, 0, 0
+    before, pairs, squares, depth = None, np.zeros(()), np.zeros(()), np.zeros(())
     for frame in frames:
         metres = frame.depth_m()
         if before is not None and before.shape == metres.shape:

@@ -102,10 +102,7 @@ public:
         else
             steps.push_back(step);
         if (steps.size() > max_steps)
-            // GCC 12 warns of a sum of texts here where headers are precompiled.
-            note(std::string("A chain has at most ")
-                     .append(std::to_string(max_steps))
-                     .append(" filters."));
+            note("A chain has at most " + std::to_string(max_steps) + " filters.");
     }
 
     void set_background_file(std::string file) { parsed_.settings.background_file = file; }

@@ -26,16 +26,16 @@ public:
     }
     // Frames wait for those of other cameras: take() must be called again soon.
     bool waits() const { return scene_.same_moment().waits(); }
-    // Needs can_draw(); throws Error if the view is impossible. In a meeting without cameras it is
-    // that of the place where this participant begins.
+    // Needs can_draw(view); throws Error if the view is impossible. In a meeting without cameras it
+    // is that of the place where this participant begins.
     render::CameraView view(const ViewChoice& view, Size size) const;
 
-    // A camera has sent a picture, or the host has none.
-    bool can_draw() const { return scene_.has_picture() || meets_without_cameras(); }
+    // A camera has sent a picture, or the host has no camera. View and picture need more:
+    bool has_picture() const { return scene_.has_picture() || meets_without_cameras(); }
     // The same, and the camera of this view has sent one, or never will: then view() throws.
     bool can_draw(const ViewChoice& view) const {
-        return can_draw() && (scene_.newest().contains(view.camera) ||
-                              !scene_.calibrations().contains(view.camera));
+        return has_picture() && (scene_.newest().contains(view.camera) ||
+                                 !scene_.calibrations().contains(view.camera));
     }
     // The frame of a camera that the next picture shows; null before its first one.
     receive::CameraFramePtr newest(CameraId camera) const {

@@ -63,5 +63,30 @@ TEST(SharedScreensTest, FollowTheirObjectsAndShowAnEmptyOneForAnOwnShare) {
     EXPECT_TRUE(screens.empty());
 }
 
+TEST(SharedScreensTest, APictureOfThePastIsMarkedAsOne) {
+    constexpr CameraId scope{3};
+    SharedScreens screens;
+    screens.set_camera(scope, "scope", screen_calibration({4, 2}, 1, {}));
+    client::CameraFigures figures;
+    figures.camera.description.id = scope;
+    figures.camera.state = in(CameraCondition::live);
+    receive::CameraFrame frame;
+    frame.camera = scope;
+    const auto now = frame.times.captured + std::chrono::milliseconds(85);
+    const auto take = [&](bool past) {
+        auto color = std::make_shared<ColorImage>();
+        color->size = {4, 2};
+        frame.color = color;
+        frame.past = past;
+        screens.take(frame);
+        return screens.note({figures}, now);
+    };
+    EXPECT_TRUE(take(false));
+    EXPECT_FALSE(take(false)) << "nothing has changed but the pixels";
+    EXPECT_TRUE(take(true)) << "its caption says that it is not live";
+    EXPECT_FALSE(take(true));
+    EXPECT_TRUE(take(false));
+}
+
 }  // namespace
 }  // namespace theatron::viewer

@@ -3,12 +3,15 @@
 import ast
 import importlib.util
 import json
+import os
 import pathlib
 import re
 import shutil
 import subprocess
+import sys
 import unittest
 
+import patience
 from python_case import EXAMPLES, ROOT, PythonCase, example, needs_package, numpy as np, theatron
 from theatron_process import read_png, write_png
 
@@ -112,6 +115,39 @@ class Declarations(unittest.TestCase):
                 said = getattr(theatron, node.name).__doc__.splitlines()[0]
                 for argument in (*node.args.args, *node.args.kwonlyargs):
                     self.assertIn(f"{argument.arg}: ", said)
+
+
+@needs_package
+@unittest.skipUnless(importlib.util.find_spec("mypy"), "python3-mypy is missing")
+class Types(PythonCase):
+    """What a type checker says of the declarations, and of programs by them."""
+
+    def mypy(self, *words):
+        packages = pathlib.Path(theatron.__file__).parent.parent
+        done = patience.run([sys.executable, "-m", *map(str, words)], cwd=self.folder, env={**os.environ, "MYPYPATH": str(packages)})
+        return done.returncode, done.stdout + done.stderr
+
+    def test_declarations_are_those_of_the_module(self):
+        # Metaclass and constructor of pybind11's classes, and dictionaries whose shapes are types of the declarations alone.
+        allowed = self.folder / "allowed.txt"
+        allowed.write_text("theatron\\.[A-Z]\\w*\n" "theatron\\.\\w+\\.__init__\n")
+        code, said = self.mypy("mypy.stubtest", "theatron", "--allowlist", allowed, "--ignore-unused-allowlist")
+        self.assertEqual(code, 0, said)
+
+    def test_examples_are_right(self):
+        for source in sorted(EXAMPLES.glob("*.py")):
+            code, said = self.mypy("mypy", "--check-untyped-defs", "--ignore-missing-imports", source)
+            self.assertEqual(code, 0, said)
+
+    def test_what_is_wrong_is_found(self):
+        (self.folder / "wrong.py").write_text("""import theatron
+frames = theatron.Recording(3).frames(camera="left")
+for frame in frames:
+    frame.depth.nothing
+    theatron.encode_depth(frame.color)
+""")
+        code, said = self.mypy("mypy", "wrong.py")
+        self.assertEqual((code, said.count(": error: ")), (1, 4), said)
 
 
 @needs_package

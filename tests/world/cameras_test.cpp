@@ -3,6 +3,10 @@
 // and go.
 #include <gmock/gmock.h>
 
+#include <fstream>
+#include <iterator>
+
+#include "host/audit_log.h"
 #include "world/acts.h"
 #include "world/sent_camera.h"
 
@@ -67,6 +71,26 @@ TEST(WorldCameras, TheLastOfManyWishesHolds) {
         [&] { return stage.camera.codecs() == std::vector<std::string>{"raw"}; }));
     stage.world.advance(10s);
     EXPECT_THAT(stage.camera.codecs(), ElementsAre("raw"));
+}
+
+// Time alone brings it there: no message follows the last change.
+TEST(WorldCameras, AnAdjustmentThatRestsIsInTheAuditLog) {
+    Stage stage;
+    stage.begin();
+    Person& olga = stage.world.joined("Olga", wire::Role::operator_);
+    ASSERT_TRUE(stage.world.until([&] { return !cameras(olga).empty(); }));
+    session::CameraAdjustment adjustment;
+    for (const double moved_m : {0.01, 0.02, 0.03}) {
+        adjustment.moved_m = {moved_m, 0, 0};
+        (void)olga->adjust(cameras(olga).front().description.id, adjustment);
+        stage.world.advance(100ms);
+    }
+    stage.world.advance(4s);
+    stage.world.end_host();
+    std::ifstream file(host::usual_audit_log(stage.world.folder() / "state"));
+    const std::string log{std::istreambuf_iterator<char>(file), {}};
+    EXPECT_THAT(log, ::testing::HasSubstr("moved by 30.0, 0.0, 0.0 mm"));
+    EXPECT_THAT(log, ::testing::Not(::testing::HasSubstr("moved by 10.0")));
 }
 
 TEST(WorldCameras, EachPictureIsSeenOnceAndInOrder) {
