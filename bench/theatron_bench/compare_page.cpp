@@ -9,6 +9,7 @@
 #include "compare_page_parts.h"
 #include "compare_verdict.h"
 #include "compare_words.h"
+#include "render/gl_driver.h"
 #include "svg_drawing.h"
 
 namespace theatron::bench {
@@ -177,7 +178,11 @@ std::string in_short(const Compared& c) {
                         tenths_text(ours->mbit_per_camera) + " Mbit/s are " +
                         whole_text(ours->mbit_per_camera / call->mbit_per_camera) + " times as many"
                   : "") +
-            ". The expert needs a computer with a graphics card.");
+            ". The expert needs a computer with a graphics card" +
+            (render::is_software(ours->drawn_on) && ours->drawing_ms > 0
+                 ? "; without one a picture took " + whole_text(ours->drawing_ms) +
+                       " ms to draw here."
+                 : "."));
         if (ours->expert)
             for (const std::string& sentence : gaps(*ours))
                 points.push_back(sentence);

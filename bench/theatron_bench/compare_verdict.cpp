@@ -26,10 +26,15 @@ std::string mbit_text(const CompareMethod& method) {
 
 std::string of_the_wound(const Compared& c, const CompareShares& ours) {
     const std::string found =
-        "Of what an expert at the foot of the table should see within the " + near_wound_text(c) +
-        " around the wound, Theatron's picture shows " + percent_text(ours.rightly_percent) +
-        " rightly, something else in place of " + percent_text(ours.wrongly_percent) +
-        ", without a mark, and nothing in place of " + percent_text(ours.hidden_percent);
+        "Of what an expert at the foot of the table should see in a circle at the wound, " +
+        near_wound_text(c) + " wide, Theatron's picture shows " +
+        percent_text(ours.rightly_percent) +
+        " rightly, which is at most 2 cm off, something else "
+        "in place of " +
+        percent_text(ours.wrongly_percent) +
+        ", without a warning, and nothing "
+        "in place of " +
+        percent_text(ours.hidden_percent);
     if (ours.wrongly_percent >= many_percent)
         return found + ": do not judge the wound from it.";
     if (ours.wrongly_percent >= few_percent || ours.hidden_percent >= many_percent)
@@ -38,14 +43,18 @@ std::string of_the_wound(const Compared& c, const CompareShares& ours) {
 }
 
 // "a zoomed one", after "a video call".
-std::string of_calls(const CompareMethod* usual, const CompareMethod* zoomed) {
+std::string of_calls(const CompareMethod* usual, const CompareMethod* zoomed,
+                     const CompareMethod* two) {
     const CompareMethod& first = usual ? *usual : *zoomed;
     std::string text = std::string(usual ? "A" : "A zoomed") + " video call shows " +
                        percent_text(first.wound->near.rightly_percent) + " of it";
     if (usual && zoomed)
         text += ", a zoomed one " + percent_text(zoomed->wound->near.rightly_percent);
+    if (two)
+        text += ", one with two cameras " + percent_text(two->wound->near.rightly_percent) +
+                " at " + tenths_text(two->wound->near.detail_mm) + " mm a pixel";
     return text +
-           ", and nothing falsely: what its camera does not see from its fixed place is hidden.";
+           ", and nothing falsely: what no camera of it sees from its fixed place is hidden.";
 }
 
 // Says which of the two shows more of the wound, and whether that can be trusted.
@@ -81,6 +90,7 @@ std::string of_instruments(const CompareCauses& missing) {
 
 // The step that loses most, and its share.
 std::string of_causes(const CompareCauses& causes) {
+    const double other = causes.sum() - causes.no_camera;
     const std::array<std::pair<double, const char*>, 4> steps{
         {{causes.no_camera, "no camera sees the place"},
          {causes.sensor, "a camera sees the place and its sensor measures nothing there"},
@@ -89,7 +99,10 @@ std::string of_causes(const CompareCauses& causes) {
     const auto most = std::max_element(steps.begin(), steps.end());
     return "The largest cause of what Theatron does not show rightly: " +
            std::string(most->second) + ", " + tenths_text(most->first) + " of " +
-           percent_text(causes.sum()) + ".";
+           percent_text(causes.sum()) +
+           (most == steps.begin() && other > 0
+                ? "; its sensors, filters and drawing lose the other " + tenths_text(other) + "."
+                : ".");
 }
 
 std::string of_near_camera(const CompareMethod& without, const CompareMethod& with) {
@@ -99,21 +112,40 @@ std::string of_near_camera(const CompareMethod& without, const CompareMethod& wi
            percent_text(before.rightly_percent) + ", and " + percent_text(after.wrongly_percent) +
            " wrongly in place of " + percent_text(before.wrongly_percent) + "; it needs " +
            mbit_text(with) + " in place of " + mbit_text(without) +
-           (after.wrongly_percent >= many_percent ? ". That is still too much to judge the wound."
+           (after.wrongly_percent >= many_percent
+                ? ". " + percent_text(after.wrongly_percent) +
+                      " shown wrongly are still too much to judge the wound."
             : after.rightly_percent > before.rightly_percent ? "."
                                                              : ". This camera does not help.");
 }
 
-std::string advice(const CompareShares& ours, const CompareMethod* pair) {
+// The zoomed call and Theatron beside it: what Theatron adds where the video shows nothing.
+std::string of_both(const CompareMethod& pair, const CompareMethod* zoomed) {
+    const CompareShares& both = pair.wound->near;
+    std::string text = ": together they need " + mbit_text(pair) +
+                       ", and at least one of the two pictures shows " +
+                       percent_text(both.rightly_percent) + " rightly";
+    if (zoomed)
+        text += ". Where the video shows nothing, Theatron shows " +
+                percent_text(
+                    std::max(0.0, both.rightly_percent - zoomed->wound->near.rightly_percent)) +
+                " rightly and " + percent_text(both.wrongly_percent) +
+                " wrongly: do not judge what only Theatron shows";
+    return text;
+}
+
+// Two ordinary cameras where they show as much of the wound as Theatron beside a call.
+std::string of_two_cameras(const CompareMethod& two) {
+    return "For the wound alone, a video call with two cameras shows as much for " +
+           mbit_text(two) + ", and nothing falsely.";
+}
+
+std::string advice(const CompareShares& ours, const CompareMethod* pair,
+                   const CompareMethod* zoomed) {
     if (ours.wrongly_percent < many_percent)
         return "Whether that is enough for a decision, no figure here says.";
-    std::string text = "Use Theatron beside a video picture of the wound, not in its place";
-    if (pair)
-        text += ": together they need " + mbit_text(*pair) +
-                ", and at least one of the two "
-                "pictures shows " +
-                percent_text(pair->wound->near.rightly_percent) + " rightly";
-    return text + ". Where they differ, believe the video.";
+    return "Use Theatron beside a video picture of the wound, not in its place" +
+           (pair ? of_both(*pair, zoomed) : "") + ". Where they differ, believe the video.";
 }
 
 }  // namespace
@@ -121,18 +153,23 @@ std::string advice(const CompareShares& ours, const CompareMethod* pair) {
 std::vector<std::string> compare_verdict(const Compared& c) {
     const CompareMethod *ours = with_wound(c, theatron_id), *near = with_wound(c, theatron_near_id),
                         *usual = with_wound(c, video_call_id),
-                        *zoomed = with_wound(c, zoomed_call_id);
+                        *zoomed = with_wound(c, zoomed_call_id),
+                        *two = with_wound(c, two_camera_call_id),
+                        *pair = with_wound(c, theatron_and_call_id);
     if (!ours)
         return {};
     const CompareShares& shares = ours->wound->near;
     std::vector<std::string> sentences = {of_the_wound(c, shares)};
     if (const CompareMethod* call = zoomed ? zoomed : usual) {
         const std::string name = zoomed ? "the zoomed video call" : "the video call";
-        sentences.push_back(of_calls(usual, zoomed));
+        sentences.push_back(of_calls(usual, zoomed, two));
         sentences.push_back(against_call(shares, call->wound->near, name));
         sentences.push_back(of_detail(shares, call->wound->near, name));
     }
-    sentences.push_back(advice(shares, with_wound(c, theatron_and_call_id)));
+    sentences.push_back(advice(shares, pair, zoomed));
+    if (two && two->wound->near.rightly_percent >=
+                   (pair ? pair->wound->near : shares).rightly_percent - few_percent)
+        sentences.push_back(of_two_cameras(*two));
     if (near)
         sentences.push_back(of_near_camera(*ours, *near));
     if (ours->wound->lost && ours->wound->lost->sum() > 0)
