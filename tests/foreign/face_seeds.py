@@ -97,6 +97,10 @@ def enrolled():
     return body
 
 
+def sealed():
+    return b"TFSEAL" + bytes([1, 17]) + bytes(range(16 + 12 + 16)) + b"sealed"
+
+
 def landmarks():
     return ("version: 1\nn_points: 68\n{\n" + "".join(f"{i}.5 {2 * i}\n" for i in range(LANDMARKS)) + "}\n").encode()
 
@@ -105,4 +109,5 @@ def seeds():
     """Fuzz target: (name, bytes)."""
     return {"face_osc_fuzz": list(packets()), "face_recording_fuzz": [("takes", RECORDING.encode())],
             "face_network_fuzz": [("small", network())], "face_model_fuzz": [("head", head()), ("older_head", head(1)), ("landmarks", landmarks())],
-            "ict_head_fuzz": [("small", ict_files())], "enrolled_face_fuzz": [("small", enrolled())]}
+            "ict_head_fuzz": [("small", ict_files())], "enrolled_face_fuzz": [("small", enrolled())],
+            "sealed_bytes_fuzz": [("small", sealed())]}
