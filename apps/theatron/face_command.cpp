@@ -124,7 +124,8 @@ void add_act(CLI::App& face) {
 
 void add_face_command(CLI::App& app) {
     CLI::App* face = app.add_subcommand(
-        "face", "The face under a headset: trackers, the network that tells six emotions");
+        "face",
+        "The face under a headset: trackers, the network that tells six emotions, your own face");
     face->require_subcommand(1);
     face->footer("docs/face.md tells what is measured, what is guessed and what stays private.");
     add_train(*face);
@@ -132,6 +133,7 @@ void add_face_command(CLI::App& app) {
     add_listen(*face);
     add_record(*face);
     add_act(*face);
+    add_own_face_commands(*face);
 }
 
 }  // namespace theatron::app

@@ -2,6 +2,9 @@
 // The parts of `theatron face`.
 #pragma once
 
+#include <CLI/CLI.hpp>
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,5 +50,45 @@ struct FaceAct {
     double seconds = 0, rate_hz = 60;
 };
 void run_face_act(const FaceAct& wanted);
+
+struct FaceModelImport {
+    std::string folder, out;
+    bool overwrite = false;
+};
+void run_face_model_import(const FaceModelImport& wanted);
+
+struct FaceModelShow {
+    std::string model, out;  // no model: the generated head
+};
+void run_face_model_show(const FaceModelShow& wanted);
+
+struct FacePhotos {
+    std::string folder, model;
+    unsigned long long seed = 1;
+    double noise_px = 1;
+};
+void run_face_photos(const FacePhotos& wanted);
+
+struct FaceEnrol {
+    struct Photo {
+        std::string picture, landmarks;
+    };
+    std::array<Photo, face::emotion_count> photos;
+    std::string model, out, passphrase_file;
+    std::optional<double> eyes_apart_mm;
+    double view_degrees = 65;
+    bool overwrite = false, json = false;
+};
+void run_face_enrol(const FaceEnrol& wanted);
+
+struct FaceShow {
+    std::string face, out, passphrase_file;
+};
+void run_face_show(const FaceShow& wanted);
+
+void run_face_delete(const std::string& face);
+
+// Heads, photos and a person's own face.
+void add_own_face_commands(CLI::App& face);
 
 }  // namespace theatron::app

@@ -47,6 +47,7 @@ nlohmann::json fit_json(const face::FitFigures& f) {
     return {{"mean_error_mm", f.mean_error_mm},
             {"mean_face_error_mm", f.mean_face_error_mm},
             {"shape_error_mm", f.shape_error_mm},
+            {"eyes_known_error_mm", f.eyes_known_error_mm},
             {"mean_face_shape_error_mm", f.mean_face_shape_error_mm},
             {"pose_deg", f.pose_degrees},
             {"worst_pose_deg", f.worst_pose_degrees},
@@ -169,12 +170,13 @@ void print_face(const nlohmann::json& r) {
                 r["vertices"].get<int>());
     std::printf(
         "\na face from one frontal photo, landmarks off by 2 px\n"
-        "  surface %.2f mm from the person's (the mean face %.2f), at one size %.2f (%.2f)\n"
+        "  surface %.2f mm from the person's (the mean face %.2f), at one size %.2f (%.2f),\n"
+        "  %.2f where the distance of the eyes is known to 1 mm\n"
         "  pose %.2f degrees off, the worst %.2f; landmarks %.1f px; %d refused\n",
         number(fit["mean_error_mm"]), number(fit["mean_face_error_mm"]),
         number(fit["shape_error_mm"]), number(fit["mean_face_shape_error_mm"]),
-        number(fit["pose_deg"]), number(fit["worst_pose_deg"]), number(fit["residual_px"]),
-        fit["refused"].get<int>());
+        number(fit["eyes_known_error_mm"]), number(fit["pose_deg"]), number(fit["worst_pose_deg"]),
+        number(fit["residual_px"]), fit["refused"].get<int>());
     std::printf(
         "\nsix emotions, windows told right (chance %.0f %%)\n"
         "  XR_FB %.1f %%, with a fifth of the channels missing %.1f %%\n"

@@ -90,14 +90,22 @@ const Channels& channels_of(Emotion emotion) {
     return expressions[std::size_t(emotion)];
 }
 
-Channels blend_expressions(const Emotions& weights, const DirectChannels& direct) {
+Emotions limited_weights(const Emotions& weights) {
     float sum = 0;
     for (const float weight : weights)
         sum += limited(weight);
     const float scale = 1 / std::max(sum, 1.0F);
+    Emotions shares{};
+    for (std::size_t e = 0; e < emotion_count; ++e)
+        shares[e] = limited(weights[e]) * scale;
+    return shares;
+}
+
+Channels blend_expressions(const Emotions& weights, const DirectChannels& direct) {
+    const Emotions shares = limited_weights(weights);
     Channels blended{};
     for (std::size_t e = 0; e < emotion_count; ++e) {
-        const float share = limited(weights[e]) * scale;
+        const float share = shares[e];
         const Channels& expression = channels_of(Emotion(e));
         for (std::size_t c = 0; share > 0 && c < channel_count; ++c)
             blended[c] += share * expression[c];

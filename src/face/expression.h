@@ -17,9 +17,12 @@ struct DirectChannels {
     float jaw_open = 0, blink_left = 0, blink_right = 0;
 };
 
-// A face of these emotions. Weights and channels are limited to 0..1, and weights whose sum is
-// above 1 are divided by it; a value that is no number is 0. A closed lid opens no wider for an
-// emotion.
+// Weights limited to 0..1, and divided by their sum where that is above 1; a weight that is no
+// number is 0.
+Emotions limited_weights(const Emotions& weights);
+
+// A face of these emotions. Channels are limited to 0..1; one that is no number is 0. A closed lid
+// opens no wider for an emotion.
 Channels blend_expressions(const Emotions& weights, const DirectChannels& direct);
 
 }  // namespace theatron::face

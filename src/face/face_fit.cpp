@@ -32,15 +32,31 @@ Vec3 vertex_of(const std::vector<float>& from, std::uint32_t vertex) {
     return {p[0], p[1], p[2]};
 }
 
+// How far the middle of the left eye's landmarks is to the left of the right one's.
+double eyes_apart(const MorphModel& model, const std::vector<float>& points) {
+    constexpr std::size_t right_eye = 36, left_eye = 42, eye_count = 6;
+    double sum = 0;
+    for (std::size_t k = 0; k < eye_count; ++k)
+        sum += vertex_of(points, model.landmarks[left_eye + k]).x -
+               vertex_of(points, model.landmarks[right_eye + k]).x;
+    return sum / eye_count;
+}
+
 class FaceProblem {
 public:
     using Unknowns = face::Unknowns;
 
-    FaceProblem(const MorphModel& model, std::span<const FacePhoto> photos)
+    FaceProblem(const MorphModel& model, std::span<const FacePhoto> photos,
+                std::optional<EyeDistance> eyes)
         : model_(model),
           photos_(photos),
+          eyes_(eyes),
           identities_(Eigen::Index(model.identities.size())),
-          expressions_(Eigen::Index(model.expressions.size())) {}
+          expressions_(Eigen::Index(model.expressions.size())),
+          eye_moves_(identities_) {
+        for (Eigen::Index i = 0; i < identities_; ++i)
+            eye_moves_[i] = eyes_apart(model, model.identities[std::size_t(i)]);
+    }
 
     double cost(const Unknowns& at) const { return summed(at, nullptr); }
     registration::QuadraticForm form(const Unknowns& at) const {
@@ -65,22 +81,27 @@ public:
     Unknowns start() const {
         Unknowns at;
         at.identity = Eigen::VectorXd::Zero(identities_);
-        for (const FacePhoto& photo : photos_)
+        for (const FacePhoto& photo : photos_) {
             at.photos.push_back({first_pose(photo), Eigen::VectorXd::Zero(expressions_)});
+            for (Eigen::Index k = 0; k < expressions_; ++k)
+                at.photos.back().expression[k] = expected(photo, k);
+        }
         return at;
     }
-    double residual_px(const Unknowns& at) const {
+    double residual_px(const Unknowns& at, std::size_t photo) const {
         double square = 0;
-        for (std::size_t i = 0; i < photos_.size(); ++i)
-            for (std::size_t k = 0; k < landmark_count; ++k) {
-                const Vec2 miss = missed(at, i, k);
-                square += miss.x * miss.x + miss.y * miss.y;
-            }
-        return std::sqrt(square / double(photos_.size() * landmark_count));
+        for (std::size_t k = 0; k < landmark_count; ++k) {
+            const Vec2 miss = missed(at, photo, k);
+            square += miss.x * miss.x + miss.y * miss.y;
+        }
+        return std::sqrt(square / double(landmark_count));
     }
 
 private:
     Eigen::Index per_photo() const { return 6 + expressions_; }
+    double expected(const FacePhoto& photo, Eigen::Index expression) const {
+        return photo.expected[model_.expressions[std::size_t(expression)].channel];
+    }
     Eigen::Index first_of(std::size_t photo) const {
         return identities_ + Eigen::Index(photo) * per_photo();
     }
@@ -136,17 +157,30 @@ private:
             form->gradient.head(identities_) += at.identity;
             form->information.diagonal().head(identities_).array() += 1;
         }
+        if (eyes_) {
+            const double miss =
+                (eyes_apart(model_, model_.neutral) + eye_moves_.dot(at.identity) - eyes_->mm) /
+                eyes_->sigma_mm;
+            cost += miss * miss / 2;
+            if (form) {
+                const Eigen::VectorXd slope = eye_moves_ / eyes_->sigma_mm;
+                form->gradient.head(identities_) += miss * slope;
+                form->information.topLeftCorner(identities_, identities_) +=
+                    slope * slope.transpose();
+            }
+        }
         for (std::size_t i = 0; i < photos_.size(); ++i) {
             for (Eigen::Index k = 0; k < expressions_; ++k) {
                 const double size = at.photos[i].expression[k];
-                const double sigma = size < 0 ? negative_sigma : channel_sigma;
-                const double weight = 1 / (sigma * sigma);
-                cost += weight * size * size / 2;
+                const double away = size - expected(photos_[i], k), below = std::min(size, 0.0);
+                constexpr double weight = 1 / (channel_sigma * channel_sigma);
+                constexpr double below_weight = 1 / (negative_sigma * negative_sigma);
+                cost += (weight * away * away + below_weight * below * below) / 2;
                 if (!form)
                     continue;
                 const Eigen::Index place = first_of(i) + 6 + k;
-                form->gradient[place] += weight * size;
-                form->information(place, place) += weight;
+                form->gradient[place] += weight * away + below_weight * below;
+                form->information(place, place) += weight + (below < 0 ? below_weight : 0);
             }
             for (std::size_t k = 0; k < landmark_count; ++k)
                 cost += add_landmark(at, i, k, form);
@@ -200,7 +234,9 @@ private:
 
     const MorphModel& model_;
     std::span<const FacePhoto> photos_;
+    const std::optional<EyeDistance> eyes_;
     const Eigen::Index identities_, expressions_;
+    Eigen::VectorXd eye_moves_;  // by one standard deviation of each way in which persons differ
 };
 
 bool is_sound(const FacePhoto& photo) {
@@ -219,21 +255,36 @@ bool is_sound(const FacePhoto& photo) {
 
 }  // namespace
 
-std::optional<FaceFit> fit_face(const MorphModel& model, std::span<const FacePhoto> photos) {
+double eye_distance_mm(const MorphModel& model, std::span<const float> identity) {
+    double distance = eyes_apart(model, model.neutral);
+    for (std::size_t i = 0; i < std::min(identity.size(), model.identities.size()); ++i)
+        distance += double(identity[i]) * eyes_apart(model, model.identities[i]);
+    return distance;
+}
+
+std::optional<FaceFit> fit_face(const MorphModel& model, std::span<const FacePhoto> photos,
+                                std::optional<EyeDistance> eyes) {
     if (photos.empty() || photos.size() > max_photos)
+        return std::nullopt;
+    if (eyes && !(eyes->mm >= least_eye_distance_mm && eyes->mm <= most_eye_distance_mm &&
+                  eyes->sigma_mm > 0))
         return std::nullopt;
     for (const FacePhoto& photo : photos)
         if (!is_sound(photo))
             return std::nullopt;
-    const FaceProblem problem(model, photos);
+    const FaceProblem problem(model, photos, eyes);
     Unknowns at = problem.start();
     if (!registration::minimise(problem, at, 60, 1e-6))
         return std::nullopt;
     FaceFit fit;
     for (const double value : at.identity)
         fit.identity.push_back(float(value));
-    for (const auto& photo : at.photos) {
+    double square = 0;
+    for (std::size_t p = 0; p < at.photos.size(); ++p) {
+        const auto& photo = at.photos[p];
         auto& one = fit.photos.emplace_back();
+        one.residual_px = problem.residual_px(at, p);
+        square += one.residual_px * one.residual_px;
         one.camera_from_face = photo.camera_from_face;
         // Halves of a channel are one again.
         Channels counts{};
@@ -246,7 +297,7 @@ std::optional<FaceFit> fit_face(const MorphModel& model, std::span<const FacePho
             if (counts[c] > 0)
                 one.channels[c] = std::clamp(one.channels[c] / counts[c], 0.F, 1.F);
     }
-    fit.residual_px = problem.residual_px(at);
+    fit.residual_px = std::sqrt(square / double(at.photos.size()));
     return fit;
 }
 

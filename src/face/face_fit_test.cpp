@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "base/float_bytes.h"
 #include "face/fit_figures.h"
 
 namespace theatron::face {
@@ -24,14 +25,39 @@ TEST(MorphModel, BytesRoundTripAndEveryTruncationIsRefused) {
     longer.push_back(std::byte(0));
     EXPECT_EQ(parse_model(longer).error(), Status::trailing_bytes);
     Bytes newer = whole;
-    newer[6] = std::byte(2);
+    newer[6] = std::byte(3);
     EXPECT_EQ(parse_model(newer).error(), Status::unsupported_version);
     Bytes huge = whole;
     huge[10] = std::byte(0x7f);  // the highest byte of the number of vertices
     EXPECT_EQ(parse_model(huge).error(), Status::too_large);
     Bytes outside = whole;
-    store_le(outside.data() + 23, std::uint32_t(99999));  // the first landmark
+    store_le(outside.data() + 23 + 4 * part_count, std::uint32_t(99999));  // the first landmark
     EXPECT_EQ(parse_model(outside).error(), Status::malformed);
+    Bytes unparted = whole;
+    unparted[23] = std::byte(std::to_integer<unsigned>(unparted[23]) ^ 1U);
+    EXPECT_EQ(parse_model(unparted).error(), Status::malformed);
+    Bytes astray = whole;
+    const std::size_t places_at = 23 + 4 * (part_count + landmark_count) + model.neutral.size() * 4;
+    store_f32(astray.data() + places_at, 1.5F);
+    EXPECT_EQ(parse_model(astray).error(), Status::malformed);
+}
+
+TEST(MorphModel, FilesOfTheFirstVersionHaveOnePartRoundACylinder) {
+    const MorphModel model = generated_head();
+    Bytes old = model_bytes(model);
+    old[6] = std::byte(1);
+    const auto at = [&](std::size_t bytes) { return old.begin() + std::ptrdiff_t(bytes); };
+    const std::size_t places_at = 23 + 4 * (part_count + landmark_count) + model.neutral.size() * 4;
+    old.erase(at(places_at), at(places_at + model.places.size() * 4));
+    old.erase(at(23), at(23 + 4 * part_count));
+    const Result<MorphModel> read = parse_model(old);
+    ASSERT_TRUE(read);
+    EXPECT_EQ(read->neutral, model.neutral);
+    EXPECT_EQ(read->part_sizes, model.part_sizes);
+    ASSERT_EQ(read->places.size(), model.places.size());
+    const std::size_t nose = model.landmarks[33];
+    EXPECT_NEAR(read->places[2 * nose], 0.5, 0.01);
+    EXPECT_LT(read->places[2 * std::size_t(model.landmarks[0])], 0.4);  // the right ear
 }
 
 TEST(GeneratedHead, HasLandmarksWhereAFaceHasThem) {

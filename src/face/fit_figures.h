@@ -31,6 +31,8 @@ struct FitFigures {
     double mean_error_mm = 0;
     double mean_face_error_mm = 0;  // of the model's mean person in place of the fitted one
     double shape_error_mm = 0, mean_face_shape_error_mm = 0;  // the same, brought to one size
+    // The same photo, where the distance of the eyes is known to 1 mm (its deviation).
+    double eyes_known_error_mm = 0;
     double pose_degrees = 0, worst_pose_degrees = 0, residual_px = 0;
     int refused = 0;
 };

@@ -236,6 +236,12 @@ MorphModel generated_head() {
             model.triangles.push_back({a, b, b + 1});
             model.triangles.push_back({a, b + 1, a + 1});
         }
+    model.part_sizes[std::size_t(HeadPart::skin)] = std::uint32_t(model.triangles.size());
+    for (int row = 0; row < rows; ++row)
+        for (int column = 0; column < columns; ++column) {
+            model.places.push_back(float(column) / (columns - 1));
+            model.places.push_back(float(row) / (rows - 1));
+        }
     model.identities = differences(base);
     model.expressions = movements(base);
     const auto places = landmark_places();

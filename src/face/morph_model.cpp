@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numbers>
 
 #include "base/float_bytes.h"
 
@@ -11,7 +12,7 @@ namespace theatron::face {
 namespace {
 
 constexpr std::string_view model_magic = "TFHEAD";
-constexpr std::uint8_t model_version = 1;
+constexpr std::uint8_t model_version = 2;
 constexpr float max_offset_mm = 1000;
 
 void add_offsets(std::span<float> out, const std::vector<float>& offsets, float size) {
@@ -21,18 +22,40 @@ void add_offsets(std::span<float> out, const std::vector<float>& offsets, float 
         out[i] += size * offsets[i];
 }
 
-// Appends `count` coordinates that are in range.
-bool read_offsets(ByteReader& in, std::size_t count, std::vector<float>& out) {
+// Reads `count` numbers of at most `most` either way.
+bool read_numbers(ByteReader& in, std::size_t count, std::vector<float>& out,
+                  float most = max_offset_mm) {
     // Before memory is taken for them: the bytes must be there.
     if (in.rest().size() / sizeof(float) < count)
         return false;
     out.resize(count);
     for (float& value : out) {
         value = get_f32(in);
-        if (!std::isfinite(value) || std::fabs(value) > max_offset_mm)
+        if (!std::isfinite(value) || std::fabs(value) > most)
             return false;
     }
     return true;
+}
+
+// Where the vertices of a head without a texture are on a cylinder round it.
+std::vector<float> cylinder_places(const std::vector<float>& neutral) {
+    float low = neutral[1], high = neutral[1];
+    for (std::size_t i = 1; i < neutral.size(); i += 3) {
+        low = std::min(low, neutral[i]);
+        high = std::max(high, neutral[i]);
+    }
+    std::vector<float> places;
+    for (std::size_t i = 0; i < neutral.size(); i += 3) {
+        const float turn = std::atan2(neutral[i], neutral[i + 2]);
+        places.push_back(0.5F + turn / (2 * std::numbers::pi_v<float>));
+        places.push_back((high - neutral[i + 1]) / std::max(high - low, 1e-3F));
+    }
+    return places;
+}
+
+bool is_within(const std::vector<float>& places) {
+    return std::all_of(places.begin(), places.end(),
+                       [](float value) { return value >= 0 && value <= 1; });
 }
 
 }  // namespace
@@ -74,9 +97,12 @@ Bytes model_bytes(const MorphModel& model) {
     out.put(std::uint32_t(model.triangles.size()));
     out.put(std::uint32_t(model.identities.size()));
     out.put(std::uint32_t(model.expressions.size()));
+    for (const std::uint32_t size : model.part_sizes)
+        out.put(size);
     for (const std::uint32_t vertex : model.landmarks)
         out.put(vertex);
     put_all(model.neutral);
+    put_all(model.places);
     for (const auto& triangle : model.triangles)
         for (const std::uint32_t vertex : triangle)
             out.put(vertex);
@@ -109,14 +135,31 @@ Result<MorphModel> parse_model(ByteView bytes) {
         return Status::malformed;
     const std::size_t numbers = std::size_t(vertices) * 3;
     MorphModel model;
+    model.part_sizes[0] = triangles;
+    if (version > 1) {
+        std::uint64_t sum = 0;
+        for (std::uint32_t& size : model.part_sizes)
+            sum += size = in.get<std::uint32_t>();
+        if (!in.ok())
+            return Status::truncated;
+        if (sum != triangles)
+            return Status::malformed;
+    }
     for (std::uint32_t& vertex : model.landmarks)
         if ((vertex = in.get<std::uint32_t>()) >= vertices)
             return in.ok() ? Status::malformed : Status::truncated;
     const auto refusal = [&] {
         return in.rest().size() / sizeof(float) < numbers ? Status::truncated : Status::malformed;
     };
-    if (!read_offsets(in, numbers, model.neutral))
+    if (!read_numbers(in, numbers, model.neutral))
         return refusal();
+    if (version == 1)
+        model.places = cylinder_places(model.neutral);
+    else if (in.rest().size() / sizeof(float) < std::size_t(vertices) * 2)
+        return Status::truncated;
+    else if (!read_numbers(in, std::size_t(vertices) * 2, model.places, 1) ||
+             !is_within(model.places))
+        return Status::malformed;
     if (in.rest().size() / 12 < triangles)
         return Status::truncated;
     model.triangles.resize(triangles);
@@ -125,7 +168,7 @@ Result<MorphModel> parse_model(ByteView bytes) {
             if ((vertex = in.get<std::uint32_t>()) >= vertices)
                 return Status::malformed;
     for (std::uint32_t i = 0; i < identities; ++i)
-        if (!read_offsets(in, numbers, model.identities.emplace_back()))
+        if (!read_numbers(in, numbers, model.identities.emplace_back()))
             return refusal();
     for (std::uint32_t i = 0; i < expressions; ++i) {
         const auto channel = in.get<std::uint8_t>();
@@ -133,7 +176,7 @@ Result<MorphModel> parse_model(ByteView bytes) {
             return Status::malformed;
         auto& expression = model.expressions.emplace_back();
         expression.channel = Channel(channel);
-        if (!read_offsets(in, numbers, expression.offsets))
+        if (!read_numbers(in, numbers, expression.offsets))
             return refusal();
     }
     if (!in.ok())

@@ -46,16 +46,59 @@ def network():
     return body + struct.pack("<I", total)
 
 
-def head():
+def head(version=2):
     corners = [(0, 0, 0), (100, 0, 0), (0, 100, 0), (0, 0, 50)]
     triangles = [(0, 1, 2), (0, 1, 3)]
 
     def points(move):
         return struct.pack("<12f", *(value + move for corner in corners for value in corner))
-    return (b"TFHEAD" + struct.pack("<B4I", 1, len(corners), len(triangles), 1, 2)
-            + struct.pack(f"<{LANDMARKS}I", *(i % len(corners) for i in range(LANDMARKS))) + points(0)
+    parts = struct.pack("<6I", 1, 1, 0, 0, 0, 0) if version > 1 else b""
+    places = struct.pack("<8f", 0, 0, 1, 0, 0, 1, 0.5, 0.5) if version > 1 else b""
+    return (b"TFHEAD" + struct.pack("<B4I", version, len(corners), len(triangles), 1, 2) + parts
+            + struct.pack(f"<{LANDMARKS}I", *(i % len(corners) for i in range(LANDMARKS))) + points(0) + places
             + b"".join(struct.pack("<3I", *one) for one in triangles) + points(-1)
             + struct.pack("<B", 24) + points(1) + struct.pack("<B", 51) + points(2))
+
+
+ICT_MESH = """mtllib x.mtl
+v 0 0 1
+v 1 0 1
+v 1 1 1
+v 0 1 1
+v 0 2 0
+vt 0.1 0.2
+vt 0.5 0.2
+vt 0.5 0.6
+vt 1.1 0.6
+usemtl M_Face
+f 1/1 2/2 3/3 4/4
+usemtl M_BackHead
+f 4/4 3/3 5/1
+usemtl M_EyeBlend
+f 1/1 2/2 3/3
+"""
+
+
+def ict_files():
+    """A mesh, a zero, and shapes of it."""
+    shape = struct.pack("<H", 7) + b"jawOpen" + struct.pack("<f15h", 0.001, *range(15))
+    return ICT_MESH.encode() + b"\0ICTFKL01" + struct.pack("<III", 1, 5, 0) + shape
+
+
+def enrolled():
+    """Four corners, one triangle of skin and one of the head; the jaw moves one of them."""
+    body = b"TFOWN" + struct.pack("<BH6I", 1, 4, 1, 1, 0, 0, 0, 0) + bytes(range(18))
+    body += struct.pack("<12h", *range(0, 1200, 100)) + struct.pack("<8H", 0, 0, 65535, 0, 0, 65535, 9, 9)
+    body += struct.pack("<6H", 0, 1, 2, 0, 1, 3)
+    for move in range(10):
+        body += struct.pack("<HH3h", 1, 2, 0, -500, 3) if move == 5 else struct.pack("<H", 0)
+    for emotion in range(6):
+        body += struct.pack("<I", 4) + b"\xff\xd8\xff\xd9" if emotion == 5 else struct.pack("<I", 0)
+    return body
+
+
+def sealed():
+    return b"TFSEAL" + bytes([1, 17]) + bytes(range(16 + 12 + 16)) + b"sealed"
 
 
 def landmarks():
@@ -65,4 +108,6 @@ def landmarks():
 def seeds():
     """Fuzz target: (name, bytes)."""
     return {"face_osc_fuzz": list(packets()), "face_recording_fuzz": [("takes", RECORDING.encode())],
-            "face_network_fuzz": [("small", network())], "face_model_fuzz": [("head", head()), ("landmarks", landmarks())]}
+            "face_network_fuzz": [("small", network())], "face_model_fuzz": [("head", head()), ("older_head", head(1)), ("landmarks", landmarks())],
+            "ict_head_fuzz": [("small", ict_files())], "enrolled_face_fuzz": [("small", enrolled())],
+            "sealed_bytes_fuzz": [("small", sealed())]}
