@@ -22,14 +22,15 @@ void save_picture(const char* link, const char* file) {
 
     viewer::OffscreenView view;
     const TimePoint deadline = steady_now() + 20s;
-    while (!view.can_draw()) {
+    const viewer::ViewChoice choice{CameraId{0}, 0, 0};
+    while (!view.can_draw(choice)) {
         const auto status = participant.status();
         if (status.phase == client::Participant::Phase::refused || steady_now() > deadline)
             throw Error("No picture came. " + status.problem);
         participant.wait_for_frame(100ms);
         view.take(participant);
     }
-    const ColorImage picture = view.picture({{CameraId{0}, 0, 0}, {1280, 720}, "mesh", {}});
+    const ColorImage picture = view.picture({choice, {1280, 720}, "mesh", {}});
     files::write_png(file, picture.view());
 }
 
