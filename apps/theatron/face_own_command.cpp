@@ -62,7 +62,7 @@ void add_photos(CLI::App& face) {
 void add_enrol(CLI::App& face) {
     const auto wanted = std::make_shared<FaceEnrol>();
     CLI::App* command =
-        face.add_subcommand("enrol", "Make your own face for sessions, from one photo to six");
+        face.add_subcommand("enrol", "Make a face of your own from one photo to six");
     command->footer(
         "Each photo needs the 68 landmarks of its face in a .pts file, as iBUG (300-W) marks them. "
         "Take photos\nfrom the front, upright, in even light. An emotion without a photo gets the "
