@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // theatron face model, photos, enrol, show and delete
 //
-// What is in a photo or a face goes into the files that its owner asked for, and nowhere else.
+// The content of photos and faces goes into the files that their owner asked for, and nowhere else.
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -31,6 +31,7 @@ constexpr std::size_t max_ict_bytes = std::size_t(256) << 20;
 // Beyond the photo's border by this share of its side, a landmark is of another photo.
 constexpr double outside_share = 0.1;
 constexpr Size tile{420, 480}, painted_size{960, 1080};
+constexpr double sheet_yaw_degrees = 12;
 constexpr int photo_quality = 92, best_texture_quality = 90;
 
 // Two rows of three.
@@ -42,12 +43,6 @@ constexpr const char* sheet_words =
 
 std::string_view text_of(const Bytes& bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
-void require_new(const std::string& file, bool overwrite) {
-    if (std::error_code ignored; !overwrite && fs::exists(file, ignored))
-        throw Error("'" + file + "' exists already; name another file, or give --overwrite.");
-    files::require_writable(file);
 }
 
 std::array<std::uint32_t, face::landmark_count> ict_landmarks(const fs::path& file) {
@@ -198,7 +193,8 @@ std::string pts_text(const std::array<Vec2, face::landmark_count>& landmarks) {
 }  // namespace
 
 void run_face_model_import(const FaceModelImport& wanted) {
-    require_new(wanted.out, wanted.overwrite);
+    files::require_new(wanted.out, wanted.overwrite);
+    files::require_writable(wanted.out);
     const fs::path folder = wanted.folder;
     const Bytes mesh = files::read_file(folder / "generic_neutral_mesh.obj", max_ict_bytes);
     const Bytes expressions = files::read_file(folder / "expressions53_i16.bin", max_ict_bytes);
@@ -217,15 +213,15 @@ void run_face_model_import(const FaceModelImport& wanted) {
 
 void run_face_model_show(const FaceModelShow& wanted) {
     const face::MorphModel model = visit::read_face_model(wanted.model);
+    const face::FaceCamera camera =
+        face::portrait_camera(face::mesh_of(model, {}, face::Channels{}), tile, sheet_yaw_degrees);
+    face::FaceLook look;
+    look.colors = face::usual_colors();
+    look.shade = 0.85;
+    look.to_light = normalized(Vec3{-0.4, 0.5, 1});
     write_sheet(wanted.out, [&](face::Emotion emotion) {
-        const face::FaceMesh mesh =
-            face::mesh_of(model, {}, face::blend_expressions(only(emotion), {}));
-        face::FaceLook look;
-        look.colors = face::usual_colors();
-        look.shade = 0.85;
-        look.to_light = normalized(Vec3{-0.4, 0.5, 1});
-        const face::FaceMesh rest = face::mesh_of(model, {}, face::Channels{});
-        return face::draw_face(mesh, face::portrait_camera(rest, tile, 12), look, tile);
+        const auto mesh = face::mesh_of(model, {}, face::blend_expressions(only(emotion), {}));
+        return face::draw_face(mesh, camera, look, tile);
     });
 }
 
@@ -248,7 +244,8 @@ void run_face_photos(const FacePhotos& wanted) {
 }
 
 void run_face_enrol(const FaceEnrol& wanted) {
-    require_new(wanted.out, wanted.overwrite);
+    files::require_new(wanted.out, wanted.overwrite);
+    files::require_writable(wanted.out);
     const face::MorphModel model = visit::read_face_model(wanted.model);
     if (model.vertex_count() > face::max_enrolled_vertices ||
         model.triangles.size() > face::max_enrolled_triangles)
@@ -283,6 +280,7 @@ void run_face_enrol(const FaceEnrol& wanted) {
 void run_face_show(const FaceShow& wanted) {
     const std::string passphrase = visit::face_passphrase(wanted.passphrase_file, false);
     const face::EnrolledFace own = visit::read_own_face(wanted.face, passphrase);
+    const face::FaceCamera camera = face::portrait_camera(own.rest, tile, sheet_yaw_degrees);
     write_sheet(wanted.out, [&](face::Emotion emotion) {
         const Bytes& jpeg = own.textures[std::size_t(emotion)].empty()
                                 ? own.textures[std::size_t(face::Emotion::neutral)]
@@ -294,7 +292,7 @@ void run_face_show(const FaceShow& wanted) {
         look.texture = texture.view();
         look.colors = own.colors;
         look.shade = 0.1;
-        return face::draw_face(mesh, face::portrait_camera(own.rest, tile, 12), look, tile);
+        return face::draw_face(mesh, camera, look, tile);
     });
 }
 

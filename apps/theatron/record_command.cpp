@@ -25,6 +25,7 @@
 #include "cli/stop_signal.h"
 #include "client/session_recording.h"
 #include "commands.h"
+#include "files/file_bytes.h"
 #include "host/camera_recording.h"
 #include "link_argument.h"
 #include "video/color_codec.h"
@@ -80,9 +81,7 @@ std::unique_ptr<record::RecordSource> open_source(const RecordFlags& flags) {
     const std::string& file = flags.names.back();
     if (const std::string problem = record::name_problem(file); !problem.empty())
         throw Error(problem);
-    std::error_code unknown;  // creating the file fails later with its reason
-    if (!flags.overwrite && std::filesystem::exists(file, unknown))
-        throw Error("'" + file + "' exists already; name another file, or give --overwrite.");
+    files::require_new(file, flags.overwrite);
     if (flags.cameras.empty()) {
         if (flags.names.size() != 2)
             throw Error(

@@ -23,8 +23,7 @@ void run(const TargetFlags& flags) {
     const std::string ending = std::filesystem::path(flags.out).extension().string();
     if (ending != ".svg" && ending != ".dxf")
         throw Error("'" + flags.out + "' ends neither in .svg nor in .dxf.");
-    if (std::error_code ignored; !flags.overwrite && std::filesystem::exists(flags.out, ignored))
-        throw Error("'" + flags.out + "' exists already; name another file, or give --overwrite.");
+    files::require_new(flags.out, flags.overwrite);
     const std::string drawing =
         ending == ".svg" ? registration::svg_drawing(target) : registration::dxf_drawing(target);
     files::write_file(flags.out, std::as_bytes(std::span(drawing)));

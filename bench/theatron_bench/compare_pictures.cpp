@@ -105,8 +105,7 @@ std::string close_up_row(const Compared& c) {
         "The " + whole_text(c.close_up_width_m * 100) +
             " cm around the wound as an expert at the foot of the table would see them; a video "
             "call shows them from its camera's place. On the right the same with marks; of a video "
-            "call "
-            "what is really there, with marks. Rightly: "
+            "call what is really there, with marks. Rightly: "
             "the surface that is there is shown, at most 2 cm off. Wrongly: something else is "
             "shown in its place. <span class=\"screen\">A click, a tap or the Enter key shows a "
             "picture large; arrow keys then go to the next one.</span>",

@@ -29,11 +29,8 @@ std::string of_the_wound(const Compared& c, const CompareShares& ours) {
         "Of what an expert at the foot of the table should see in a circle at the wound, " +
         near_wound_text(c) + " wide, Theatron's picture shows " +
         percent_text(ours.rightly_percent) +
-        " rightly, which is at most 2 cm off, something else "
-        "in place of " +
-        percent_text(ours.wrongly_percent) +
-        ", without a warning, and nothing "
-        "in place of " +
+        " rightly, which is at most 2 cm off, something else in place of " +
+        percent_text(ours.wrongly_percent) + ", without a warning, and nothing in place of " +
         percent_text(ours.hidden_percent);
     if (ours.wrongly_percent >= many_percent)
         return found + ": do not judge the wound from it.";

@@ -117,10 +117,7 @@ void clear_folder(const fs::path& folder, bool overwrite) {
 }
 
 void require_free(const fs::path& file, bool overwrite) {
-    std::error_code ignored;
-    if (!overwrite && fs::exists(file, ignored))
-        throw Error("'" + file.string() +
-                    "' exists already; name another file, or give --overwrite.");
+    files::require_new(file, overwrite);
     if (record::is_in_use(file))
         throw Error("'" + file.string() +
                     "' is being recorded or played; name another file, or end that first.");

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "face/face_texture.h"
-#include "face/painted_face.h"
 
 namespace theatron::face {
 namespace {
@@ -28,13 +27,13 @@ bool are_sound(std::span<const EnrolPhoto> photos) {
     return !photos.empty() && photos[0].emotion == Emotion::neutral;
 }
 
-// The skin's mean, and what the photo shows of eyes and mouth.
-void set_colors(const FaceMesh& mesh, const FaceCamera& camera, const EnrolPhoto& photo,
+// The skin's mean, and what the photo shows of the eyes.
+void set_colors(const FaceMesh& mesh, const FaceCamera& camera, ColorView photo,
                 const TextureMap& map, const std::vector<Light>& texture, EnrolledFace& face) {
     Light mean{};
     float count = 0;
     for (std::size_t i = 0; i < texel_count; ++i)
-        if (map.texels()[i].triangle != TextureMap::nothing) {
+        if (map.shows_skin(i)) {
             ++count;
             for (std::size_t c = 0; c < 3; ++c)
                 mean[c] += texture[i][c];
@@ -43,9 +42,20 @@ void set_colors(const FaceMesh& mesh, const FaceCamera& camera, const EnrolPhoto
         value /= std::max(count, 1.F);
     face.colors[std::size_t(HeadPart::skin)] = face.colors[std::size_t(HeadPart::head)] =
         to_srgb(mean);
+    const auto seen = colors_of_parts(mesh, camera, photo);
     for (const HeadPart part : {HeadPart::sclera, HeadPart::iris})
-        if (const auto color = color_of_part(mesh, camera, photo.picture, part))
+        if (const auto color = seen[std::size_t(part)])
             face.colors[std::size_t(part)] = *color;
+}
+
+double seen_share(const TextureMap& map, const TexturePart& part) {
+    double skin = 0, seen = 0;
+    for (std::size_t i = 0; i < texel_count; ++i)
+        if (map.shows_skin(i)) {
+            ++skin;
+            seen += part.weights[i] > 0 ? 1 : 0;
+        }
+    return seen / std::max(skin, 1.0);
 }
 
 }  // namespace
@@ -64,29 +74,24 @@ std::optional<Enrolment> enrol(const MorphModel& model, std::span<const EnrolPho
     result.face = enrolled_person(model, fit->identity);
     result.eyes_apart_mm = eye_distance_mm(model, fit->identity);
     const TextureMap map(model);
-    TexturePart neutral;
-    std::vector<Light> whole;
-    for (std::size_t i = 0; i < photos.size(); ++i) {
-        const FaceMesh mesh = mesh_of(model, fit->identity, fit->photos[i].channels);
-        const FaceCamera camera{fit->photos[i].camera_from_face, seen[i].focal_px,
-                                seen[i].centre_px};
-        TexturePart part = unwrap_photo(map, mesh, camera, photos[i].picture);
-        const std::size_t emotion = std::size_t(photos[i].emotion);
-        if (i > 0) {
-            result.textures[emotion] = texture_of(completed(part, neutral, whole));
-            continue;
-        }
-        neutral = std::move(part);
-        whole = completed(map, neutral);
-        set_colors(mesh, camera, photos[i], map, whole, result.face);
-        result.textures[emotion] = texture_of(whole);
-        double skin = 0, found = 0;
-        for (std::size_t t = 0; t < texel_count; ++t)
-            if (map.texels()[t].triangle != TextureMap::nothing) {
-                ++skin;
-                found += neutral.weights[t] > 0 ? 1 : 0;
-            }
-        result.seen_share = found / std::max(skin, 1.0);
+    const auto mesh_in = [&](std::size_t photo) {
+        return mesh_of(model, fit->identity, fit->photos[photo].channels);
+    };
+    const auto camera_in = [&](std::size_t photo) {
+        return FaceCamera{fit->photos[photo].camera_from_face, seen[photo].focal_px,
+                          seen[photo].centre_px};
+    };
+    const FaceMesh mesh = mesh_in(0);
+    const FaceCamera camera = camera_in(0);
+    const TexturePart neutral = unwrap_photo(map, mesh, camera, photos[0].picture);
+    const std::vector<Light> whole = completed(map, neutral);
+    set_colors(mesh, camera, photos[0].picture, map, whole, result.face);
+    result.seen_share = seen_share(map, neutral);
+    result.textures[std::size_t(Emotion::neutral)] = texture_of(whole);
+    for (std::size_t i = 1; i < photos.size(); ++i) {
+        const TexturePart part = unwrap_photo(map, mesh_in(i), camera_in(i), photos[i].picture);
+        result.textures[std::size_t(photos[i].emotion)] =
+            texture_of(completed(part, neutral, whole));
     }
     result.fit = std::move(*fit);
     return result;

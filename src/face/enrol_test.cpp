@@ -63,10 +63,11 @@ double likeness(const ColorImage& a, const ColorImage& truth, const std::vector<
 }
 
 // Texels that the true face shows to the camera.
-std::vector<bool> seen_texels(const MorphModel& model, const Made& made, std::size_t photo) {
-    const TexturePart part = unwrap_photo(
-        TextureMap(model), mesh_of(model, made.person.identity, made.photos[photo].channels),
-        made.photos[photo].camera, made.photos[photo].picture.view());
+std::vector<bool> seen_texels(const MorphModel& model, const TextureMap& map, const Made& made,
+                              std::size_t photo) {
+    const TexturePart part =
+        unwrap_photo(map, mesh_of(model, made.person.identity, made.photos[photo].channels),
+                     made.photos[photo].camera, made.photos[photo].picture.view());
     std::vector<bool> seen(texel_count);
     for (std::size_t i = 0; i < texel_count; ++i)
         seen[i] = part.weights[i] > 0.2F;
@@ -75,6 +76,7 @@ std::vector<bool> seen_texels(const MorphModel& model, const Made& made, std::si
 
 TEST(Enrol, OnePhotoGivesShapeAndTextureOfTheFace) {
     const MorphModel model = generated_head();
+    const TextureMap map(model);
     constexpr Emotion only_neutral[] = {Emotion::neutral};
     double error = 0, mean_face_error = 0, dB = 0;
     constexpr int persons = 3;
@@ -87,7 +89,7 @@ TEST(Enrol, OnePhotoGivesShapeAndTextureOfTheFace) {
         EXPECT_GT(made.enrolment->seen_share, 0.3);
         const auto& texture = made.enrolment->textures[std::size_t(Emotion::neutral)];
         ASSERT_TRUE(texture);
-        dB += likeness(*texture, made.person.texture, seen_texels(model, made, 0));
+        dB += likeness(*texture, made.person.texture, seen_texels(model, map, made, 0));
         EXPECT_FALSE(made.enrolment->textures[std::size_t(Emotion::anger)]);
     }
     RecordProperty("texture_dB", std::to_string(dB / persons));
@@ -100,13 +102,14 @@ TEST(Enrol, OnePhotoGivesShapeAndTextureOfTheFace) {
 
 TEST(Enrol, PhotosOfEmotionsAreLaidOverEachOther) {
     const MorphModel model = generated_head();
+    const TextureMap map(model);
     constexpr Emotion three[] = {Emotion::neutral, Emotion::happiness, Emotion::surprise};
     const Made made = enrolled(model, 4, three, 0.5);
     ASSERT_TRUE(made.enrolment);
     for (std::size_t i = 0; i < 3; ++i) {
         const auto& texture = made.enrolment->textures[std::size_t(three[i])];
         ASSERT_TRUE(texture);
-        EXPECT_GT(likeness(*texture, made.person.texture, seen_texels(model, made, i)), 22)
+        EXPECT_GT(likeness(*texture, made.person.texture, seen_texels(model, map, made, i)), 22)
             << to_text(three[i]);
         EXPECT_LT(made.enrolment->fit.photos[i].residual_px, 3);
     }

@@ -1,9 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "face/face_mesh.h"
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace theatron::face {
+
+HeadPart FaceMesh::part_of(std::size_t triangle) const {
+    std::size_t end = 0;
+    for (std::size_t i = 0; i < part_count; ++i)
+        if (triangle < (end += part_sizes[i]))
+            return HeadPart(i);
+    return HeadPart::skin;
+}
 
 FaceMesh mesh_of(const MorphModel& model, std::span<const float> identity,
                  const Channels& channels) {
@@ -37,6 +47,10 @@ std::vector<Vec3> normals_of(const FaceMesh& mesh) {
         normals[i] = size > 0 ? normals[joined[i]] * (1 / size) : Vec3{0, 0, 1};
     }
     return normals;
+}
+
+double focal_of(Size size, double view_degrees) {
+    return std::max(size.width, size.height) / (2 * std::tan(radians_of(view_degrees) / 2));
 }
 
 }  // namespace theatron::face

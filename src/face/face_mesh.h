@@ -3,6 +3,7 @@
 #pragma once
 
 #include "face/morph_model.h"
+#include "image/view.h"
 
 namespace theatron::face {
 
@@ -18,6 +19,7 @@ struct FaceMesh {
         return {points[3 * vertex], points[3 * vertex + 1], points[3 * vertex + 2]};
     }
     std::size_t skin_size() const { return part_sizes[std::size_t(HeadPart::skin)]; }
+    HeadPart part_of(std::size_t triangle) const;
 };
 
 // A person of the model.
@@ -41,5 +43,8 @@ struct FaceCamera {
         return {p.x * scale + centre_px.x, p.y * scale + centre_px.y, p.z};
     }
 };
+
+// Focal length in pixels of a camera that sees this angle along the longer side.
+double focal_of(Size size, double view_degrees);
 
 }  // namespace theatron::face

@@ -40,14 +40,6 @@ ColorImage shrunk(const Canvas& fine) {
     return out;
 }
 
-HeadPart part_of(const FaceMesh& mesh, std::size_t triangle) {
-    std::size_t end = 0;
-    for (std::size_t i = 0; i < part_count; ++i)
-        if (triangle < (end += mesh.part_sizes[i]))
-            return HeadPart(i);
-    return HeadPart::skin;
-}
-
 }  // namespace
 
 std::array<Rgb, part_count> usual_colors() {
@@ -84,7 +76,7 @@ ColorImage draw_face(const FaceMesh& mesh, const FaceCamera& camera, const FaceL
         if ((at[1].x - at[0].x) * (at[2].y - at[0].y) - (at[2].x - at[0].x) * (at[1].y - at[0].y) >=
             0)
             continue;
-        const HeadPart part = part_of(mesh, t);
+        const HeadPart part = mesh.part_of(t);
         raster(at, canvas.size, [&](int x, int y, std::array<double, 3> shares) {
             const auto depth = float(to_space(shares, z));
             const auto pixel = std::size_t(y) * std::size_t(canvas.size.width) + std::size_t(x);

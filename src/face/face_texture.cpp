@@ -26,6 +26,7 @@ constexpr double mirror_mm = 4;
 constexpr double known_well = 0.3;
 // Skin this near to the outline of the head, as a share of its height, is not taken.
 constexpr double rim_share = 0.025;
+constexpr std::size_t least_part_pixels = 20;
 constexpr float least_gain = 0.5F, most_gain = 2;
 
 float smooth_step(double from, double to, double value) {
@@ -305,28 +306,29 @@ TexturePart unwrap_photo(const TextureMap& map, const FaceMesh& mesh, const Face
     return part;
 }
 
-std::optional<Rgb> color_of_part(const FaceMesh& mesh, const FaceCamera& camera, ColorView photo,
-                                 HeadPart part) {
-    std::size_t first = 0;
-    for (std::size_t i = 0; i < std::size_t(part); ++i)
-        first += mesh.part_sizes[i];
-    const std::size_t end = first + mesh.part_sizes[std::size_t(part)];
-    std::array<std::vector<std::uint8_t>, 3> values;
+std::array<std::optional<Rgb>, part_count> colors_of_parts(const FaceMesh& mesh,
+                                                           const FaceCamera& camera,
+                                                           ColorView photo) {
+    std::array<std::array<std::vector<std::uint8_t>, 3>, part_count> values;
     DepthPicture(mesh, camera).for_each_pixel([&](double x, double y, std::size_t triangle) {
-        if (triangle < first || triangle >= end || !(x >= 0 && x < photo.size.width) ||
-            !(y >= 0 && y < photo.size.height))
+        if (!(x >= 0 && x < photo.size.width) || !(y >= 0 && y < photo.size.height))
             return;
         const Rgb pixel = photo.row(int(y))[int(x)];
-        values[0].push_back(pixel.r);
-        values[1].push_back(pixel.g);
-        values[2].push_back(pixel.b);
+        auto& of_part = values[std::size_t(mesh.part_of(triangle))];
+        of_part[0].push_back(pixel.r);
+        of_part[1].push_back(pixel.g);
+        of_part[2].push_back(pixel.b);
     });
-    if (values[0].size() < 20)
-        return std::nullopt;
-    for (auto& one : values)
-        std::nth_element(one.begin(), one.begin() + std::ptrdiff_t(one.size() / 2), one.end());
-    const std::size_t middle = values[0].size() / 2;
-    return Rgb{values[0][middle], values[1][middle], values[2][middle]};
+    std::array<std::optional<Rgb>, part_count> colors;
+    for (std::size_t i = 0; i < part_count; ++i) {
+        if (values[i][0].size() < least_part_pixels)
+            continue;
+        const std::size_t middle = values[i][0].size() / 2;
+        for (auto& one : values[i])
+            std::nth_element(one.begin(), one.begin() + std::ptrdiff_t(middle), one.end());
+        colors[i] = Rgb{values[i][0][middle], values[i][1][middle], values[i][2][middle]};
+    }
+    return colors;
 }
 
 std::vector<Light> completed(const TextureMap& map, const TexturePart& seen) {

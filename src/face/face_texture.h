@@ -30,6 +30,7 @@ public:
     explicit TextureMap(const MorphModel& model);
 
     const std::vector<Texel>& texels() const { return texels_; }
+    bool shows_skin(std::size_t texel) const { return texels_[texel].triangle != nothing; }
     // The texel of the same place on the other side; `nothing` if there is none near it. Both of
     // a place of the skin.
     std::uint32_t mirrored(std::size_t texel) const { return mirrored_[texel]; }
@@ -48,9 +49,10 @@ struct TexturePart {
 TexturePart unwrap_photo(const TextureMap& map, const FaceMesh& mesh, const FaceCamera& camera,
                          ColorView photo);
 
-// The median light of a part's pixels in a photo; nullopt if fewer than 20 are seen.
-std::optional<Rgb> color_of_part(const FaceMesh& mesh, const FaceCamera& camera, ColorView photo,
-                                 HeadPart part);
+// The median of each part's pixels in a photo; nullopt if fewer than 20 are seen.
+std::array<std::optional<Rgb>, part_count> colors_of_parts(const FaceMesh& mesh,
+                                                           const FaceCamera& camera,
+                                                           ColorView photo);
 
 // All texels of a face from those that are seen.
 std::vector<Light> completed(const TextureMap& map, const TexturePart& seen);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// sRGB values and linear light, from 0 to 1 (IEC 61966-2-1).
+// Colours as linear light, from 0 to 1.
 #pragma once
 
 #include <algorithm>
@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "image/srgb.h"
 #include "image/view.h"
 
 namespace theatron::face {
@@ -16,10 +17,8 @@ using Light = std::array<float, 3>;
 inline float to_linear(std::uint8_t value) {
     static const std::array<float, 256> table = [] {
         std::array<float, 256> made{};
-        for (std::size_t i = 0; i < made.size(); ++i) {
-            const double v = double(i) / 255;
-            made[i] = float(v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4));
-        }
+        for (std::size_t i = 0; i < made.size(); ++i)
+            made[i] = float(srgb_to_linear(double(i) / 255));
         return made;
     }();
     return table[value];
@@ -31,8 +30,7 @@ inline Light to_linear(Rgb color) {
 
 inline std::uint8_t to_srgb(float light) {
     const double v = light > 0 ? std::min(light, 1.F) : 0;
-    return std::uint8_t(255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055) +
-                        0.5);
+    return std::uint8_t(255 * linear_to_srgb(v) + 0.5);
 }
 
 inline Rgb to_srgb(const Light& light) {

@@ -136,10 +136,6 @@ PaintedPerson painted_person(const MorphModel& model, std::uint64_t seed) {
     return person;
 }
 
-double focal_of(Size size, double view_degrees) {
-    return std::max(size.width, size.height) / (2 * std::tan(radians_of(view_degrees) / 2));
-}
-
 PaintedPhoto painted_photo(const MorphModel& model, const PaintedPerson& person, Emotion emotion,
                            std::uint64_t seed, Size size, double view_degrees, double noise_px) {
     Random random(seed * 2003 + std::uint64_t(emotion));

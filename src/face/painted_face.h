@@ -30,7 +30,4 @@ struct PaintedPhoto {
 PaintedPhoto painted_photo(const MorphModel& model, const PaintedPerson& person, Emotion emotion,
                            std::uint64_t seed, Size size, double view_degrees, double noise_px = 0);
 
-// Focal length of a camera that sees this angle along the longer side.
-double focal_of(Size size, double view_degrees);
-
 }  // namespace theatron::face

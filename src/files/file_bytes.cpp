@@ -85,6 +85,13 @@ void require_writable(const std::filesystem::path& path) {
         refuse("write", path, std::strerror(errno));
 }
 
+void require_new(const std::filesystem::path& path, bool overwrite) {
+    // A place that cannot be looked at is told when the file is written.
+    if (std::error_code ignored; !overwrite && std::filesystem::exists(path, ignored))
+        throw Error("'" + path.string() +
+                    "' exists already; name another file, or give --overwrite.");
+}
+
 void require_own_kind(const std::filesystem::path& path, std::string_view beginning,
                       const char* kind) {
     std::error_code ignored;

@@ -19,6 +19,9 @@ void write_file(const std::filesystem::path& path, ByteView bytes);
 // Throws Error if write_file() could not write there. Call it before long work.
 void require_writable(const std::filesystem::path& path);
 
+// Throws Error if `path` is there and may not be replaced.
+void require_new(const std::filesystem::path& path, bool overwrite);
+
 // Throws Error if `path` is a file with other content than an earlier output: one that does not
 // begin with `beginning`, "a PNG picture" or the like in `kind`. An empty file may be replaced.
 void require_own_kind(const std::filesystem::path& path, std::string_view beginning,

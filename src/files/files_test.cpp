@@ -154,6 +154,16 @@ TEST(Png, ReplacesAPictureButNoOtherFile) {
     EXPECT_EQ(read_file(path), recording);
 }
 
+TEST(FileBytes, AFileThatIsThereIsReplacedOnlyWhereThatIsWanted) {
+    const theatron::testing::TemporaryFolder folder;
+    const auto path = folder.path() / "a.mkv";
+    require_new(path, false);
+    write_file(path, Bytes(5));
+    require_new(path, true);
+    EXPECT_EQ(sentence([&] { require_new(path, false); }),
+              "'" + path.string() + "' exists already; name another file, or give --overwrite.");
+}
+
 TEST(FileBytes, AnOutputIsNotTheInputUnderAnotherName) {
     const theatron::testing::TemporaryFolder folder;
     const auto path = folder.path() / "a.mkv";

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "furniture/pieces.h"
+#include "image/srgb.h"
 
 namespace theatron::furniture {
 namespace {
@@ -134,8 +135,7 @@ Rgb shown(Vec3 light) {
         for (int i = 0; i <= steps; ++i) {
             const double root = double(i) / steps, c0 = most * root * root;
             const double c = std::min(1.0, c0 * (1 + c0 / 6) / (1 + c0));
-            const double s = c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055;
-            values[std::size_t(i)] = std::uint8_t(std::lround(255 * s));
+            values[std::size_t(i)] = std::uint8_t(std::lround(255 * linear_to_srgb(c)));
         }
         return values;
     }();

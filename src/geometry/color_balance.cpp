@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "image/srgb.h"
+
 namespace theatron {
 namespace {
 
@@ -20,10 +22,8 @@ constexpr double srgb_exponent = 2.2;        // light is about this power of an 
 double linear_from_srgb(int value) {
     static const auto table = [] {
         std::array<double, 256> t{};
-        for (std::size_t i = 0; i < 256; ++i) {
-            const double v = double(i) / 255;
-            t[i] = v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-        }
+        for (std::size_t i = 0; i < 256; ++i)
+            t[i] = srgb_to_linear(double(i) / 255);
         return t;
     }();
     return table[std::size_t(value)];

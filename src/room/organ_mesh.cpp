@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "room/organ_mesh.h"
 
-#include <cmath>
+#include "image/srgb.h"
 
 namespace theatron::room {
 namespace {
@@ -39,10 +39,7 @@ render::MeshData make_organ_mesh(const medical::Mesh& mesh, Vec3 middle_mm) {
 }
 
 Vec3 linear_color(Rgb color) {
-    const auto linear = [](std::uint8_t c) {
-        const double s = c / 255.0;
-        return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
-    };
+    const auto linear = [](std::uint8_t c) { return srgb_to_linear(c / 255.0); };
     return {linear(color.r), linear(color.g), linear(color.b)};
 }
 
