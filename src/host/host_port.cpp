@@ -58,6 +58,9 @@ net::Server::Handler HostPort::handler() {
                       {{"address", address}, {"why", why}, {"left_out", *left_out}});
     };
     h.http = [this](const net::HttpRequest& request) { return answer(request); };
+    h.posted = [this](const net::HttpRequest& request, std::uint64_t bytes) {
+        return take_body(request, bytes);
+    };
     h.now = steady_now;
     h.tick = [this] { sessions_.tick(); };
     h.alarm = [this] { sessions_.alarm(steady_now()); };
@@ -79,10 +82,29 @@ net::Server::Handler HostPort::handler() {
 net::HttpAnswer HostPort::answer(const net::HttpRequest& request) {
     if (sessions_.is_closed(net::shown_token(request)))
         return {.status = 503, .body = "This session is not open at the moment.\n"};
+    if (LineProbe::is_line(request)) {
+        auto refusal = refuse_line(request);
+        return refusal ? std::move(*refusal) : line_.answer(request, steady_now());
+    }
     const std::vector<ClosedSession> closed = sessions_.closed();
     const std::shared_ptr<const Page> page = page_->current();
     return sessions_.look([&](const SessionSwitch::Sessions& sessions) {
         return answer_page(request, *page, sessions, closed);
+    });
+}
+
+// On the door's thread.
+std::optional<net::HttpAnswer> HostPort::take_body(const net::HttpRequest& request,
+                                                   std::uint64_t bytes) {
+    if (!LineProbe::is_line(request))
+        return std::nullopt;
+    auto refusal = refuse_line(request);
+    return refusal ? std::move(refusal) : line_.take_body(bytes, steady_now());
+}
+
+std::optional<net::HttpAnswer> HostPort::refuse_line(const net::HttpRequest& request) const {
+    return sessions_.look([&](const SessionSwitch::Sessions& sessions) {
+        return host::refuse_line(request, sessions);
     });
 }
 

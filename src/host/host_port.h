@@ -18,6 +18,7 @@
 #include "host/host_figures.h"
 #include "host/kept_certificate.h"
 #include "host/late_page.h"
+#include "host/line_probe.h"
 #include "host/port_options.h"
 #include "host/session_switch.h"
 #include "net/server.h"
@@ -63,6 +64,8 @@ private:
 
     net::Server::Handler handler();
     net::HttpAnswer answer(const net::HttpRequest& request);
+    std::optional<net::HttpAnswer> take_body(const net::HttpRequest& request, std::uint64_t bytes);
+    std::optional<net::HttpAnswer> refuse_line(const net::HttpRequest& request) const;
     void note_link();
     void tell_address(const net::Link& link) const;
     const net::Certificate& linked_certificate() const;
@@ -83,6 +86,7 @@ private:
     net::Link link_;                                      // guarded by mutex_, as is the next
     std::vector<HostFigures::Certificate> certificates_;  // as they are now
     LineLimit strangers_;                                 // of log lines; the door's thread
+    LineProbe line_;                                      // the door's thread
     std::atomic<std::uint64_t> turned_away_ = 0;
     send::Workers workers_;
     SessionSwitch sessions_;

@@ -72,6 +72,14 @@ Opened opened_by(const std::string& secret, const SessionSwitch::Sessions& sessi
     return {opened, true};
 }
 
+net::HttpAnswer expired() {
+    return {.status = 410, .body = "This link has expired; ask for a new one.\n"};
+}
+
+net::HttpAnswer held_back() {
+    return {.status = 403, .body = "Somebody who came by this link was removed: docs/room.md\n"};
+}
+
 }  // namespace
 
 net::HttpAnswer answer_page(const net::HttpRequest& request, const Page& page,
@@ -83,14 +91,13 @@ net::HttpAnswer answer_page(const net::HttpRequest& request, const Page& page,
                                 : net::HttpAnswer{.status = 200, .body = "A session is open.\n"};
     const std::string secret = net::shown_token(request);
     if (has_expired(secret, sessions))
-        return {.status = 410, .body = "This link has expired; ask for a new one.\n"};
+        return expired();
     if (is_lobby(request))
         return answer_lobby(request, sessions, closed);
     if (auto file = page.answer(request))
         return std::move(*file);
     if (is_held_back(secret, sessions))
-        return {.status = 403,
-                .body = "Somebody who came by this link was removed: docs/room.md\n"};
+        return held_back();
     const Opened opened = opened_by(secret, sessions);
     const MayRead may_read = !opened.sessions.empty()       ? MayRead::yes
                              : must_knock(secret, sessions) ? MayRead::must_knock
@@ -108,6 +115,20 @@ net::HttpAnswer answer_page(const net::HttpRequest& request, const Page& page,
             figures.closed = closed;
         return figures;
     });
+}
+
+std::optional<net::HttpAnswer> refuse_line(const net::HttpRequest& request,
+                                           const SessionSwitch::Sessions& sessions) {
+    const std::string secret = net::shown_token(request);
+    if (has_expired(secret, sessions))
+        return expired();
+    if (is_held_back(secret, sessions))
+        return held_back();
+    const bool is_known = std::ranges::any_of(
+        sessions, [&](const auto& entry) { return entry.second.find_token(secret).has_value(); });
+    if (!is_known)
+        return net::HttpAnswer{.status = 401, .body = "Show the token of a link: docs/room.md\n"};
+    return std::nullopt;
 }
 
 }  // namespace theatron::host

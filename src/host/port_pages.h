@@ -3,6 +3,7 @@
 // by the token that it shows.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "host/closed_session.h"
@@ -17,5 +18,10 @@ namespace theatron::host {
 net::HttpAnswer answer_page(const net::HttpRequest& request, const Page& page,
                             const SessionSwitch::Sessions& sessions,
                             const std::vector<ClosedSession>& closed);
+
+// Why the bearer of a token may not measure the line to the host (line_probe.h); nullopt for one
+// with a link of an open session, also while they wait to be let in.
+std::optional<net::HttpAnswer> refuse_line(const net::HttpRequest& request,
+                                           const SessionSwitch::Sessions& sessions);
 
 }  // namespace theatron::host

@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <boost/asio/bind_executor.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
@@ -250,7 +251,7 @@ private:
 
     void read_request() {
         parser_.header_limit(max_request_bytes);
-        // No request that is answered has a body; one of others is not read.
+        // The library reads no body: drop_body() reads the one of a request that may have it.
         parser_.skip(true);
         http::async_read_header(
             *stream_, incoming_, parser_,
@@ -273,11 +274,16 @@ private:
 
     void answer_large_head() {
         extend(first_message_deadline, "said too much");
-        answer({.status = 431,
-                .body = "This request has more than " + std::to_string(max_request_bytes / 1024) +
-                        " KiB of headers, which are mostly cookies of other services of the same "
-                        "name. Delete the cookies of this site, or open it in a private window.\n"},
-               step([this] {
+        refuse(
+            {.status = 431,
+             .body = "This request has more than " + std::to_string(max_request_bytes / 1024) +
+                     " KiB of headers, which are mostly cookies of other services of the same "
+                     "name. Delete the cookies of this site, or open it in a private window.\n"});
+    }
+
+    // An answer to a request of which more may come, which is not wanted.
+    void refuse(HttpAnswer refusal) {
+        answer(std::move(refusal), step([this] {
                    beast::error_code ignored;
                    socket().shutdown(tcp::socket::shutdown_send, ignored);
                    discard(*stream_, 0, "said too much");
@@ -302,6 +308,57 @@ private:
         door_.begin_handshakes();
     }
 
+    HttpRequest asked_now() const {
+        const auto& request = parser_.get();
+        return {std::string(request.target()), std::string(request[http::field::authorization]),
+                std::string(request[http::field::accept_encoding])};
+    }
+
+    void note_guess(const HttpRequest& asked, const HttpAnswer& answered) {
+        if (is_wrong_guess(asked, answered))
+            door_.places.note_wrong_token(address_group(address_), steady_now());
+    }
+
+    // False if nobody takes a body at this path.
+    bool take_post() {
+        const auto bytes = parser_.content_length();
+        if (!door_.events.posted || !bytes || websocket::is_upgrade(parser_.get()))
+            return false;
+        const HttpRequest asked = asked_now();
+        auto answered = door_.events.posted(asked, *bytes);
+        if (!answered)
+            return false;
+        note_guess(asked, *answered);
+        if (answered->status != 204)
+            return refuse(std::move(*answered)), true;
+        extend(body_deadline, "did not send its body in time");
+        // It has shown a token: a participant's window measures what a participant gets.
+        beast::error_code ignored;
+        socket().set_option(asio::socket_base::receive_buffer_size(participant_receive_buffer),
+                            ignored);
+        answer_ = std::move(*answered);
+        const std::uint64_t here = std::min(*bytes, std::uint64_t(incoming_.size()));
+        drop_body(*bytes - here);
+        return true;
+    }
+
+    // Reads this many bytes, drops them, and answers.
+    void drop_body(std::uint64_t left) {
+        incoming_.clear();
+        if (left == 0)
+            return answer(std::move(answer_));
+        stream_->async_read_some(
+            incoming_.prepare(std::size_t(std::min(left, std::uint64_t(discarded_at_once)))),
+            door_.here([this, self = shared_from_this(), left](beast::error_code error,
+                                                               std::size_t count) {
+                if (gone_)
+                    return;
+                if (error)
+                    return leave("broke off");
+                guarded([&] { drop_body(left - std::min(left, std::uint64_t(count))); });
+            }));
+    }
+
     void decide() {
         extend(first_message_deadline, "did not join in time");
         const auto& request = parser_.get();
@@ -310,17 +367,16 @@ private:
         if (name && !is_named(host, name->name))
             return answer(
                 {.status = 421, .body = "This host has another name; open the link as it is.\n"});
+        if (request.method() == http::verb::post && take_post())
+            return;
         if (request.method() != http::verb::get && request.method() != http::verb::head)
             return answer({.status = 405,
                            .body = "Only GET and HEAD are answered here.\n",
                            .headers = {{"Allow", "GET, HEAD"}}});
         if (!websocket::is_upgrade(request)) {
-            const std::string authorization(request[http::field::authorization]);
-            const HttpRequest asked{std::string(request.target()), authorization,
-                                    std::string(request[http::field::accept_encoding])};
+            const HttpRequest asked = asked_now();
             HttpAnswer answered = door_.events.http(asked);
-            if (is_wrong_guess(asked, answered))
-                door_.places.note_wrong_token(address_group(address_), steady_now());
+            note_guess(asked, answered);
             return answer(std::move(answered));
         }
         if (path_of(view(request.target())) != websocket_path)

@@ -9,6 +9,7 @@
 #include <boost/asio/io_context.hpp>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "base/bytes.h"
@@ -32,6 +33,8 @@ public:
     // Largest head of an HTTP request: a browser adds the cookies of other services of the same
     // name, often 16 KiB in a hospital.
     static constexpr std::size_t max_request_bytes = 32 * 1024;
+    // To the end of a body that is read and dropped.
+    static constexpr Duration body_deadline = std::chrono::seconds(5);
     // Bytes behind a request that is answered with a refusal that are read, so that its answer
     // arrives: one without TLS, or with a larger head.
     static constexpr std::size_t max_unread_bytes = 64 * 1024;
@@ -54,6 +57,9 @@ public:
     struct Events {
         std::function<bool(ByteView first_control)> invited;
         std::function<HttpAnswer(const HttpRequest&)> http;
+        // A POST with a body of this many bytes. 204: the body is read and dropped, then this is
+        // the answer; another status is answered at once; nullopt: 405, as where this is empty.
+        std::function<std::optional<HttpAnswer>(const HttpRequest&, std::uint64_t bytes)> posted;
         std::function<void(Visitor)> entered;  // on the thread of `inside`
         // A connection was refused; `why` is a short phrase.
         std::function<void(const std::string& address, const std::string& why)> turned_away;

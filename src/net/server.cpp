@@ -45,6 +45,7 @@ Door::Events Server::Impl::door_events() {
     events.http = [this](const HttpRequest& request) {
         return handler.http ? handler.http(request) : HttpAnswer{.body = plain_answer};
     };
+    events.posted = handler.posted;
     events.entered = [this](Door::Visitor visitor) {
         if (!ended)
             enter(std::move(visitor));

@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "net/access.h"
@@ -41,6 +42,8 @@ public:
         std::function<bool(ByteView first)> has_place;
         // On the door's thread, too. Empty: a default answer names the host's program.
         std::function<HttpAnswer(const HttpRequest&)> http;
+        // On the door's thread, too: see Door::Events. Empty: no request has a body.
+        std::function<std::optional<HttpAnswer>(const HttpRequest&, std::uint64_t bytes)> posted;
         // Also on the door's thread: a connection was refused; `why` is a short phrase. Optional.
         std::function<void(const std::string& address, const std::string& why)> turned_away;
 

@@ -176,12 +176,15 @@ class Page:
             state = self.evaluate("JSON.stringify(globalThis.theatron?.state ?? null)")
             raise AssertionError(f"{vain}; {self.problems}; {state}") from None
 
-    def enter(self, name="Ada", way=None, speaks=False):
-        """Enters by the form of an invitation, once that is there. `way`: how the room is shown; None: as the form says."""
+    def enter(self, name="Ada", way=None, speaks=False, tour=False):
+        """Enters by the form of an invitation, once that is there. `way`: how the room is shown; None: as the form says.
+        Without `tour` as somebody who has seen the tour before."""
         self.wait_for("document.readyState === 'complete' && !!document.getElementById('invitation')?.textContent")
         # A machine without a graphics card has no choice of ways.
         way = f"(document.getElementById('way') ?? {{}}).value = '{way}';" if way else ""
         speaks = "document.getElementById('speaks').checked = true;" if speaks else ""
+        if not tour:
+            self.evaluate("try { localStorage.setItem('tour', 'seen') } catch {}")
         self.evaluate(f"{way}{speaks}document.getElementById('name').value = '{name}'; document.getElementById('enter').click()")
 
     def open_sheet(self, name):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The form of the page before a session: the session itself, a check of the devices, and what is remembered of a person."""
+"""The form of the page before a session: the session itself, and what is remembered of a person."""
 import os
 import pathlib
 import unittest
@@ -10,34 +10,15 @@ from theatron_process import Process, host
 PICTURES = os.environ.get("THEATRON_PICTURES")  # a folder where pictures of the page stay
 CAMERA = "synthetic:seconds=2,fps=5,quality=quick,loop=1"
 SIZE = (800, 900)
-FAKE = ("--use-fake-device-for-media-stream", "--use-fake-ui-for-media-stream")
-
-# Counts the tracks of devices that were opened and not stopped.
-COUNT_TRACKS = """globalThis.open_tracks = new Set();
-const before = MediaDevices.prototype.getUserMedia;
-MediaDevices.prototype.getUserMedia = async function (wish) {
-    (globalThis.wishes ??= []).push(JSON.stringify(wish));
-    const stream = await before.call(this, wish);
-    for (const track of stream.getTracks()) {
-        open_tracks.add(track);
-        const stop = track.stop;
-        track.stop = function () { open_tracks.delete(track); stop.call(track); };
-    }
-    return stream;
-};"""
 NUMBERS = "Object.keys(localStorage).filter(key => key.startsWith('person'))"
 
 
 class WebEntrance(PageCase):
     cameras = (CAMERA,)
     options = ("--admit", "ask")
-    flags = FAKE
 
-    def open(self, role="operator", script=None):
-        page = self.browser.open("about:blank", SIZE)
-        if script:
-            page.call("Page.addScriptToEvaluateOnNewDocument", source=script)
-        page.call("Page.navigate", url=self.links[role])
+    def open(self, role="operator"):
+        page = self.browser.open(self.links[role], SIZE)
         page.wait_for("document.readyState === 'complete' && !document.getElementById('enter')?.disabled")
         return page
 
@@ -73,44 +54,6 @@ class WebEntrance(PageCase):
                 self.leave(page)
                 page.wait_for("theatron.lobby.is_watching")
             self.assertEqual(page.problems, [])
-
-    def test_devices_are_tried_only_when_asked_are_remembered_and_closed(self):
-        page = self.open(script=COUNT_TRACKS)
-        self.assertIsNone(page.evaluate("globalThis.wishes ?? null"))
-        page.evaluate("document.querySelector('#devices summary').click()")
-        page.wait_for("document.getElementById('microphone_choice').options.length > 0")
-        self.assertIsNone(page.evaluate("globalThis.wishes ?? null"))
-        page.evaluate("document.getElementById('test_microphone').click()")
-        page.wait_for("document.getElementById('level').value > 0")
-        page.evaluate("document.getElementById('test_webcam').click()")
-        page.wait_for("document.getElementById('preview').videoWidth > 0")
-        page.wait_for("document.getElementById('webcam_choice').options.length > 1")
-        page.evaluate("document.getElementById('test_tone').click()")
-        page.wait_for("document.getElementById('device_hint').textContent.includes('hear a tone')")
-        self.assertEqual(page.evaluate("open_tracks.size"), 2)
-        if PICTURES:
-            page.evaluate("document.getElementById('devices').scrollIntoView()")
-            page.screenshot(pathlib.Path(PICTURES) / "devices.png")
-        page.evaluate("(s => { s.selectedIndex = s.options.length - 1; s.dispatchEvent(new Event('change')); })"
-                      "(document.getElementById('microphone_choice'))")
-        chosen = page.evaluate("document.getElementById('microphone_choice').value")
-        self.assertTrue(chosen)
-        page.wait_for(f"wishes.at(-1).includes('{chosen}')")
-        page.wait_for("open_tracks.size === 2")
-        with self.subTest("entering without them closes all"):
-            self.enter(page)
-            page.wait_for("theatron.state.phase === 'joined'")
-            self.assertEqual(page.evaluate("open_tracks.size"), 0)
-        with self.subTest("the choice holds in the room"):
-            page.evaluate("document.getElementById('microphone').click()")
-            page.wait_for("theatron.voice.microphone === 'open'")
-            self.assertIn(chosen, page.evaluate("wishes.at(-1)"))
-            self.leave(page)
-            page.wait_for("open_tracks.size === 0")
-        with self.subTest("and the next time"):
-            page = self.open()
-            page.evaluate("document.querySelector('#devices summary').click()")
-            page.wait_for(f"document.getElementById('microphone_choice').value === '{chosen}'")
 
     def test_another_user_of_the_browser_is_another_person_unless_it_remembers(self):
         page = self.open()

@@ -2,7 +2,7 @@
 // The page: the join form, the loop of pictures, and the panels beside them.
 import make_client from "./client.mjs";
 import { join_workers, start_workers } from "./decoding.js";
-import { DeviceCheck } from "./devices.js";
+import { use_loudspeaker } from "./device_choice.js";
 import { Face } from "./face.js";
 import { name_full_screen, offer_full_screen } from "./full_screen.js";
 import { FlatView, Patience, find_graphics, note_lost_graphics, take_lost_graphics } from "./graphics.js";
@@ -21,9 +21,11 @@ import { Sheet } from "./sheet.js";
 import { StillCover } from "./still.js";
 import { store, stored } from "./storage.js";
 import { hold_to_talk } from "./talk.js";
+import { TestCall } from "./test_call.js";
 import { language, text, texts } from "./texts.js";
 import { offer_touch } from "./touch.js";
 import { by_touch, follow_touch } from "./touch_mode.js";
+import { Tour } from "./tour.js";
 import { offer_h264 } from "./video_decoder.js";
 import { Voice } from "./voice.js";
 
@@ -104,6 +106,7 @@ async function load_client() {
         put_bytes(module, Uint8Array.from(hex.match(/../g), digits => parseInt(digits, 16)).buffer);
         return module._theatron_time_strata(passes);
     };
+    page.time_depth = module._theatron_time_depth;
     page.memory = () => module.HEAPU8.length;
     page.workers = await starting;
     // Also where workers decode: they may end.
@@ -135,6 +138,11 @@ function run({ client, voice, face, screen, module, flat }) {
         $("help_text").scrollTop = 0;
     };
     const sheet = page.sheet = new Sheet(name => text(titles[name]), () => next_texts = 0);
+    const tour = page.tour = new Tour(() => $(page.way === "flat" ? "flat" : "view"));
+    $("show_tour").addEventListener("click", () => {
+        sheet.close();
+        tour.begin();
+    });
     let notices = new Notices();
     offer_touch($("touch"), listen(canvas, client), client);
     const picture_panel = new PicturePanel(client, () => next_texts = 0);
@@ -180,12 +188,14 @@ function run({ client, voice, face, screen, module, flat }) {
     $("panels").addEventListener("click", event => event.detail > 0 && event.target.closest("button") && !event.target.closest("dialog") &&
         $(page.way === "flat" ? "flat" : "view").focus({ preventScroll: true }));
     document.addEventListener("keydown", event => {
-        if (event.key !== "Escape" || page.state.phase === "left" || $("help").open)
+        if (event.key !== "Escape" || page.state.phase === "left" || document.querySelector("dialog[open]"))
             return;
         if (page.state.phase !== "joined")
             client.leave();
         else if (sheet.name)
             sheet.close();
+        else if (tour.step)
+            tour.end();
     });
     // Both ways of seeing have these keys; input.js has the keys of the room.
     const on_key = event => {
@@ -257,6 +267,7 @@ function run({ client, voice, face, screen, module, flat }) {
         }
         if (page.state.phase === "left") {
             sheet.close();
+            tour.show(page.state, page.way);
             return leave({ voice, face, screen }, page.state.problem);
         }
         follow_face();
@@ -267,6 +278,7 @@ function run({ client, voice, face, screen, module, flat }) {
         page.state.face_problem ||= face_problem(face, page.way);
         const way_sentence = show_way(page.state);
         show(page.state, { sheet, notices, way: page.way, way_sentence, now_ms: performance.now() });
+        tour.show(page.state, page.way);
         still.show(page.state);
         picture_panel.show(page.state);
         place_voices(voice, page.state);
@@ -489,6 +501,21 @@ function leave({ voice, face, screen }, problem) {
     $("name").focus();
 }
 
+// Inside, another device takes the place of the one that is open.
+function use_device(kind) {
+    const { voice, face } = page;
+    if (kind === "microphone" && voice?.microphone === "open") {
+        voice.close_microphone();
+        voice.open_microphone();
+    }
+    if (kind === "loudspeaker" && voice?.context)
+        use_loudspeaker(voice.context);
+    if (kind === "webcam" && face?.state === "on") {
+        face.hide();
+        face.show();
+    }
+}
+
 // An observer neither speaks nor is seen, so the form does not offer it.
 function follow_role(role) {
     page.role = role;
@@ -527,7 +554,10 @@ async function main() {
     follow_role(role);
     page.lobby = new Lobby(token, { on_role: follow_role, on_refusal: ask_for_right_link });
     page.lobby.watch();
-    const devices = page.devices = new DeviceCheck();
+    const test_call = page.test_call = new TestCall({
+        token, is_heard: () => page.voice?.microphone === "open", chosen: use_device,
+        program: () => loading.then(() => ({ time_depth: page.time_depth, graphics: page.graphics, workers: page.workers.length })),
+    });
     page.graphics = find_graphics();
     if (page.graphics !== "card") {
         $("graphics_hint").textContent = text(page.graphics === "none" ? "no_webgl" : "no_card");
@@ -548,7 +578,7 @@ async function main() {
         $("problem").textContent = text("loading");
         try {
             const program = await loading, { client, voice, face } = program;
-            devices.close();
+            test_call.close();
             page.lobby.end();
             page.person.remember($("remember").checked, {
                 name, speaks: $("speaks").checked ? "yes" : "no", pushes: $("pushes").checked ? "yes" : "no" });
