@@ -132,7 +132,7 @@ class Publishing(unittest.TestCase):
                 peer.send_media(media_message(b"no depth", stream=2 * number, setting=setting["setting"]))
                 # Each setting begins with a key frame.
                 self.assertEqual(peer.receive_control("EncodeKey")[1]["stream"], 2 * number)
-                self.assertEqual(names(seen.newest_json()), ["lamp", "made up"])
+                seen.wait_for(lambda f: names(f) == ["lamp", "made up"])
                 peer.send_media(media_message(b"a lie", stream=0, setting=1))
                 self.assertIn("no camera of this participant", peer.receive_control("Refused")[1]["in_english"])
                 peer.wait_for_end()
