@@ -147,7 +147,7 @@ class WebFirst(PageCase):
         self.assertGreater(min(line.values()), 0)
         self.assertGreater(min(computer["depth_ms"], computer["color_ms"], computer["draw_ms"]), 0)
         print(json.dumps({"line": line, "computer": computer}))
-        self.assertRegex(page.evaluate(says("line")), r"^Your line brings .* Mbit/s: .*\.\nIt takes .* Mbit/s from you: .*\.\nThere and back takes \d+ ms: .*\.$")
+        self.assertRegex(page.evaluate(says("line")), r"^Your line brings .* Mbit/s: .*\.\nFrom you it carries .* Mbit/s: .*\.\nThere and back takes \d+ ms: .*\.$")
         self.assertRegex(page.evaluate(says("computer")), r"^This computer .*\.$")
         token = self.links["expert"].split("join=")[1].split("&")[0]
         asked = [url for url in page.requests if "/line" in url]
