@@ -161,8 +161,8 @@ class Publishing(unittest.TestCase):
             recorder = stack.enter_context(Process("record", h.greeting["link"], file, "--name", "OR recorder"))
             stay = stack.enter_context(viewer(h.greeting["publish_link"], "--publish", self.cameras["face"],
                                               "--may-record"))
-            # A setting that is new may leave out frames until its cost is known.
-            before = [one.wait_for(lambda f: camera(f, 1) and camera(f, 1)["frames"] > 20) for one in watching]
+            for one in watching:
+                one.wait_for(lambda f: camera(f, 1) and camera(f, 1)["frames"] > 20)
             others = {}
             for _ in range(6):
                 which = choice.randrange(2)
@@ -173,12 +173,8 @@ class Publishing(unittest.TestCase):
                     stack.callback(others[which].__exit__)
                 seen = camera(watching[0].newest_json(), 0)["frames"]
                 watching[0].wait_for(lambda f: camera(f, 0)["frames"] > seen + 20)  # time between two changes
-            for one, first in zip(watching, before):
+            for one in watching:
                 figures = one.wait_for(lambda f: len(f["cameras"]) == 2 + len(others))
-                for number in (0, 1):
-                    lost = camera(figures, number)["dropped"] - camera(first, number)["dropped"]
-                    # A busy machine may cost a frame; a chain that breaks costs dozens.
-                    self.assertLessEqual(lost, 2, figures)
                 one.wait_for(lambda f: all(camera(f, n)["frames"] > camera(figures, n)["frames"] + 5 for n in (0, 1)))
             figures = stay.newest_json()
             self.assertEqual(figures["joins"], 1)
