@@ -3,7 +3,7 @@
 """Checks that everything which the page, the headset or the window's scene says is in a table, in every language.
 
 The tables: src/phrases/*.inc (by key), src/wire/text.cpp (by code of the wire), apps/web/page/texts.js
-(the page itself). A text that a language lacks or has in English, other arguments in one language, French without
+(the page itself), operators_texts.js beside it (the operators' page). A text that a language lacks or has in English, other arguments in one language, French without
 its spaces, a key that nothing uses, and a sentence in the sources that is in no table are problems. The languages and
 their order: src/phrases/language.h.
 """
@@ -121,35 +121,35 @@ def check_codes(problems):
     return len(codes)
 
 
-def check_page(problems):
+def check_page(name, problems):
     page = ROOT / "apps/web/page"
-    tables = dict(re.findall(r"^    (\w+): \{\n(.*?)^    \},\n", (page / "texts.js").read_text(), re.M | re.S))
+    tables = dict(re.findall(r"^    (\w+): \{\n(.*?)^    \},\n", (page / name).read_text(), re.M | re.S))
     if list(tables) != LANGUAGES:
-        problems.append(f"texts.js: its languages are not {', '.join(LANGUAGES)}")
+        problems.append(f"{name}: its languages are not {', '.join(LANGUAGES)}")
         return 0
     texts = [dict(re.findall(rf"\b(\w+): {STRING}", table)) for table in tables.values()]
     english = texts[0]
     for language, of_language in zip(LANGUAGES, texts):
         for key in english.keys() ^ of_language.keys():
-            problems.append(f"texts.js: {language} and en have not both {key}")
+            problems.append(f"{name}: {language} and en have not both {key}")
     for key in set.intersection(*(set(of_language) for of_language in texts)):
-        compare(f"texts.js: {key}", [of_language[key] for of_language in texts], problems)
+        compare(f"{name}: {key}", [of_language[key] for of_language in texts], problems)
     # The meanings of the keys and the touches, in the help.
     meanings = [re.findall(rf"^            \[{STRING}, {STRING}\]", table, re.M) for table in tables.values()]
     if len({len(rows) for rows in meanings}) > 1:
         problems.append("texts.js: the keys of one language have other rows")
     for rows in zip(*meanings):
-        compare(f"texts.js: {rows[0][0]}", [row[1] for row in rows], problems)
+        compare(f"{name}: {rows[0][0]}", [row[1] for row in rows], problems)
     others = "".join(file.read_text() for file in sources("apps/web/page", endings=(".js", ".html"))
-                     if file.name != "texts.js")
-    others += (page / "texts.js").read_text().split("\n};\n")[-1]
+                     if file.name != name)
+    others += (page / name).read_text().split("\n};\n")[-1]
     states = set(re.findall(r"\b(\w+): \"", "".join(re.findall(r"(?:states|roles): \{([^}]*)\}", tables["en"]))))
     for key in sorted(english.keys() - states):
         # text() takes that one in place of the other where a person has no keyboard.
         if key.endswith("_touch") and key.removesuffix("_touch") in english:
             continue
         if not re.search(rf"[\"']{key}[\"']|texts\.{key}\b", others):
-            problems.append(f"texts.js: nothing shows {key}")
+            problems.append(f"{name}: nothing shows {key}")
     for file in sources("apps/web/page", endings=(".js",)):
         for line in re.findall(r"^.*textContent = .*[\"`][^\"`$\n]*[a-z] [a-z].*$", file.read_text(), re.M):
             problems.append(f"{file.name}: a sentence is in no table: {line.strip()}")
@@ -176,7 +176,7 @@ def check_literals(problems):
 
 def main():
     problems = []
-    phrases, codes, page = check_phrases(problems), check_codes(problems), check_page(problems)
+    phrases, codes, page = check_phrases(problems), check_codes(problems), sum(check_page(name, problems) for name in ("texts.js", "operators_texts.js"))
     check_literals(problems)
     for problem in problems:
         print(problem)

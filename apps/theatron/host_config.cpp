@@ -38,10 +38,12 @@ constexpr std::uint16_t https_port = 443;
 const std::set<std::string> no_keys = {"help", "config", "check-config"};
 // A service runs in another folder than the person who writes the file.
 const std::set<std::string> paths = {
-    "places", "cases",      "certificate", "key",    "proxy-certificate",
-    "audit",  "token-file", "state",       "summary"};
+    "places", "cases",      "certificate", "key",     "proxy-certificate",
+    "audit",  "token-file", "state",       "summary", "recordings"};
 const std::set<std::string> read_paths = {
     "places", "cases", "certificate", "key", "proxy-certificate", "token-file"};
+// Files that the host makes, in a folder that it does not make.
+const std::set<std::string> written_paths = {"audit", "summary"};
 
 bool names_session(const std::string& key) {
     return key == "session" || key == "name";
@@ -71,6 +73,10 @@ void check_path(const ConfigLine& line) {
     if (read_paths.contains(line.key) &&
         fs::status(line.value, error).type() == fs::file_type::not_found)
         throw Error("there is no " + shown);
+    const fs::path folder = fs::path(line.value).parent_path();
+    if (written_paths.contains(line.key) && !fs::is_directory(folder, error))
+        throw Error("there is no '" + clean_text(folder.string(), shown_of_config) +
+                    "'; make this folder, and give it to the host's user");
 }
 
 // A camera that is read from a file or a folder. A recording that is missing keeps a host from
@@ -242,6 +248,24 @@ private:
     std::map<std::string, int> names_;                   // lines by the name of a session
 };
 
+// Adds regions for which their session has no camera. A name is known once the cameras are open.
+void check_regions(const std::vector<ConfigLine>& lines, HostConfig& config,
+                   const std::vector<std::string>& given) {
+    if (is_given("camera", given))
+        return;
+    const auto is_next = [](const ConfigLine& line) { return names_session(line.key); };
+    for (auto begin = lines.begin(); begin != lines.end();) {
+        const auto end = std::find_if(std::next(begin), lines.end(), is_next);
+        const auto cameras =
+            std::count_if(begin, end, [](const auto& line) { return line.key == "camera"; });
+        for (auto line = begin; line != end; ++line)
+            if (line->key == "region" && cameras == 0)
+                config.mistakes.push_back(
+                    {line->line, "region", "it needs 'camera' in its session, too"});
+        begin = end;
+    }
+}
+
 // Adds mistakes of the file as a whole.
 void check_together(const std::vector<ConfigLine>& lines, HostConfig& config,
                     const std::vector<std::string>& given) {
@@ -255,6 +279,7 @@ void check_together(const std::vector<ConfigLine>& lines, HostConfig& config,
             config.mistakes.push_back(
                 {line->line, key, "it needs '" + std::string(other) + "', too"});
     };
+    check_regions(lines, config, given);
     need("certificate", "key");
     need("key", "certificate");
     need("hsts", "certificate");

@@ -91,6 +91,13 @@ TEST(HostConfig, MistakesAreToldWithLineAndKey) {
     EXPECT_EQ(mistakes("cases = /nonexistent/cases"),
               "f:1: cases: there is no '/nonexistent/cases'.");
     EXPECT_EQ(mistakes("audit = none"), "");
+    for (const std::string key : {"audit", "summary"})
+        EXPECT_EQ(mistakes(key + " = /nonexistent/folder/file"),
+                  "f:1: " + key +
+                      ": there is no '/nonexistent/folder'; make this folder, and give it to the "
+                      "host's user.");
+    EXPECT_EQ(mistakes("recordings = here"),
+              "f:1: recordings: 'here' is no absolute path, which begins with /.");
     EXPECT_THAT(mistakes("camera = nokind:9"), HasSubstr("f:1: camera: There is no camera"));
     EXPECT_EQ(mistakes("camera = recording:/nonexistent/a.mkv"),
               "f:1: camera: Cannot open '/nonexistent/a.mkv': No such file or directory.");
@@ -100,6 +107,9 @@ TEST(HostConfig, MistakesAreToldWithLineAndKey) {
     // These may come later.
     EXPECT_EQ(mistakes("camera = mkv:/nonexistent/a.mkv\ncamera = folder:/nonexistent/a"), "");
     EXPECT_THAT(mistakes("region = nonsense"), HasSubstr("f:1: region: The region 'nonsense'"));
+    EXPECT_EQ(mistakes("region = 0=1:1:9:9\ncamera = synthetic:theatre"), "");
+    EXPECT_EQ(mistakes("session = a\nregion = 0=1:1:9:9\nsession = b\ncamera = synthetic:theatre"),
+              "f:2: region: it needs 'camera' in its session, too.");
     EXPECT_THAT(mistakes("filter = nonsense"), HasSubstr("f:1: filter: "));
     EXPECT_THAT(mistakes("filter = 0=nonsense"), HasSubstr("f:1: filter: "));
     EXPECT_EQ(mistakes("filter = range:max_mm=3500+holes"), "");
@@ -233,7 +243,8 @@ TEST(HostConfig, TheExampleHasNoMistakeAndEveryKey) {
     ASSERT_FALSE(example.empty());
     EXPECT_EQ(mistakes(example), "");
     const std::set<std::string> of_files = {"places", "cases",      "certificate",
-                                            "key",    "token-file", "proxy-certificate"};
+                                            "key",    "token-file", "proxy-certificate",
+                                            "audit",  "summary"};
     std::istringstream lines(example);
     for (std::string line; std::getline(lines, line);)
         if (std::smatch found; std::regex_match(line, found, std::regex("#(([a-z-]+) = .+)")))

@@ -42,7 +42,8 @@ void add_host_options(CLI::App& command, HostFlags& flags) {
         .add_option("--session,--name", flags.first.options.name,
                     "The session's name, which participants see. A second --session begins "
                     "another session of this host, with the options of a session behind it: "
-                    "--camera, --places, --region, --cases, --identifiers-for, --filter, --direct, "
+                    "--camera, --places, --region, --cases, --recordings, --identifiers-for, "
+                    "--filter, --direct, "
                     "--link-hours, --admit and --look-back")
         ->capture_default_str();
     command.add_option(

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/shown_name.h"
 #include "base/steady_clock.h"
 #include "commands.h"
 #include "files/json_text.h"
@@ -47,18 +46,6 @@ std::optional<ToldSession> told(const fs::path& state, const std::string& name) 
         if (session.name == name)
             return session;
     return std::nullopt;
-}
-
-// A name that is easily taken for that of another session, which somebody would then enter or end
-// by mistake: that session's name, else empty.
-std::string look_alike(const fs::path& state, const std::string& name) {
-    std::vector<std::string> names;
-    for (const ToldSession& session : host::told_sessions(state))
-        names.push_back(session.name);
-    for (const host::KeptSession& session : host::kept_sessions(state))
-        names.push_back(session.name);
-    const auto found = std::ranges::find(names, look_of(name), look_of);
-    return found == names.end() ? "" : *found;
 }
 
 // True once `is_done` is, false after `patience`.
@@ -102,15 +89,7 @@ void create(const NewSessionFlags& flags) {
     host::check_session_name(flags.name);
     const fs::path state = state_of(flags);
     (void)session_options(flags.session);
-    if (told(state, flags.name) || fs::exists(host::session_folder(state, flags.name)))
-        throw Error("There is a session '" + flags.name +
-                    "' already; end it first, or take another name.");
-    if (const std::string other = look_alike(state, flags.name); !other.empty())
-        throw Error("The session '" + other + "' has nearly the same name; take another one.");
-    if (host::kept_sessions(state).size() + 1 >= host::max_sessions)
-        throw Error("A host has at most " + std::to_string(host::max_sessions) +
-                    " sessions; end one with 'theatron session end'.");
-    host::keep_session(state, flags.name, words_of(flags.session, fs::current_path()));
+    host::create_session(state, flags.name, words_of(flags.session, fs::current_path()));
     if (!host::is_host_running(state))
         return print_created(flags, state, false);
 

@@ -97,6 +97,9 @@ void add_session_options(CLI::App& command, SessionFlags& flags) {
     command.add_option("--cases", flags.cases,
                        "A folder of cases (docs/cases.md): each case that lies there, or is put "
                        "there later, can be opened in the room");
+    command.add_option("--recordings", flags.recordings,
+                       "The folder of recordings that operators begin on their page "
+                       "(docs/operators_page.md). Else: recordings in the state folder");
     command
         .add_option("--identifiers-for", flags.identifiers_for,
                     "The roles that see the name, date of birth and number of the open case's "
@@ -145,6 +148,7 @@ host::SessionOptions session_options(const SessionFlags& flags) {
     host::SessionOptions options = flags.options;
     options.places = flags.places;
     options.cases = flags.cases;
+    options.recordings = flags.recordings;
     options.patient_for = parse_patient_roles(flags.identifiers_for);
     options.asks = flags.admit == "ask";
     options.link_lifetime = seconds_to_duration(flags.link_hours * 3600);
@@ -169,6 +173,8 @@ std::vector<std::string> words_of(const SessionFlags& flags, const fs::path& fol
         add("--places", absolute_path(flags.places, folder));
     if (!flags.cases.empty())
         add("--cases", absolute_path(flags.cases, folder));
+    if (!flags.recordings.empty())
+        add("--recordings", absolute_path(flags.recordings, folder));
     add("--identifiers-for", flags.identifiers_for);
     add("--admit", flags.admit);
     add("--link-hours", number_text(flags.link_hours));

@@ -15,7 +15,8 @@ namespace theatron::app {
 struct SessionFlags {
     host::SessionOptions options;  // as far as they need no reading
     std::vector<std::string> regions;
-    std::string places, cases, identifiers_for = "operator", admit = "all", direct = "on";
+    std::string places, cases, recordings, identifiers_for = "operator", admit = "all",
+                                           direct = "on";
     double link_hours = 0;
     double look_back_s = to_seconds(session::Past::longest_reach);
 };

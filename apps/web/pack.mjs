@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Packs the page for the host: node pack.mjs OUTPUT_FOLDER WEB_SOURCES MISSING FILE...
 //
-// All but index.html get the hash of their content into their name, so that browsers may keep them for ever.
+// All but pages (.html) get the hash of their content into their name, so that browsers may keep them for ever.
 // Text and program are compressed in advance. files.txt has a line for each file: its path, type and name.
 // WEB_SOURCES, the number of the page's sources, and MISSING, the libraries that it lacks, are copied.
 import { createHash } from "node:crypto";
@@ -34,15 +34,15 @@ function store(name) {
         content = Buffer.from(text);
     }
     const hash = createHash("sha256").update(content).digest("hex").slice(0, 16);
-    const is_first = name === "index.html";
-    const as = is_first ? name : `${name.slice(0, -ending.length)}.${hash}${ending}`;
+    const bare = name.slice(0, -ending.length), is_page = ending === ".html";
+    const as = is_page ? name : `${bare}.${hash}${ending}`;
     stored.set(name, as);
     writeFileSync(join(folder, as), content);
     writeFileSync(join(folder, as + ".gz"), gzipSync(content, { level: 9 }));
     writeFileSync(join(folder, as + ".br"), brotliCompressSync(content, {
         params: { [constants.BROTLI_PARAM_QUALITY]: 11, [constants.BROTLI_PARAM_SIZE_HINT]: content.length },
     }));
-    lines.push(`/${is_first ? "" : as} ${types[ending]} ${as}`);
+    lines.push(`/${name === "index.html" ? "" : is_page ? bare : as} ${types[ending]} ${as}`);
     return as;
 }
 

@@ -64,6 +64,9 @@ std::string audit_line(const session::AuditEvent& event, const std::string& time
         line["role"] = wire::text_of(event.role);
         line["link"] = event.link;
         line["address"] = address;
+    } else if (!event.link.empty()) {
+        line["role"] = wire::text_of(event.role);
+        line["link"] = event.link;
     }
     if (!event.by.empty())
         line["by"] = event.by;

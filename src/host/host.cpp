@@ -113,6 +113,9 @@ void Host::Impl::open(const SessionOptions& options, const capture::Progress& pr
     const bool has_room = played && played->recording->room().present;
     room_file = std::make_unique<RoomFile>(state_folder / "room");
     port->open_certificates(state_folder);
+    // Not in the folder of a further session, which is removed when that ends for good.
+    recording = std::make_unique<RecordingProgram>(RecordingProgram::Options{
+        options.recordings.empty() ? port->state_folder() / "recordings" : options.recordings});
     session::HostSession::Config config;
     if (!options.token.empty())
         check_token(options.token);
@@ -173,6 +176,7 @@ void Host::Impl::open(const SessionOptions& options, const capture::Progress& pr
         correct_place(*session->streams().cameras().find(camera));
     moments = std::make_shared<send::SharedMoments>(fps);
     lanes.set_size(cameras.size());
+    thumbnails = std::deque<Thumbnail>(cameras.size());
     for (std::size_t i = 0; i < cameras.size(); ++i)
         if (cameras[i])
             start_lane(i, specifications[i], std::move(cameras[i]), loaded[i]);
@@ -217,8 +221,7 @@ void Host::Impl::start_lane(std::size_t i, const std::string& specification,
     events.frame = [this, i](const FramePtr& frame) {
         place_watch->offer(i, frame);
         gain_watch->offer(i, frame);
-        if (i == 0)
-            thumbnail.on_frame(frame, steady_now());
+        thumbnails[i].on_frame(frame, steady_now());
     };
     send::CameraLane::Options lane;
     lane.cameras = lanes.size();

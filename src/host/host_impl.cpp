@@ -70,6 +70,7 @@ net::Server::Handler Host::Impl::handler() {
         carry_out();
         color_watch.on_tick(lanes.all(), steady_now());
         note_participants();
+        recording->follow(steady_now());
         room_file->on_tick(session->room(), session->streams().cameras().adjustments(),
                            steady_now());
     };
@@ -89,7 +90,24 @@ PortSession Host::Impl::in_port() {
     given.http_tokens = [this] { return http_tokens(); };
     given.metrics_token = metrics_token;
     given.figures = [this] { return figures(); };
-    given.picture = [this] { return thumbnail.png(); };
+    given.picture = [this](std::size_t camera) {
+        return camera < thumbnails.size() ? thumbnails[camera].png() : std::string();
+    };
+    given.links = [this] { return links->links(); };
+    given.make_link = [this](wire::Role role, std::optional<files::UtcSeconds> expires,
+                             const std::string& label, const std::string& by) {
+        return links->make(role, expires, label, by);
+    };
+    given.revoke_link = [this](const std::string& link, const std::string& by) {
+        server->post([this, link, by] {
+            session->revoke_link(link, by);
+            carry_out();
+        });
+    };
+    given.manage = [this](wire::ManageAction action, ParticipantId person) {
+        server->post([this, action, person] { decide({0, action, person, {}}); });
+    };
+    given.recording = [this]() -> RecordingProgram& { return *recording; };
     return given;
 }
 

@@ -23,6 +23,7 @@
 #include "host/link_keeper.h"
 #include "host/missing_camera.h"
 #include "host/place_watch.h"
+#include "host/recording_program.h"
 #include "host/room_file.h"
 #include "host/room_replay.h"
 #include "host/session_audit.h"
@@ -60,8 +61,9 @@ struct Host::Impl {
     session::AuditBudget audited;         // server's thread
     std::unique_ptr<session::HostSession> session;
     std::unique_ptr<SessionPort> server;
-    capture::CameraPlaces places;  // does not change once lanes run
-    Thumbnail thumbnail;           // of the first camera
+    capture::CameraPlaces places;      // does not change once lanes run
+    std::deque<Thumbnail> thumbnails;  // by camera; does not change once lanes run
+    std::unique_ptr<RecordingProgram> recording;
     LaneSlots lanes;
     std::shared_ptr<send::SharedMoments> moments;  // of all lanes
     // A camera that was missing when the host began, by its number.
@@ -153,6 +155,8 @@ struct Host::Impl {
         // whose threads post to the server.
         if (server)
             server->leave();
+        // It has the goodbye, and writes the end of its file.
+        recording.reset();
         if (has_begun)
             (void)contain("the end of a session", [&] { keep_for_next_time(); });
         lanes.clear();
@@ -187,6 +191,8 @@ struct Host::Impl {
     void take_found(std::size_t number, std::unique_ptr<capture::Camera> camera);
     void add_found(std::size_t number, const Missing& expected,
                    std::unique_ptr<capture::Camera> camera);
+    // A decision of somebody who is in the session by no connection of its own.
+    void decide(const wire::Manage& decision);
     void carry_out();
     void carry_out(const session::action::Send& a);
     void carry_out(const session::action::Close& a);

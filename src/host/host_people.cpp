@@ -58,7 +58,7 @@ void Host::follow_links() {
         // The links of the moment at which the session takes them: an operator may revoke one
         // meanwhile.
         impl_->server->post([impl = impl_.get(), number = ++impl_->links_read] {
-            impl->session->set_tokens(impl->links->tokens());
+            impl->session->set_tokens(impl->links->tokens(), impl->links->makers());
             impl->carry_out();
             impl->links_applied = number;
         });
@@ -70,11 +70,15 @@ void Host::follow_links() {
 
 void Host::manage(wire::ManageAction action, ParticipantId person, wire::Role role) {
     impl_->server->post([impl = impl_.get(), action, person, role] {
-        const auto refusal = impl->session->manage({0, action, person, role}, steady_now());
-        if (refusal != wire::ManageRefusal::none)
-            log::say(wire::text_of(refusal));
-        impl->carry_out();
+        impl->decide({0, action, person, role});
     });
+}
+
+void Host::Impl::decide(const wire::Manage& decision) {
+    const auto refusal = session->manage(decision, steady_now());
+    if (refusal != wire::ManageRefusal::none)
+        log::say(wire::text_of(refusal));
+    carry_out();
 }
 
 void Host::Impl::audit_beginning() {
@@ -127,13 +131,16 @@ void Host::Impl::carry_out(const session::action::Audit& a) {
     const std::string address = found == addresses.end() ? "" : found->second;
     const bool is_decision = !event.by.empty();
     const bool knocks = event.what == What::waits;
-    if (audit && (is_decision || audited.take(event.link, event.person, steady_now())))
+    const TimePoint now = steady_now();
+    const bool is_stranger = event.what == What::refused && event.link.empty();
+    if (audit && (is_decision || (is_stranger ? audited.take_of_stranger(now)
+                                              : audited.take(event.link, event.person, now))))
         audit->add(event, address);
     else if (audit)
         audit->leave_out(event.what);
     if (!is_decision && !knocks)
         return;
-    if (const auto left_out = joins.take(session::text_of(event.what) + address, steady_now()))
+    if (const auto left_out = joins.take(session::text_of(event.what) + address, now))
         log::info("host", session::text_of(event.what),
                   {{"id", int(event.participant)},
                    log::outside("name", event.name),

@@ -9,6 +9,7 @@
 #include "base/log.h"
 #include "base/steady_clock.h"
 #include "base/thread_name.h"
+#include "host/operators_page.h"
 #include "host/port_pages.h"
 
 namespace theatron::host {
@@ -96,6 +97,13 @@ net::HttpAnswer HostPort::answer(const net::HttpRequest& request) {
 // On the door's thread.
 std::optional<net::HttpAnswer> HostPort::take_body(const net::HttpRequest& request,
                                                    std::uint64_t bytes) {
+    if (is_of_operators(request)) {
+        if (bytes > 0)
+            return net::HttpAnswer{.status = 413, .body = "There is no body here.\n"};
+        return sessions_.look([&](const SessionSwitch::Sessions& sessions) {
+            return act_for_operator(request, sessions, {link(), own_link(), state_folder_});
+        });
+    }
     if (!LineProbe::is_line(request))
         return std::nullopt;
     auto refusal = refuse_line(request);
@@ -135,6 +143,17 @@ void HostPort::run_there(const std::function<void()>& work) {
 net::Link HostPort::link() const {
     const std::lock_guard lock(mutex_);
     return link_;
+}
+
+net::Link HostPort::own_link() const {
+    net::Link own;
+    own.host = options_.listen.address == "0.0.0.0" ? "127.0.0.1"
+               : options_.listen.address == "::"    ? "::1"
+                                                    : options_.listen.address;
+    own.port = number();
+    const std::lock_guard lock(mutex_);
+    own.fingerprint = certificates_.front().fingerprint;
+    return own;
 }
 
 std::vector<HostFigures::Certificate> HostPort::certificates() const {

@@ -40,6 +40,7 @@ public:
     void require_free() const;  // nothing once it is open
     // `state_folder`: that of the host's certificate and audit log.
     void open_certificates(const std::filesystem::path& state_folder);
+    const std::filesystem::path& state_folder() const { return state_folder_; }  // then
     AuditLog* open_audit();  // null: there is to be none
     void open_page();
     // Listens. Nobody is served before a session begins.
@@ -47,6 +48,8 @@ public:
 
     // From any thread, once it is open.
     net::Link link() const;  // without a token
+    // The same for a program on this machine, past any proxy.
+    net::Link own_link() const;
     std::uint16_t number() const { return server_->port(); }
     std::vector<HostFigures::Certificate> certificates() const;
     std::string page_problem() { return page_->current()->problem(); }

@@ -36,11 +36,13 @@ bool LinkKeeper::follow(TimePoint now) {
 }
 
 void LinkKeeper::load(TimePoint now) {
+    const std::lock_guard making(making_);
     // Looked at before they are read: a change meanwhile is seen the next time.
     seen_ = look_at_links(folder_);
     KnownLinks book = load_links(folder_);
     const std::lock_guard lock(mutex_);
     tokens_.clear();
+    links_.clear();
     for (const KnownLink& known : book.links) {
         // 'theatron link --revoke' changes the token that the own one replaces.
         const bool is_of_experts = known.name == wire::text_of(wire::Role::expert);
@@ -51,10 +53,16 @@ void LinkKeeper::load(TimePoint now) {
         const bool is_of_role = wire::parse_role(known.name).has_value();
         const bool is_own = is_of_experts && !own_token_.empty();
         const std::string& secret = is_own ? own_token_ : known.token;
-        if (!revoked_.contains(secret) && !unsaved_.contains(known.name))
-            tokens_.push_back({secret, known.role, is_of_role ? roles_expire_ : std::nullopt,
-                               known.name, known.expires});
+        if (revoked_.contains(secret) || unsaved_.contains(known.name))
+            continue;
+        tokens_.push_back({secret, known.role, is_of_role ? roles_expire_ : std::nullopt,
+                           known.name, known.expires});
+        links_.push_back(known);
+        links_.back().token = secret;
     }
+    std::erase_if(makers_, [&](const auto& entry) {
+        return std::ranges::none_of(links_, [&](const auto& l) { return l.name == entry.first; });
+    });
     if (book.problems != problems_) {
         for (const std::string& problem : book.problems)
             log::warning("host", "a link admits nobody", {{"problem", problem}});
@@ -83,6 +91,25 @@ std::vector<session::Admission::Token> LinkKeeper::tokens() const {
     return tokens_;
 }
 
+std::vector<KnownLink> LinkKeeper::links() const {
+    const std::lock_guard lock(mutex_);
+    return links_;
+}
+
+KnownLink LinkKeeper::make(wire::Role role, std::optional<files::UtcSeconds> expires,
+                           const std::string& label, const std::string& maker) {
+    const std::lock_guard making(making_);
+    KnownLink link = make_link(folder_, role, expires, label);
+    const std::lock_guard lock(mutex_);
+    makers_[link.name] = maker;
+    return link;
+}
+
+std::map<std::string, std::string> LinkKeeper::makers() const {
+    const std::lock_guard lock(mutex_);
+    return makers_;
+}
+
 void LinkKeeper::revoke(const std::string& link, TimePoint now) {
     {
         const std::lock_guard lock(mutex_);
@@ -90,6 +117,7 @@ void LinkKeeper::revoke(const std::string& link, TimePoint now) {
             if (token.link == link)
                 revoked_.insert(token.secret);
         std::erase_if(tokens_, [&](const auto& token) { return token.link == link; });
+        std::erase_if(links_, [&](const auto& known) { return known.name == link; });
         if (link == wire::text_of(wire::Role::expert))
             own_token_.clear();
         unsaved_.insert(link);

@@ -4,10 +4,11 @@
 // without it. A link that an operator has revoked stays invalid whatever the files say; its file is
 // changed again and again until that works.
 //
-// Safe from any thread; files are read by follow() and revoke() only.
+// Safe from any thread; files are read by follow(), make() and revoke() only.
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -41,6 +42,12 @@ public:
 
     // Those that are valid, or only expired.
     std::vector<session::Admission::Token> tokens() const;
+    std::vector<KnownLink> links() const;
+    // Makes a link, as make_link() (link_book.h) does; follow() finds it. Throws Error.
+    KnownLink make(wire::Role role, std::optional<files::UtcSeconds> expires,
+                   const std::string& label, const std::string& maker);
+    // By the names of links: who made those that make() has made.
+    std::map<std::string, std::string> makers() const;
     // Makes a link invalid from now on.
     void revoke(const std::string& link, TimePoint now);
 
@@ -59,13 +66,16 @@ private:
     std::optional<LinkFiles> told_;
     TimePoint next_tell_;
 
+    std::mutex making_;         // a link has its maker when follow() finds it
     mutable std::mutex mutex_;  // guards all below
     std::string own_token_;
     std::string replaced_;  // the first token of the expert's file, whose place own_token_ takes
     std::vector<session::Admission::Token> tokens_;
-    std::vector<std::string> problems_;  // of files
-    std::set<std::string> revoked_;      // secrets
-    std::set<std::string> unsaved_;      // names of revoked links whose files are as before
+    std::vector<KnownLink> links_;               // the same ones
+    std::map<std::string, std::string> makers_;  // by link
+    std::vector<std::string> problems_;          // of files
+    std::set<std::string> revoked_;              // secrets
+    std::set<std::string> unsaved_;              // names of revoked links whose files are as before
     std::string save_problem_;
     TimePoint next_try_;
 };

@@ -56,6 +56,22 @@ TEST_F(Links, FollowsFilesThatComeAndGo) {
     EXPECT_THAT(links.problem(), IsEmpty());
 }
 
+TEST_F(Links, KnowsTheMakerOfALinkAsLongAsThereIsOne) {
+    LinkKeeper links = keeper();
+    const KnownLink link = links.make(Role::observer, 4102444800, "Dr. Ada", "page of operator");
+    EXPECT_TRUE(links.follow(now));
+    EXPECT_EQ(secret(links, link.name), link.token);
+    EXPECT_EQ(links.makers().at(link.name), "page of operator");
+    const std::vector<KnownLink> known = links.links();
+    EXPECT_EQ(std::ranges::find(known, link.name, &KnownLink::name)->label, "Dr. Ada");
+    links.revoke(link.name, now);
+    for (const KnownLink& left : links.links())
+        EXPECT_NE(left.name, link.name);
+    (void)made();
+    EXPECT_TRUE(links.follow(now));
+    EXPECT_FALSE(links.makers().contains(link.name));
+}
+
 TEST_F(Links, AnOwnTokenIsRevokedWithTheLinkOfExperts) {
     LinkKeeper links = keeper("correct-horse-battery");
     EXPECT_EQ(secret(links, "expert"), "correct-horse-battery");

@@ -99,7 +99,7 @@ net::HttpAnswer answer_lobby(const net::HttpRequest& request,
             asked.empty() ? is_own : asked == std::to_string(std::uint32_t(number));
         // The operating room goes on without the people of an ended session.
         if (is_meant && (is_own ? guest.sees_inside() : sees_all) && !session.figures().has_ended)
-            may_see = true, picture = session.picture();
+            may_see = true, picture = session.picture(0);
     }
     // A page that asks again and again would fill its browser's console with errors.
     if (may_see && picture.empty())

@@ -80,7 +80,7 @@ protected:
             figures.name = name;
             return figures;
         };
-        s.picture = [name] { return "picture of " + name; };
+        s.picture = [name](std::size_t) { return "picture of " + name; };
         return s;
     }
     net::HttpAnswer ask(const std::string& target, const std::string& token) const {
@@ -114,7 +114,7 @@ TEST_F(LobbyOfTwo, GivesThePictureOfASessionThatTheLinkShows) {
     EXPECT_EQ(ask("/thumbnail?session=2", "observer-3").status, 404);
     EXPECT_EQ(ask("/thumbnail?session=3", "operator-3").status, 404);
     EXPECT_EQ(ask("/thumbnail", "expert-4").status, 404) << "who must ask sees nothing before";
-    sessions.at(0).second.picture = [] { return std::string(); };
+    sessions.at(0).second.picture = [](std::size_t) { return std::string(); };
     EXPECT_EQ(ask("/thumbnail", "operator-3").status, 204) << "none yet";
 }
 

@@ -87,9 +87,10 @@ std::optional<net::HttpAnswer> Page::answer(const net::HttpRequest& request) con
     if (!use("br", file.brotli))
         use("gzip", file.gzip);
     answer.headers.emplace_back("Vary", "Accept-Encoding");
-    // All names but the page's own contain the hash of the content.
+    // All names but those of pages contain the hash of the content.
+    const bool is_page = file.type.starts_with("text/html");
     answer.headers.emplace_back("Cache-Control",
-                                path == "/" ? "no-cache" : "public, max-age=31536000, immutable");
+                                is_page ? "no-cache" : "public, max-age=31536000, immutable");
     return answer;
 }
 

@@ -18,8 +18,9 @@ protected:
     }
     void write_page() {
         write("files.txt",
-              "/ text/html;charset=utf-8 index.html\n/a.12.js text/javascript a.12.js\n");
-        for (const std::string name : {"index.html", "a.12.js"})
+              "/ text/html;charset=utf-8 index.html\n/operators text/html;charset=utf-8 "
+              "operators.html\n/a.12.js text/javascript a.12.js\n");
+        for (const std::string name : {"index.html", "operators.html", "a.12.js"})
             for (const std::string ending : {"", ".gz", ".br"})
                 write(name + ending, name + ending + " content");
     }
@@ -46,10 +47,11 @@ TEST_F(PageTest, GivesTheBestCodingThatTheBrowserAccepts) {
     EXPECT_EQ(header(*page.answer({"/a.12.js", "", ""}), "Content-Encoding"), "");
 }
 
-TEST_F(PageTest, IsKeptByBrowsersExceptItsFirstFile) {
+TEST_F(PageTest, IsKeptByBrowsersExceptItsPages) {
     write_page();
     const Page page(folder.path());
     EXPECT_EQ(header(*page.answer({"/", "", ""}), "Cache-Control"), "no-cache");
+    EXPECT_EQ(header(*page.answer({"/operators", "", ""}), "Cache-Control"), "no-cache");
     EXPECT_EQ(header(*page.answer({"/a.12.js", "", ""}), "Cache-Control"),
               "public, max-age=31536000, immutable");
 }

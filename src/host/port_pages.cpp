@@ -10,6 +10,7 @@
 #include "files/utc_text.h"
 #include "host/host_http.h"
 #include "host/lobby.h"
+#include "host/operators_page.h"
 #include "net/certificate.h"
 
 namespace theatron::host {
@@ -94,6 +95,8 @@ net::HttpAnswer answer_page(const net::HttpRequest& request, const Page& page,
         return expired();
     if (is_lobby(request))
         return answer_lobby(request, sessions, closed);
+    if (is_of_operators(request))
+        return answer_operator(request, sessions, closed);
     if (auto file = page.answer(request))
         return std::move(*file);
     if (is_held_back(secret, sessions))

@@ -9,8 +9,11 @@
 #include <vector>
 
 #include "host/host_figures.h"
+#include "host/link_book.h"
+#include "host/recording_program.h"
 #include "net/server.h"
 #include "session/admission.h"
+#include "wire/control.h"
 #include "wire/role.h"
 
 namespace theatron::host {
@@ -35,7 +38,18 @@ struct PortSession {
     std::function<std::vector<std::string>()> http_tokens;
     std::string metrics_token;  // one of them
     std::function<HostFigures()> figures;
-    std::function<std::string()> picture;  // PNG, of the first camera; empty: none
+    // PNG, of a camera of the host; empty: none.
+    std::function<std::string(std::size_t camera)> picture;
+
+    // For operators (operators_page.h). `by`: as in session::AuditEvent.
+    std::function<std::vector<KnownLink>()> links;
+    // Throws Error.
+    std::function<KnownLink(wire::Role, std::optional<files::UtcSeconds> expires,
+                            const std::string& label, const std::string& by)>
+        make_link;
+    std::function<void(const std::string& link, const std::string& by)> revoke_link;
+    std::function<void(wire::ManageAction, ParticipantId)> manage;
+    std::function<RecordingProgram&()> recording;
 };
 
 }  // namespace theatron::host

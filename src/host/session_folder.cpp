@@ -128,6 +128,29 @@ std::vector<KeptSession> kept_sessions(const fs::path& state) {
     return sessions;
 }
 
+void create_session(const fs::path& state, const std::string& session,
+                    const std::vector<std::string>& words) {
+    check_session_name(session);
+    std::vector<std::string> names;
+    for (const ToldSession& there : told_sessions(state))
+        names.push_back(there.name);
+    const std::vector<KeptSession> kept = kept_sessions(state);
+    for (const KeptSession& there : kept)
+        names.push_back(there.name);
+    if (std::ranges::find(names, session) != names.end() ||
+        fs::exists(session_folder(state, session)))
+        throw Error("There is a session '" + session +
+                    "' already; end it first, or take another name.");
+    // Somebody would enter or end the other one by mistake.
+    if (const auto other = std::ranges::find(names, look_of(session), look_of);
+        other != names.end())
+        throw Error("The session '" + *other + "' has nearly the same name; take another one.");
+    if (kept.size() + 1 >= max_sessions)
+        throw Error("A host has at most " + std::to_string(max_sessions) +
+                    " sessions; end one of them first.");
+    keep_session(state, session, words);
+}
+
 void keep_session(const fs::path& state, const std::string& session,
                   const std::vector<std::string>& words) {
     const fs::path folder = session_folder(state, session);

@@ -46,6 +46,10 @@ struct KeptSession {
 // All that have a folder, by name.
 std::vector<KeptSession> kept_sessions(const std::filesystem::path& state);
 
+// Keeps a new session with these words; a running host opens it. Throws Error, also where another
+// one has the same name, or nearly the same.
+void create_session(const std::filesystem::path& state, const std::string& session,
+                    const std::vector<std::string>& words);
 // Keeps a session with these words, from now on. Another one of the same name is replaced.
 void keep_session(const std::filesystem::path& state, const std::string& session,
                   const std::vector<std::string>& words);

@@ -22,6 +22,9 @@ struct SessionOptions {
     bool asks = false;            // experts and observers wait until an operator admits them
     std::filesystem::path state;  // keys, tokens and links; empty: the user's state folder
     std::filesystem::path cases;  // the folder of cases that are offered; empty: none
+    // The folder of recordings that operators begin (recording_program.h); empty: recordings in
+    // the host's state folder.
+    std::filesystem::path recordings;
     // The roles that are told who the patient of the open case is; never observers.
     std::vector<wire::Role> patient_for = {wire::Role::operator_};
     // How far participants may look back, at most session::Past::longest_reach; 0: nothing is kept.

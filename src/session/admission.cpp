@@ -80,7 +80,7 @@ Admission::Verdict Admission::judge(const wire::Join& hello, TimePoint now) cons
     if (!shown)
         return {{}, "", {TextCode::wrong_token}};
     if (shown->has_expired(now, shown->expires_utc ? utc_now_() : 0) && !knows_again(hello, now))
-        return {{}, "", {TextCode::link_expired}};
+        return {shown->role, shown->link, {TextCode::link_expired}};
     Verdict verdict{shown->role, shown->link, {}, {}, {}};
     if (const auto* left = memory_.find(who(hello), now))
         verdict.since = now - (left->until - left->since);

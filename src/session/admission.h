@@ -124,6 +124,7 @@ public:
 
     // Other tokens are valid from now on.
     void set_tokens(std::vector<Token> tokens) { tokens_ = std::move(tokens); }
+    const std::vector<Token>& tokens() const { return tokens_; }
     void revoke(const std::string& link) {
         std::erase_if(tokens_, [&](const Token& token) { return token.link == link; });
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How many lines of the audit log are about one link and about one person who comes by it: whoever
-// has a link hides nothing that others do. The first line of a person always comes.
+// has a link hides nothing that others do. The first line of a person always comes. Those who know
+// no link have lines of their own, few for all of them together.
 //
 // Pure; time is passed in.
 #pragma once
@@ -19,11 +20,14 @@ class AuditBudget {
 public:
     static constexpr RequestBudget::Limit of_link{1, 500};
     static constexpr RequestBudget::Limit of_person{0.2, 60};
+    static constexpr RequestBudget::Limit of_strangers{0.02, 60};
     // People of one link that are remembered.
     static constexpr std::size_t max_people = 1024;
 
     // A line is about this person, who came by this link. False: it is left out.
     bool take(const std::string& link, const Bytes& person, TimePoint now);
+    // A line is about somebody who was refused without a link.
+    bool take_of_stranger(TimePoint now) { return strangers_.take(now); }
 
 private:
     struct Person {
@@ -34,6 +38,7 @@ private:
         RememberedPeople<Person> people{max_people};
     };
     std::map<std::string, Link> links_;
+    TokenBucket strangers_{of_strangers.per_second, of_strangers.at_once};
 };
 
 }  // namespace theatron::session

@@ -52,5 +52,15 @@ TEST_F(Lines, OfPeopleWithoutANumberCountAsThoseOfOne) {
     EXPECT_EQ(count, int(AuditBudget::of_person.at_once));
 }
 
+TEST_F(Lines, OfStrangersAreFewAndTakeNoneFromThoseWhoHaveALink) {
+    int count = 0;
+    for (int i = 0; i < 5000; ++i)
+        count += budget.take_of_stranger(now);
+    EXPECT_EQ(count, int(AuditBudget::of_strangers.at_once));
+    EXPECT_EQ(taken("", 1, 3), 3);
+    now += seconds(100);
+    EXPECT_TRUE(budget.take_of_stranger(now));
+}
+
 }  // namespace
 }  // namespace theatron::session

@@ -26,7 +26,10 @@ struct AuditEvent {
         muted,
         unmuted,
         role_changed,  // to `role`
-        link_revoked,  // by which the participant came; the connection ends
+        refused,       // at joining; `detail` says why
+        link_made,     // in `role`; its participant is 0
+        link_revoked,  // its participant is 0; one more for each who came by it: its connection
+                       // ends
         shared,        // a camera, named by `detail`
         unshared,
         voice_agreed,      // to the recording of its voice
@@ -40,17 +43,17 @@ struct AuditEvent {
     std::string name;
     Bytes person;  // as in wire::Join
     wire::Role role{};
-    std::string link;    // the number of the link by which it came
+    std::string link;    // by which it came, or that was made or revoked; empty: it knew none
     std::string by;      // the name of the operator who decided, or at_the_host
     std::string detail;  // a camera's name; "records" of one who joined to record
 };
 
 constexpr const char* text_of(AuditEvent::What what) {
-    constexpr const char* texts[] = {"began",       "ended",    "waits",        "admitted",
-                                     "turned_away", "joined",   "left",         "removed",
-                                     "muted",       "unmuted",  "role_changed", "link_revoked",
-                                     "shared",      "unshared", "voice_agreed", "voice_not_agreed",
-                                     "adjusted",    "deleted",  "cleared"};
+    constexpr const char* texts[] = {
+        "began",     "ended",        "waits",  "admitted", "turned_away",  "joined",
+        "left",      "removed",      "muted",  "unmuted",  "role_changed", "refused",
+        "link_made", "link_revoked", "shared", "unshared", "voice_agreed", "voice_not_agreed",
+        "adjusted",  "deleted",      "cleared"};
     return texts[std::size_t(what)];
 }
 

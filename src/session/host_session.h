@@ -77,8 +77,11 @@ public:
     bool has_ended() const { return has_ended_; }
 
     // Other tokens are valid from now on. Participants who came by a link that is no longer among
-    // them are removed.
-    void set_tokens(std::vector<Admission::Token> tokens);
+    // them are removed. `makers`: of links that were not made at the host, for the audit log.
+    void set_tokens(std::vector<Admission::Token> tokens,
+                    const std::map<std::string, std::string>& makers = {});
+    // Makes a link invalid. `by`: as in AuditEvent.
+    void revoke_link(const std::string& link, const std::string& by);
     // Carries out a decision of the person at the host's own machine, as one of an operator.
     wire::ManageRefusal manage(const wire::Manage& decision, TimePoint now);
     // Everyone who waits for admission.
@@ -236,6 +239,8 @@ private:
     void tell_operators();
     void tell_of_own_id(ParticipantId newcomer);
     void tell_playback(ParticipantId id);
+    void audit_link(AuditEvent::What what, Role role, const std::string& link,
+                    const std::string& by);
     void audit(AuditEvent::What what, ParticipantId id, std::string by = "",
                std::string detail = "");
     void describe_session(ParticipantId id);

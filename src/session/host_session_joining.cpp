@@ -10,37 +10,42 @@ using wire::TextCode;
 
 void HostSession::join(ParticipantId id, const wire::Join& hello, TimePoint now) {
     Admission::Verdict verdict = admission_.judge(hello, now);
+    const auto refuse_entry = [&](const wire::Text& why) {
+        actions_.push_back(action::Audit{{AuditEvent::What::refused, id, hello.name, hello.person,
+                                          verdict.role, verdict.link, "", wire::english(why)}});
+        refuse(id, why);
+    };
     if (!verdict.refusal.empty())
-        return refuse(id, verdict.refusal);
+        return refuse_entry(verdict.refusal);
     const CheckedCodec depth = checked(config_.check_depth, hello.depth_codec);
     const CheckedCodec color = checked(config_.check_color, hello.color_codec);
     for (const std::string& problem : {depth.problem, color.problem})
         if (!problem.empty())
-            return refuse(id, wire::as_written(problem));
+            return refuse_entry(wire::as_written(problem));
     switch (link_budgets_.join(verdict.link, hello.person, now)) {
         case LinkBudgets::Answer::granted:
             break;
         case LinkBudgets::Answer::too_often:
-            return refuse(id,
-                          wire::as_written("Too many join by this link within a short time; try "
-                                           "again in some seconds."));
+            return refuse_entry(
+                wire::as_written("Too many join by this link within a short time; try "
+                                 "again in some seconds."));
         case LinkBudgets::Answer::after_flood:
-            return refuse(id, {TextCode::too_many_requests});
+            return refuse_entry({TextCode::too_many_requests});
     }
 
     const Membership::Judged judged = membership_.judge(hello.person, verdict.role, hello.records);
     if (judged.entry == Membership::Entry::was_removed ||
         membership_.is_removed_by(hello.person, hello.token))
-        return refuse(id, {TextCode::removed_by_operator});
+        return refuse_entry({TextCode::removed_by_operator});
     if (has_ended_ && !may(verdict.role, Right::manage))
-        return refuse(id, {TextCode::session_has_ended});
+        return refuse_entry({TextCode::session_has_ended});
     if (hello.records && !may(judged.role, Right::record))
-        return refuse(id, {TextCode::observer_records});
+        return refuse_entry({TextCode::observer_records});
     const bool waits = judged.entry == Membership::Entry::waits;
     if (waits)
         admission_.find_door_place(hello, verdict);
     if (!verdict.refusal.empty())
-        return refuse(id, verdict.refusal);
+        return refuse_entry(verdict.refusal);
     for (const Admission::Replaced& replaced : verdict.replaced)
         make_way(replaced);
     Participant& participant = *admission_.find(id);

@@ -164,9 +164,7 @@ ManageRefusal HostSession::manage(const wire::Manage& decision, ParticipantId by
             // It would remove the operator, too, perhaps the last one.
             if (const Participant* own = admission_.find(by); own && own->link == person.link)
                 return ManageRefusal::yourself;
-            actions_.push_back(action::RevokeLink{person.link});
-            admission_.revoke(std::string(person.link));
-            remove_without_link(by_name);
+            revoke_link(std::string(person.link), by_name);
             break;
         case ManageAction::end_session:
             break;
@@ -244,9 +242,32 @@ void HostSession::set_role(ParticipantId id, Role role) {
         tell_operators();
 }
 
-void HostSession::set_tokens(std::vector<Admission::Token> tokens) {
+void HostSession::set_tokens(std::vector<Admission::Token> tokens,
+                             const std::map<std::string, std::string>& makers) {
+    const auto lacks = [](const std::vector<Admission::Token>& all, const Admission::Token& one) {
+        return std::none_of(all.begin(), all.end(),
+                            [&](const auto& t) { return t.secret == one.secret; });
+    };
+    for (const Admission::Token& old : admission_.tokens())
+        if (lacks(tokens, old))
+            audit_link(What::link_revoked, old.role, old.link, at_the_host);
+    for (const Admission::Token& made : tokens)
+        if (lacks(admission_.tokens(), made)) {
+            const auto maker = makers.find(made.link);
+            audit_link(What::link_made, made.role, made.link,
+                       maker == makers.end() ? at_the_host : maker->second);
+        }
     admission_.set_tokens(std::move(tokens));
     remove_without_link(at_the_host);
+}
+
+void HostSession::revoke_link(const std::string& link, const std::string& by) {
+    for (const Admission::Token& token : admission_.tokens())
+        if (token.link == link)
+            audit_link(What::link_revoked, token.role, link, by);
+    actions_.push_back(action::RevokeLink{link});
+    admission_.revoke(link);
+    remove_without_link(by);
 }
 
 void HostSession::remove_without_link(const std::string& by) {
@@ -296,6 +317,10 @@ void HostSession::tell_operators() {
     for (const auto& [id, participant] : admission_.participants())
         if (participant.may(Right::manage))
             send(id, now);
+}
+
+void HostSession::audit_link(What what, Role role, const std::string& link, const std::string& by) {
+    actions_.push_back(action::Audit{{what, {}, "", {}, role, link, by, ""}});
 }
 
 void HostSession::audit(What what, ParticipantId id, std::string by, std::string detail) {

@@ -308,9 +308,18 @@ TEST_F(People, ARevokedLinkEndsTheConnectionsOfAllWhoCameByItAndOfNobodyElse) {
     EXPECT_TRUE(is_in(dave));
     ASSERT_EQ(actions_of<action::RevokeLink>(taken).size(), 1u);
     EXPECT_EQ(actions_of<action::RevokeLink>(taken)[0].link, "a1");
+    const auto lines = actions_of<action::Audit>(taken);
+    ASSERT_EQ(audited(), std::vector(3, What::link_revoked));
+    EXPECT_EQ(lines[0].event.participant, ParticipantId{})
+        << "the link, also if nobody is in by it";
+    EXPECT_EQ(lines[0].event.link, "a1");
+    EXPECT_EQ(lines[1].event.participant, bob);
     constexpr ParticipantId eve{5};
     come(eve, "secret");
     EXPECT_NE(refusal_of(eve).find("access code of this link is wrong"), std::string::npos);
+    ASSERT_EQ(audited(), std::vector{What::refused});
+    EXPECT_NE(actions_of<action::Audit>(taken)[0].event.detail.find("access code"),
+              std::string::npos);
 }
 
 TEST_F(People, AnOperatorDoesNotRevokeTheLinkByWhichItCame) {
@@ -329,6 +338,12 @@ TEST_F(People, TokensThatTheHostNoLongerHasEndConnections) {
     taken = session_->take_actions();
     EXPECT_NE(refusal_of(alice).find("no longer valid"), std::string::npos);
     EXPECT_TRUE(is_in(bob));
+    const auto lines = actions_of<action::Audit>(taken);
+    for (const What what : {What::link_revoked, What::link_made})
+        EXPECT_TRUE(std::ranges::any_of(lines, [&](const auto& line) {
+            return line.event.what == what && line.event.link == "a1" &&
+                   line.event.participant == ParticipantId{};
+        }));
     come(carol, "new");
     EXPECT_TRUE(is_in(carol));
 }

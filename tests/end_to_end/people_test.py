@@ -141,7 +141,7 @@ class People(unittest.TestCase):
             wait_until(lambda: self.audited()[-1]["event"] == "left")
         log = self.audited()
         self.assertEqual([e["event"] for e in log if e.get("name") == "Dr. Anna"],
-                         ["waits", "admitted", "joined", "role_changed", "removed", "left"])
+                         ["waits", "admitted", "joined", "role_changed", "removed", "left", "refused"])
         self.assertEqual([(e["event"], e["by"]) for e in log if "by" in e],
                          [("admitted", "Boss"), ("admitted", "Boss"), ("role_changed", "Boss"), ("muted", "Boss"),
                           ("removed", "Boss"), ("turned_away", "Boss"), ("admitted", "host"), ("ended", "Boss")])
@@ -168,6 +168,11 @@ class People(unittest.TestCase):
             self.assert_ends_with(olga, "The link by which you came is no longer valid")
             late = stack.enter_context(self.member(made["link"], "Late"))
             self.assert_ends_with(late, "The access code of this link is wrong")
+            log = self.audited()
+            self.assertEqual([(e["event"], e.get("participant") is None, e["role"]) for e in log if e.get("link") == made["name"]],
+                             [("link_made", True, "observer"), ("joined", False, "observer"), ("link_revoked", True, "observer"),
+                              ("link_revoked", False, "observer"), ("left", False, "observer")])
+            self.assertIn("access code", next(e for e in log if e.get("name") == "Late")["detail"])
 
             # The link of a role gets another token.
             self.assertEqual(run("link", "--state", self.state, "--revoke", "expert")[0], 0)

@@ -520,6 +520,8 @@ function use_device(kind) {
 function follow_role(role) {
     page.role = role;
     document.body.classList.toggle("observer", role === "observer");
+    $("for_operators").hidden = role !== "operator";
+    $("to_operators").href = `/operators${location.hash}`;
 }
 
 async function main() {

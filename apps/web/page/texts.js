@@ -90,6 +90,7 @@ const tables = {
         lobby_asks: "Somebody there lets you in after you have knocked.", lobby_open: "The session is open.",
         lobby_held_back: "Somebody who came by this link was removed and is kept out.",
         // The test call.
+        operators_page: "Cameras, people, links and recording: the operators' page",
         test_call: "Try devices and line",
         test_call_stays: "Sound and pictures stay on this computer. Everything is switched off again when you close this.",
         heard_meanwhile: "Your microphone is open: the others hear you while you try.",
@@ -280,6 +281,7 @@ const tables = {
         lobby_cameras: "Kameras: {names}", lobby_no_cameras: "Es gibt keine Kameras.", and_more: "und {count} weitere",
         lobby_asks: "Dort lässt Sie jemand ein, nachdem Sie angeklopft haben.", lobby_open: "Die Sitzung ist offen.",
         lobby_held_back: "Jemand, der mit diesem Link kam, wurde entfernt und wird nicht eingelassen.",
+        operators_page: "Kameras, Personen, Links und Aufnahme: die Seite der Sitzungsleitung",
         test_call: "Geräte und Leitung testen",
         test_call_stays: "Ton und Bilder bleiben auf diesem Rechner. Alles wird wieder ausgeschaltet, wenn Sie das hier schließen.",
         heard_meanwhile: "Ihr Mikrofon ist offen: Die anderen hören Sie, während Sie testen.",
@@ -468,6 +470,7 @@ const tables = {
         lobby_cameras: "Caméras : {names}", lobby_no_cameras: "Il n'y a pas de caméra.", and_more: "et {count} de plus",
         lobby_asks: "Quelqu'un sur place vous admet après votre demande d'entrée.", lobby_open: "La séance est ouverte.",
         lobby_held_back: "Une personne venue par ce lien a été exclue et n'est plus admise.",
+        operators_page: "Caméras, présents, liens et enregistrement : la page des responsables",
         test_call: "Tester appareils et liaison",
         test_call_stays: "Le son et les images restent sur cet ordinateur. Tout s'éteint quand vous fermez ceci.",
         heard_meanwhile: "Votre micro est ouvert : les autres vous entendent pendant le test.",

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+// The page of a host's operators (docs/operators_page.md): its cameras, people, links, sessions and a recording, by the token
+// of an operator's link in a header. The token stands behind '#' in the address, which no request and no referrer contains.
+import { Links } from "./operators_links.js";
+import { add_button, add_words, follow_rows, set_button } from "./operators_rows.js";
+import { text } from "./operators_texts.js";
+import { language, texts } from "./texts.js";
+
+const $ = id => document.getElementById(id);
+const every_ms = 2000, patience_ms = 5000;
+const late_ms = 1000;          // an older picture's age is told
+const little_bytes = 5e9;      // free, of which a warning is worth
+const least_rate_seconds = 5;  // of a recording that tells how fast the disk fills
+
+const phase_texts = { none: "recording_none", running: "recording_running", ending: "recording_ending", whole: "recording_whole",
+                      incomplete: "recording_incomplete", failed: "recording_failed" };
+
+const token = new URLSearchParams(location.hash.slice(1)).get("join") ?? "";
+let session_number = null;  // that is shown; null: the one of the link
+let facts = null;           // the host's newest answer
+let asked = 0;              // an answer of an older one is late
+
+function ask(path, options = {}) {
+    return fetch(`/operators/${path}`, { headers: { Authorization: `Bearer ${token}` }, cache: "no-store", credentials: "omit",
+                                         signal: AbortSignal.timeout?.(patience_ms), ...options });
+}
+
+function with_session(path) {
+    return session_number === null ? path : `${path}${path.includes("?") ? "&" : "?"}session=${session_number}`;
+}
+
+// Asks the host to do something. Resolves to its answer's JSON, {} without one, or null where it refused.
+async function act(path) {
+    tell("");
+    try {
+        const answer = await ask(with_session(path), { method: "POST" });
+        const body = await answer.text();
+        if (!answer.ok) {
+            tell(body.trim() || answer.statusText);
+            return null;
+        }
+        return body ? JSON.parse(body) : {};
+    } catch {
+        tell(text("silent"));
+        return null;
+    } finally {
+        follow();
+    }
+}
+
+function tell(sentence) {
+    $("problem").textContent = sentence;
+    $("problem").hidden = !sentence;
+}
+
+const links = new Links(act);
+
+// The host's answer decides what is shown; false where it will not show anything by this link.
+async function follow() {
+    const turn = ++asked;
+    let answer;
+    try {
+        answer = await ask("facts");
+        if (answer.ok)
+            facts = await answer.json();
+    } catch {
+        answer = null;
+    }
+    if (turn !== asked)
+        return true;
+    if (answer && [401, 403, 410].includes(answer.status)) {
+        $("all").hidden = true;
+        links.hide();
+        tell(text(answer.status === 403 ? "for_operators" : "no_link"));
+        return false;
+    }
+    document.body.classList.toggle("silent", !answer?.ok);
+    if (!answer?.ok)
+        tell(text("silent"));
+    else {
+        if ($("problem").textContent === text("silent") || $("all").hidden)
+            tell("");
+        show();
+    }
+    return true;
+}
+
+const shown_session = () => facts.sessions.find(({ number, is_own }) => session_number === null ? is_own : number === session_number)
+    ?? facts.sessions.find(({ is_own }) => is_own);
+
+function show() {
+    const session = shown_session();
+    $("all").hidden = false;
+    document.title = `${session.name} · ${text("title")}`;
+    show_sessions(session);
+    follow_rows($("problems"), session.problems.map(sentence => ({ sentence })), ({ sentence }) => sentence,
+                (row, { sentence }) => row.textContent = sentence, () => {});
+    show_recording(session.recording);
+    show_cameras(session.cameras);
+    show_people(session);
+    links.follow(session.links);
+}
+
+function show_sessions(session) {
+    const all = facts.sessions, shown = JSON.stringify(all.map(({ number, name }) => [number, name]));
+    $("choose_session").hidden = all.length < 2;
+    if ($("session_choice").dataset.shown !== shown) {
+        $("session_choice").dataset.shown = shown;
+        $("session_choice").replaceChildren(...all.map(({ number, name }) => new Option(name, number)));
+    }
+    $("session_choice").value = session.number;
+    $("enter_room").hidden = !session.is_own;
+    $("sessions_part").hidden = !facts.may_create;
+    const rows = [...all, ...facts.closed.map(closed => ({ ...closed, closed: true }))];
+    follow_rows($("sessions"), rows, ({ name }) => name, (row, { name, may_end }) => {
+        const { buttons } = add_words(row);
+        if (may_end)
+            add_button(buttons, "end", text("end_session"), () => act(`session?${new URLSearchParams({ end: name })}`), text("end_session_sure"));
+    }, (row, { name, closed, problem, people }) =>
+        row.querySelector(".words").textContent = closed ? `${name}: ${problem || text("session_closed")}` : text("session_line", { name, count: people.length }));
+}
+
+function size_text(bytes) {
+    const digits = new Intl.NumberFormat(language, { maximumFractionDigits: 1 });
+    return `${digits.format(bytes / 1e9)} GB`;
+}
+
+function time_text(seconds) {
+    const two = number => String(Math.floor(number)).padStart(2, "0");
+    return `${Math.floor(seconds / 3600)}:${two(seconds / 60 % 60)}:${two(seconds % 60)}`;
+}
+
+function show_recording({ phase, file, seconds, bytes, free_bytes, problem }) {
+    const is_on = phase === "running", is_ending = phase === "ending";
+    $("recording").dataset.phase = phase;
+    $("recording_says").textContent = text(phase_texts[phase], { time: time_text(seconds), size: size_text(bytes), problem });
+    const rate = is_on && seconds > least_rate_seconds ? bytes / seconds : 0;
+    const hours = rate ? free_bytes / rate / 3600 : null;
+    $("recording_space").textContent = !free_bytes ? "" : hours === null ? text("space_free", { size: size_text(free_bytes) })
+        : text("space_left", { size: size_text(free_bytes), hours: new Intl.NumberFormat(language, { maximumFractionDigits: 1 }).format(hours) });
+    $("recording_space").classList.toggle("warning", !!free_bytes && (free_bytes < little_bytes || (hours !== null && hours < 1)));
+    $("recording_file").textContent = file;
+    $("start_recording").hidden = is_on || is_ending;
+    $("stop_recording").hidden = !is_on;
+}
+
+function show_cameras(cameras) {
+    $("no_cameras").hidden = cameras.length > 0;
+    follow_rows($("cameras"), cameras.map((camera, number) => ({ ...camera, number })), ({ number, name }) => `${number} ${name}`, (row, { has_picture }) => {
+        for (const kind of [...(has_picture ? ["canvas"] : []), "name", "state", "detail"]) {
+            const part = document.createElement(kind === "canvas" ? "canvas" : "p");
+            part.className = kind;
+            row.append(part);
+        }
+    }, (row, { name, state, problem, age_ms }) => {
+        row.dataset.level = state === "live" ? "good" : ["stale", "failed", "ended"].includes(state) ? "bad" : "";
+        row.querySelector(".name").textContent = name;
+        const is_late = state === "live" && age_ms > late_ms;
+        row.querySelector(".state").textContent = (texts.states[state] ?? state) + (is_late ? `, ${text("old", { s: (age_ms / 1000).toFixed(1) })}` : "");
+        row.querySelector(".detail").textContent = problem;
+        const canvas = row.querySelector("canvas");
+        if (canvas)
+            Object.assign(canvas, { role: "img", ariaLabel: text("picture_of", { name }) });
+    });
+}
+
+// One after the other: a host with ten cameras has other things to do.
+async function show_pictures() {
+    if (!facts || $("all").hidden)
+        return;
+    const number = shown_session().number;
+    for (const row of [...$("cameras").children]) {
+        const canvas = row.querySelector("canvas");
+        if (!canvas || shown_session().number !== number)
+            continue;
+        const answer = await ask(`picture?session=${number}&camera=${parseInt(row.dataset.key)}`).catch(() => null);
+        if (answer?.status !== 200)
+            continue;
+        const picture = await createImageBitmap(await answer.blob());
+        Object.assign(canvas, { width: picture.width, height: picture.height });
+        canvas.getContext("2d").drawImage(picture, 0, 0);
+        picture.close();
+    }
+}
+
+function show_people({ people, visitors }) {
+    $("nobody").hidden = people.length + visitors.length > 0;
+    const manage = (id, what) => () => act(`person?id=${id}&do=${what}`);
+    const line = ({ name, role, muted, records }) => `${name ?? ""} (${texts.roles[role] ?? role})`
+        + (muted ? ` · ${text("muted")}` : "") + (records ? ` · ${text("records")}` : "");
+    follow_rows($("visitors"), visitors, ({ id }) => id, (row, { id }) => {
+        const { buttons } = add_words(row);
+        add_button(buttons, "admit", text("admit"), manage(id, "admit")).className = "first";
+        add_button(buttons, "turn_away", text("turn_away"), manage(id, "turn_away"));
+    }, (row, visitor) => row.querySelector(".words").textContent = text("waits", { who: line(visitor) }));
+    follow_rows($("people"), people, ({ id }) => id, (row, { id }) => {
+        const { buttons } = add_words(row);
+        add_button(buttons, "mute", "", () => manage(id, "muted" in row.dataset ? "unmute" : "mute")());
+        add_button(buttons, "remove", text("remove"), manage(id, "remove"), text("remove_sure"));
+    }, (row, person) => {
+        row.toggleAttribute("data-muted", person.muted);
+        row.querySelector(".words").textContent = line(person);
+        row.querySelector("[data-does=mute]").textContent = text(person.muted ? "unmute" : "mute");
+    });
+}
+
+for (const element of document.querySelectorAll("[data-text]"))
+    element.textContent = text(element.dataset.text);
+document.documentElement.lang = language;
+$("enter_room").addEventListener("click", () => location.href = `/${location.hash}`);
+$("session_choice").addEventListener("change", () => {
+    session_number = Number($("session_choice").value);
+    links.hide();
+    show();
+    show_pictures();
+});
+$("start_recording").addEventListener("click", () => act("recording?do=start"));
+set_button($("stop_recording"), text("stop_recording"), () => act("recording?do=stop"), text("stop_sure"));
+$("create_session").addEventListener("submit", event => {
+    event.preventDefault();
+    act(`session?${new URLSearchParams({ create: $("new_session").value.trim() })}`).then(made => made && ($("new_session").value = ""));
+});
+
+// A link in the field of the address, or of a program that opens another one in the same tab.
+addEventListener("hashchange", () => location.reload());
+
+async function watch() {
+    const goes_on = document.hidden || await follow();
+    if (!document.hidden)
+        await show_pictures().catch(() => {});
+    if (goes_on)
+        setTimeout(watch, every_ms);
+}
+
+if (token)
+    watch();
+else
+    tell(text("no_link"));

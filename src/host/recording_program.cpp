@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/recording_program.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <thread>
+#include <utility>
+
+#include "base/error.h"
+#include "base/log.h"
+#include "base/outside_text.h"
+#include "base/steady_clock.h"
+#include "files/private_file.h"
+#include "files/utc_text.h"
+#include "record/segment_files.h"
+
+namespace theatron::host {
+namespace {
+
+namespace fs = std::filesystem;
+
+// As those of `theatron record`.
+constexpr int exit_incomplete = 3;
+constexpr std::size_t max_title = 60;  // bytes
+constexpr std::size_t shown_of_remark = 300;
+
+// Characters that every file system and shell takes as they are; '-' for the others.
+std::string file_title(const std::string& title) {
+    std::string result;
+    for (const char c : clean_text(title, max_title)) {
+        const bool is_plain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') ||
+                              (c >= 'A' && c <= 'Z') || c == '_' || c == '-';
+        if (is_plain || (!result.empty() && result.back() != '-'))
+            result += is_plain ? c : '-';
+    }
+    while (result.ends_with('-'))
+        result.pop_back();
+    return result.empty() ? "session" : result;
+}
+
+// What is said about a recording lies beside it.
+fs::path remarks_of(fs::path file) {
+    return file += ".txt";
+}
+
+// "OR-3-2026-11-30T02-19-21Z.mkv", that is not there yet.
+fs::path new_file(const fs::path& folder, const std::string& title) {
+    std::string time = files::utc_text(files::utc_now());
+    std::ranges::replace(time, ':', '-');
+    const std::string name = file_title(title) + "-" + time;
+    fs::path file = folder / (name + ".mkv");
+    std::error_code none;
+    const auto is_taken = [&] {
+        return fs::exists(file, none) || fs::exists(remarks_of(file), none);
+    };
+    for (int number = 2; is_taken(); ++number)
+        file = folder / (name + "-" + std::to_string(number) + ".mkv");
+    return file;
+}
+
+// The last line that is not empty.
+std::string last_line(const fs::path& file) {
+    std::ifstream in(file);
+    std::string line, last;
+    while (std::getline(in, line))
+        if (!line.empty())
+            last = line;
+    return clean_text(last, shown_of_remark);
+}
+
+// With its later segments.
+std::uint64_t bytes_of(const fs::path& file) {
+    std::uint64_t bytes = 0;
+    std::vector<fs::path> files = record::files_of_later_segments(file);
+    files.push_back(file);
+    for (const fs::path& part : files) {
+        std::error_code none;
+        if (const auto size = fs::file_size(part, none); !none)
+            bytes += size;
+    }
+    return bytes;
+}
+
+class Pipe {
+public:
+    Pipe() {
+        if (pipe2(ends_, O_CLOEXEC) != 0)
+            throw Error("No recording was started: too many files are open.");
+    }
+    ~Pipe() {
+        close(ends_[0]);
+        close(ends_[1]);
+    }
+    Pipe(const Pipe&) = delete;
+    int out() const { return ends_[0]; }
+    // The text fits into the buffer of a pipe.
+    void write(const std::string& text) const {
+        if (::write(ends_[1], text.data(), text.size()) != ssize_t(text.size()))
+            throw Error("No recording was started: its link could not be handed over.");
+    }
+
+private:
+    int ends_[2];
+};
+
+// Its standard input is `in`, its output nothing, its errors the new file `remarks`.
+pid_t spawn_program(std::vector<std::string> words, int in, const fs::path& remarks) {
+    std::vector<char*> argv;
+    for (std::string& word : words)
+        argv.push_back(word.data());
+    argv.push_back(nullptr);
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, in, STDIN_FILENO);
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, remarks.c_str(),
+                                     O_WRONLY | O_CREAT | O_EXCL, 0600);
+    posix_spawn_file_actions_addclosefrom_np(&actions, STDERR_FILENO + 1);
+    // Ctrl-C in the terminal is for the host, whose end the recording notices.
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    sigset_t none, all;
+    sigemptyset(&none);
+    sigfillset(&all);
+    posix_spawnattr_setsigmask(&attributes, &none);
+    posix_spawnattr_setsigdefault(&attributes, &all);
+    posix_spawnattr_setpgroup(&attributes, 0);
+    posix_spawnattr_setflags(
+        &attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
+    pid_t id = -1;
+    const int error = posix_spawn(&id, argv.front(), &actions, &attributes, argv.data(), environ);
+    posix_spawnattr_destroy(&attributes);
+    posix_spawn_file_actions_destroy(&actions);
+    if (error != 0)
+        throw Error(std::string("No recording was started: ") + std::strerror(error) + ".");
+    return id;
+}
+
+}  // namespace
+
+const char* text_of(RecordingProgram::Phase phase) {
+    constexpr const char* texts[] = {"none", "running", "ending", "whole", "incomplete", "failed"};
+    return texts[std::size_t(phase)];
+}
+
+RecordingProgram::~RecordingProgram() {
+    (void)stop();
+    const TimePoint end = steady_now() + end_patience;
+    for (bool is_killed = false;;) {
+        {
+            const std::lock_guard lock(mutex_);
+            look(steady_now());
+            if (!child_)
+                return;
+            if (steady_now() > end && !std::exchange(is_killed, true)) {
+                log::warning("host", "a recording did not end and was killed",
+                             {{"file", state_.file.string()}});
+                kill(child_->id, SIGKILL);
+            }
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+}
+
+void RecordingProgram::start(const std::string& link, const std::string& title, TimePoint now) {
+    const std::lock_guard lock(mutex_);
+    look(now);
+    if (child_)
+        throw Error("This session is being recorded already.");
+    files::open_private_folder(options_.folder);
+    State begun{.phase = Phase::running, .file = new_file(options_.folder, title)};
+    fs::path remarks = remarks_of(begun.file);
+    const Pipe pipe;
+    pipe.write(link + "\n");
+    std::vector<std::string> words = options_.program;
+    for (const std::string& word : {std::string("@/dev/stdin"), begun.file.string()})
+        words.push_back(word);
+    child_ = {spawn_program(std::move(words), pipe.out(), remarks), now, false};
+    state_ = std::move(begun);
+    remarks_ = std::move(remarks);
+    log::info("host", "recording", {{"file", state_.file.string()}});
+}
+
+bool RecordingProgram::stop() {
+    const std::lock_guard lock(mutex_);
+    if (!child_)
+        return false;
+    child_->asked = true;
+    state_.phase = Phase::ending;
+    kill(child_->id, SIGINT);
+    return true;
+}
+
+RecordingProgram::State RecordingProgram::state(TimePoint now) {
+    const std::lock_guard lock(mutex_);
+    look(now);
+    State shown = state_;
+    if (child_)
+        shown.bytes = bytes_of(shown.file);
+    std::error_code none;
+    fs::path there = options_.folder;
+    while (!fs::exists(there, none) && there != there.parent_path())
+        there = there.parent_path();
+    if (const auto space = fs::space(there, none); !none)
+        shown.free_bytes = space.available;
+    return shown;
+}
+
+void RecordingProgram::follow(TimePoint now) {
+    const std::lock_guard lock(mutex_);
+    look(now);
+}
+
+void RecordingProgram::look(TimePoint now) {
+    if (!child_)
+        return;
+    int status = 0;
+    pid_t ended = 0;
+    do
+        ended = waitpid(child_->id, &status, WNOHANG);
+    while (ended < 0 && errno == EINTR);
+    if (state_.phase == Phase::running)
+        state_.seconds = to_seconds(now - child_->begun);
+    if (ended == 0)
+        return;
+    const int code = ended > 0 && WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    state_.phase = code == 0                 ? Phase::whole
+                   : code == exit_incomplete ? Phase::incomplete
+                                             : Phase::failed;
+    state_.bytes = bytes_of(state_.file);
+    if (code != 0)
+        state_.problem = last_line(remarks_);
+    std::error_code none;
+    if (fs::file_size(remarks_, none) == 0)
+        fs::remove(remarks_, none);
+    log::info("host", "recording ended",
+              {{"file", state_.file.string()}, {"as", text_of(state_.phase)}});
+    child_.reset();
+}
+
+}  // namespace theatron::host
