@@ -91,6 +91,7 @@ const shown_session = () => facts.sessions.find(({ number, is_own }) => session_
 function show() {
     const session = shown_session();
     $("all").hidden = false;
+    $("session_title").textContent = session.name;
     document.title = `${session.name} · ${text("title")}`;
     show_sessions(session);
     follow_rows($("problems"), session.problems.map(sentence => ({ sentence })), ({ sentence }) => sentence,
