@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // theatron record
+#include <signal.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -48,6 +50,7 @@ struct RecordFlags {
     bool raw = false;
     bool overwrite = false;
     bool json = false;
+    bool with_parent = false;
 };
 
 record::RecordCodecs check_codecs(const RecordFlags& flags) {
@@ -271,6 +274,9 @@ constexpr Duration file_patience = std::chrono::seconds(30);
 
 void run(const RecordFlags& flags) {
     cli::catch_stop_signals();
+    // As if it were asked to end; the parent may have ended before.
+    if (flags.with_parent && (prctl(PR_SET_PDEATHSIG, SIGTERM) != 0 || getppid() == 1))
+        throw Error("The program that was to end this recording has ended before.");
     std::optional<cli::Saving> saving(file_patience);
     const std::string& file = flags.names.back();
     const std::unique_ptr<record::RecordSource> source = open_source(flags);
@@ -450,6 +456,8 @@ void add_record_command(CLI::App& app) {
                      "Megabytes of pictures that may wait for a disk that stands still")
         ->capture_default_str();
     command->add_flag("--overwrite", flags->overwrite, "Replace a file that is there");
+    command->add_flag("--with-parent", flags->with_parent,
+                      "End, as by Ctrl-C, with the program that has started it");
     command->add_flag("--json", flags->json, "Print the figures as one JSON line at the end");
     command->callback([flags] { run(*flags); });
 }

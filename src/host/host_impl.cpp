@@ -70,7 +70,7 @@ net::Server::Handler Host::Impl::handler() {
         carry_out();
         color_watch.on_tick(lanes.all(), steady_now());
         note_participants();
-        recording->follow(steady_now());
+        follow_recording();
         room_file->on_tick(session->room(), session->streams().cameras().adjustments(),
                            steady_now());
     };
@@ -96,7 +96,9 @@ PortSession Host::Impl::in_port() {
     given.links = [this] { return links->links(); };
     given.make_link = [this](wire::Role role, std::optional<files::UtcSeconds> expires,
                              const std::string& label, const std::string& by) {
-        return links->make(role, expires, label, by);
+        KnownLink made = links->make(role, expires, label, by);
+        server->post([this] { take_links(); });
+        return made;
     };
     given.revoke_link = [this](const std::string& link, const std::string& by) {
         server->post([this, link, by] {
@@ -104,8 +106,12 @@ PortSession Host::Impl::in_port() {
             carry_out();
         });
     };
-    given.manage = [this](wire::ManageAction action, ParticipantId person) {
-        server->post([this, action, person] { decide({0, action, person, {}}); });
+    given.manage = [this](wire::ManageAction action, ParticipantId person, const std::string& by) {
+        server->post([this, action, person, by] { decide({0, action, person, {}}, by); });
+    };
+    given.audit = [this](const session::AuditEvent& event) {
+        if (audit)
+            audit->add(event, "");
     };
     given.recording = [this]() -> RecordingProgram& { return *recording; };
     return given;
@@ -241,6 +247,8 @@ void Host::Impl::note_left(net::PeerId peer) {
 }
 
 void Host::Impl::keep_for_next_time() {
+    if (const auto link = ended_recording())
+        links->revoke(*link, steady_now());
     room_file->save(session->room(), session->streams().cameras().adjustments(), steady_now());
     if (audit && !has_ended)
         audit->add({session::AuditEvent::What::ended,

@@ -147,6 +147,9 @@ struct Host::Impl {
     explicit Impl(std::atomic<std::size_t>& count) : participants(count) {}
     ~Impl() {
         const bool has_begun = server && server->has_begun();
+        // While the session still answers, so that nothing is missing in its file.
+        if (has_begun && recording)
+            recording->end();
         if (has_begun)
             (void)contain("the goodbye of a session", [&] { say_goodbye(); });
         replay.reset();
@@ -155,8 +158,6 @@ struct Host::Impl {
         // whose threads post to the server.
         if (server)
             server->leave();
-        // It has the goodbye, and writes the end of its file.
-        recording.reset();
         if (has_begun)
             (void)contain("the end of a session", [&] { keep_for_next_time(); });
         lanes.clear();
@@ -191,8 +192,12 @@ struct Host::Impl {
     void take_found(std::size_t number, std::unique_ptr<capture::Camera> camera);
     void add_found(std::size_t number, const Missing& expected,
                    std::unique_ptr<capture::Camera> camera);
-    // A decision of somebody who is in the session by no connection of its own.
-    void decide(const wire::Manage& decision);
+    // A decision of somebody who is no participant. `by`: as in session::AuditEvent.
+    void decide(const wire::Manage& decision, const std::string& by = session::at_the_host);
+    void take_links();
+    // On any thread: the link of a recording that has ended, once; its end is in the audit log.
+    std::optional<std::string> ended_recording();
+    void follow_recording();
     void carry_out();
     void carry_out(const session::action::Send& a);
     void carry_out(const session::action::Close& a);

@@ -58,8 +58,7 @@ void Host::follow_links() {
         // The links of the moment at which the session takes them: an operator may revoke one
         // meanwhile.
         impl_->server->post([impl = impl_.get(), number = ++impl_->links_read] {
-            impl->session->set_tokens(impl->links->tokens(), impl->links->makers());
-            impl->carry_out();
+            impl->take_links();
             impl->links_applied = number;
         });
         log::info("host", "links changed");
@@ -74,8 +73,8 @@ void Host::manage(wire::ManageAction action, ParticipantId person, wire::Role ro
     });
 }
 
-void Host::Impl::decide(const wire::Manage& decision) {
-    const auto refusal = session->manage(decision, steady_now());
+void Host::Impl::decide(const wire::Manage& decision, const std::string& by) {
+    const auto refusal = session->manage(decision, steady_now(), by);
     if (refusal != wire::ManageRefusal::none)
         log::say(wire::text_of(refusal));
     carry_out();
@@ -87,6 +86,29 @@ void Host::Impl::audit_beginning() {
     audit->add({What::began, {}, "", {}, {}, "", "", name}, "");
     for (const wire::Camera& camera : session->streams().cameras().descriptions())
         audit->add({What::shared, {}, "", {}, {}, "", "", camera.name}, "");
+}
+
+void Host::Impl::take_links() {
+    session->set_tokens(links->tokens(), links->makers());
+    carry_out();
+}
+
+std::optional<std::string> Host::Impl::ended_recording() {
+    const auto ended = recording->take_end(steady_now());
+    if (!ended)
+        return std::nullopt;
+    if (audit)
+        audit->add({What::recording_ended, {}, "", {}, {}, "", session::at_the_host, ended->told},
+                   "");
+    return ended->link;
+}
+
+void Host::Impl::follow_recording() {
+    const auto link = ended_recording();
+    if (!link)
+        return;
+    session->revoke_link(*link, session::at_the_host);
+    carry_out();
 }
 
 HostFigures::Problems Host::Impl::problems() const {

@@ -102,6 +102,9 @@ KnownLink LinkKeeper::make(wire::Role role, std::optional<files::UtcSeconds> exp
     KnownLink link = make_link(folder_, role, expires, label);
     const std::lock_guard lock(mutex_);
     makers_[link.name] = maker;
+    // It admits people at once; follow() reads it again.
+    tokens_.push_back({link.token, link.role, std::nullopt, link.name, link.expires});
+    links_.push_back(link);
     return link;
 }
 

@@ -43,7 +43,7 @@ public:
     // Those that are valid, or only expired.
     std::vector<session::Admission::Token> tokens() const;
     std::vector<KnownLink> links() const;
-    // Makes a link, as make_link() (link_book.h) does; follow() finds it. Throws Error.
+    // Makes a link, as make_link() (link_book.h) does, which is valid at once. Throws Error.
     KnownLink make(wire::Role role, std::optional<files::UtcSeconds> expires,
                    const std::string& label, const std::string& maker);
     // By the names of links: who made those that make() has made.

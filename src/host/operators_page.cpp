@@ -29,6 +29,7 @@ constexpr double max_hours = 10'000;
 
 using Sessions = SessionSwitch::Sessions;
 using net::HttpAnswer, net::HttpRequest;
+using session::AuditEvent;
 
 // The bearer of an operator's link.
 struct Operator {
@@ -97,9 +98,10 @@ nlohmann::json link_json(const KnownLink& link, const std::string& own) {
 
 nlohmann::json recording_json(const PortSession& session) {
     const RecordingProgram::State state = session.recording().state(steady_now());
-    return {{"phase", text_of(state.phase)},  {"file", state.file.string()},
-            {"seconds", state.seconds},       {"bytes", state.bytes},
-            {"free_bytes", state.free_bytes}, {"problem", state.problem}};
+    const nlohmann::json free = state.free_bytes ? nlohmann::json(*state.free_bytes) : nullptr;
+    return {
+        {"phase", text_of(state.phase)}, {"file", state.file.string()}, {"seconds", state.seconds},
+        {"bytes", state.bytes},          {"free_bytes", free},          {"problem", state.problem}};
 }
 
 nlohmann::json cameras_json(const HostFigures& figures) {
@@ -173,8 +175,9 @@ std::optional<files::UtcSeconds> end_of_link(const HttpRequest& request) {
     return files::utc_now() + files::UtcSeconds(std::llround(*hours * 3600));
 }
 
-nlohmann::json shown_link(const KnownLink& link, const Operator& who, const net::Link& address) {
-    nlohmann::json json = link_json(link, who.link);
+// `own`: the name of the link by which the page is open, if it is of this session.
+nlohmann::json shown_link(const KnownLink& link, const std::string& own, const net::Link& address) {
+    nlohmann::json json = link_json(link, own);
     json["link"] = link_text(link, address);
     json["qr"] = qr_rows(json["link"]);
     return json;
@@ -184,17 +187,20 @@ nlohmann::json shown_link(const KnownLink& link, const Operator& who, const net:
 HttpAnswer act_on_link(const HttpRequest& request, const PortSession& session, const Operator& who,
                        const net::Link& address) {
     const auto value = [&](const char* key) { return net::query_value(request.target, key); };
+    const std::string own = &session == &who.own->second ? who.link : "";
     if (const auto role = wire::parse_role(value("role")))
         return json_answer(shown_link(
-            session.make_link(*role, end_of_link(request), value("for"), who.by()), who, address));
+            session.make_link(*role, end_of_link(request), value("for"), who.by()), own, address));
     const std::string shown = value("show"), revoked = value("revoke");
+    if (shown.empty() && revoked.empty())
+        return refusal(400, "Say the role of a new link, or which one is shown or revoked.");
     const std::vector<KnownLink> links = session.links();
     const auto known = std::ranges::find(links, shown.empty() ? revoked : shown, &KnownLink::name);
     if (known == links.end())
         return refusal(404, "There is no such link any more.");
     if (!shown.empty())
-        return json_answer(shown_link(*known, who, address));
-    if (&session == &who.own->second && known->name == who.link)
+        return json_answer(shown_link(*known, own, address));
+    if (known->name == own)
         return refusal(409,
                        "This page is open by that link. Open it by another operator's link to "
                        "revoke this one.");
@@ -202,7 +208,15 @@ HttpAnswer act_on_link(const HttpRequest& request, const PortSession& session, c
     return {.status = 204};
 }
 
-HttpAnswer act_on_person(const HttpRequest& request, const PortSession& session) {
+bool is_there(const HostFigures& figures, ParticipantId id) {
+    return std::ranges::any_of(figures.participants,
+                               [&](const auto& person) { return person.id == id; }) ||
+           std::ranges::any_of(figures.visitors,
+                               [&](const auto& visitor) { return visitor.participant == id; });
+}
+
+HttpAnswer act_on_person(const HttpRequest& request, const PortSession& session,
+                         const Operator& who) {
     using wire::ManageAction;
     constexpr std::pair<const char*, ManageAction> actions[] = {
         {"admit", ManageAction::admit},   {"turn_away", ManageAction::turn_away},
@@ -215,46 +229,66 @@ HttpAnswer act_on_person(const HttpRequest& request, const PortSession& session)
         std::ranges::find_if(actions, [&](const auto& known) { return asked == known.first; });
     if (!id || *id == 0 || action == std::end(actions))
         return refusal(400, "Say whom this is about, and what is to be done.");
-    session.manage(action->second, ParticipantId(*id));
+    if (!is_there(session.figures(), ParticipantId(*id)))
+        return refusal(404, "That person has left.");
+    session.manage(action->second, ParticipantId(*id), who.by());
     return {.status = 204};
+}
+
+// By a link of its own, which no other decision takes away: it may record, and does not wait at the
+// door. Throws Error.
+std::string start_recording(const PortSession& session, net::Link address, const std::string& by) {
+    constexpr files::UtcSeconds valid_for_joining = 24 * 3600;
+    session.recording().require_ready(steady_now());
+    const KnownLink link =
+        session.make_link(wire::Role::publisher, files::utc_now() + valid_for_joining,
+                          "the recording of the operators' page", by);
+    try {
+        return session.recording()
+            .start(link_text(link, std::move(address)), link.name, session.figures().name,
+                   steady_now())
+            .filename()
+            .string();
+    } catch (const Error&) {
+        session.revoke_link(link.name, by);
+        throw;
+    }
 }
 
 // Throws Error.
 HttpAnswer act_on_recording(const HttpRequest& request, const PortSession& session,
-                            net::Link address) {
+                            const Operator& who, const net::Link& address) {
     const std::string asked = net::query_value(request.target, "do");
     if (asked == "stop")
         return session.recording().stop() ? HttpAnswer{.status = 204}
                                           : refusal(409, "Nothing is being recorded.");
     if (asked != "start")
         return refusal(400, "A recording is started or stopped.");
-    // That of the role does not end with a guest's: the recorder comes back after a break.
-    const std::vector<KnownLink> links = session.links();
-    const auto is_usable = [&](const KnownLink& link) {
-        const auto token = session.find_token(link.token);
-        return link.role == wire::Role::operator_ && token &&
-               !token->has_expired(steady_now(), files::utc_now());
-    };
-    const auto link = std::ranges::find_if(links, is_usable);
-    if (link == links.end())
-        return refusal(409,
-                       "No operator's link of this session is valid, by which it could be "
-                       "recorded.");
-    session.recording().start(link_text(*link, std::move(address)), session.figures().name,
-                              steady_now());
+    const std::string file = start_recording(session, address, who.by());
+    session.audit({AuditEvent::What::recording_begun, {}, "", {}, {}, "", who.by(), file});
     return {.status = 204};
 }
 
 // Throws Error.
-HttpAnswer act_on_sessions(const HttpRequest& request, const std::filesystem::path& state) {
+HttpAnswer act_on_sessions(const HttpRequest& request, const Operator& who,
+                           const std::filesystem::path& state) {
+    using What = AuditEvent::What;
+    const auto audit = [&](What what, const std::string& name) {
+        who.own->second.audit({what, {}, "", {}, {}, "", who.by(), name});
+    };
     const std::string created = net::query_value(request.target, "create"),
                       ended = net::query_value(request.target, "end");
-    if (!created.empty())
+    if (created.empty() && ended.empty())
+        return refusal(400, "Say which session is made or ended.");
+    if (!created.empty()) {
         create_session(state, created, {});
-    else if (find_session_folder(state, ended) != state)
+        audit(What::created, created);
+    } else if (find_session_folder(state, ended) != state) {
         ask_for_end(state, ended);
-    else
+        audit(What::end_asked, ended);
+    } else {
         return refusal(409, "The first session ends with its host.");
+    }
     return {.status = 204};
 }
 
@@ -308,12 +342,12 @@ HttpAnswer act_for_operator(const HttpRequest& request, const Sessions& sessions
         if (path == link_path)
             return act_on_link(request, *session, who, host.address);
         if (path == person_path)
-            return act_on_person(request, *session);
+            return act_on_person(request, *session, who);
         if (path == recording_path)
-            return act_on_recording(request, *session, host.own);
+            return act_on_recording(request, *session, who, host.own);
         if (path == session_path)
             return who.sees_all
-                       ? act_on_sessions(request, host.state_folder)
+                       ? act_on_sessions(request, who, host.state_folder)
                        : refusal(403, "Sessions are made and ended by operators of the first one.");
     } catch (const Error& error) {
         return refusal(409, error.what());

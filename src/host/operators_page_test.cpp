@@ -64,9 +64,14 @@ protected:
         s.revoke_link = [this](const std::string& link, const std::string& by) {
             done.push_back("revoked " + link + " by " + by);
         };
-        s.manage = [this, name](wire::ManageAction action, ParticipantId person) {
+        s.manage = [this, name](wire::ManageAction action, ParticipantId person,
+                                const std::string& by) {
             done.push_back(name + ": " + std::to_string(int(action)) + " on " +
-                           std::to_string(std::uint32_t(person)));
+                           std::to_string(std::uint32_t(person)) + " by " + by);
+        };
+        s.audit = [this](const session::AuditEvent& event) {
+            audited.push_back(std::string(text_of(event.what)) + " " + event.detail + " by " +
+                              event.by);
         };
         s.recording = [this]() -> RecordingProgram& { return recording; };
         return s;
@@ -87,7 +92,7 @@ protected:
     RecordingProgram recording{{folder.path() / "recordings", {"/bin/false"}}};
     bool is_expired = false, is_full = false;
     std::string held_back;
-    std::vector<std::string> done;
+    std::vector<std::string> done, audited;
     std::vector<ClosedSession> closed;
     SessionSwitch::Sessions sessions{{SessionNumber{1}, session("OR 3", "3")},
                                      {SessionNumber{2}, session("OR 4", "4")}};
@@ -140,7 +145,7 @@ TEST_F(Operators, OfTheFirstSessionSeeAllAndOthersTheirOwn) {
     EXPECT_EQ(act("person?id=7&do=mute&session=2").status, 204);
     EXPECT_EQ(act("person?id=7&do=mute&session=1", "operator-4").status, 404);
     EXPECT_EQ(act("session?create=OR5", "operator-4").status, 403);
-    EXPECT_THAT(done, ElementsAre("OR 4: 3 on 7"));
+    EXPECT_THAT(done, ElementsAre("OR 4: 3 on 7 by page of operator"));
 }
 
 TEST_F(Operators, SeeCamerasPeopleAndLinksWithoutTheirTokens) {
@@ -173,8 +178,12 @@ TEST_F(Operators, MakeShowAndRevokeLinks) {
                                   "revoked 5f0c2a91 by page of operator"));
     done.clear();
     EXPECT_EQ(act("link?revoke=operator").status, 409) << "by which this page is open";
-    for (const char* wrong : {"link?show=none", "link?revoke=none", "link", "link?role=king"})
+    for (const char* wrong : {"link?show=none", "link?revoke=none"})
         EXPECT_EQ(act(wrong).status, 404) << wrong;
+    for (const char* wrong : {"link", "link?role=king"})
+        EXPECT_EQ(act(wrong).status, 400) << wrong;
+    EXPECT_EQ(nlohmann::json::parse(act("link?show=operator&session=2").body)["is_own"], false)
+        << "of another session";
     for (const char* hours : {"0", "-1", "nan", "inf", "1e9", "2h", "%00"})
         EXPECT_EQ(act(std::string("link?role=expert&hours=") + hours).status, 409) << hours;
     is_full = true;
@@ -185,11 +194,14 @@ TEST_F(Operators, MakeShowAndRevokeLinks) {
 TEST_F(Operators, DecideOnPeople) {
     for (const char* what : {"admit", "turn_away", "mute", "unmute", "remove"})
         EXPECT_EQ(act(std::string("person?id=8&do=") + what).status, 204);
-    EXPECT_THAT(done, ElementsAre("OR 3: 1 on 8", "OR 3: 2 on 8", "OR 3: 3 on 8", "OR 3: 4 on 8",
-                                  "OR 3: 6 on 8"));
+    EXPECT_THAT(done,
+                ElementsAre("OR 3: 1 on 8 by page of operator", "OR 3: 2 on 8 by page of operator",
+                            "OR 3: 3 on 8 by page of operator", "OR 3: 4 on 8 by page of operator",
+                            "OR 3: 6 on 8 by page of operator"));
     for (const char* wrong : {"person?id=8", "person?do=mute", "person?id=0&do=mute",
                               "person?id=x&do=mute", "person?id=8&do=end_session"})
         EXPECT_EQ(act(wrong).status, 400) << wrong;
+    EXPECT_EQ(act("person?id=9&do=mute").status, 404) << "has left";
     EXPECT_EQ(done.size(), 5u);
 }
 
@@ -200,21 +212,38 @@ TEST_F(Operators, MakeSessionsThatAHostKeeps) {
     EXPECT_THAT(act("session?create=OR%205").body, HasSubstr("There is a session 'OR 5' already"));
     EXPECT_EQ(act("session?create=%0A").status, 409);
     EXPECT_EQ(act("session?end=none").status, 409);
+    EXPECT_EQ(act("session").status, 400);
     EXPECT_EQ(act("session?end=OR%205").status, 204);
     EXPECT_TRUE(kept_sessions(folder.path())[0].ends);
+    EXPECT_THAT(audited, ElementsAre("created OR 5 by page of operator",
+                                     "end_asked OR 5 by page of operator"));
 }
 
 TEST_F(Operators, HearWhyNothingIsRecorded) {
+    const auto state = [&] { return facts("operator-3")["sessions"][0]["recording"]; };
     EXPECT_EQ(act("recording?do=stop").status, 409);
     EXPECT_EQ(act("recording?do=dance").status, 400);
     EXPECT_EQ(act("recording?do=start").status, 204);
-    while (facts("operator-3")["sessions"][0]["recording"]["phase"] == "running")
+    EXPECT_THAT(done, ElementsAre("made for the recording of the operators' page by page of "
+                                  "operator with an end"));
+    ASSERT_EQ(audited.size(), 1u);
+    EXPECT_THAT(audited[0],
+                ::testing::MatchesRegex("recording_begun OR-3-.*mkv by page of operator"));
+    while (state()["phase"] == "running")
         std::this_thread::yield();
-    EXPECT_EQ(facts("operator-3")["sessions"][0]["recording"]["phase"], "failed");
+    EXPECT_EQ(state()["phase"], "failed");
+    EXPECT_EQ(state()["problem"], "Its program ended and said nothing.");
+    EXPECT_EQ(recording.take_end({})->link, "0badcafe");
+
     std::ofstream(folder.path() / "file");
     RecordingProgram blocked{{folder.path() / "file", {"/bin/true"}}};
     sessions[0].second.recording = [&]() -> RecordingProgram& { return blocked; };
     EXPECT_EQ(act("recording?do=start").status, 409);
+    EXPECT_EQ(done.size(), 1u) << "no link is made for nothing";
+    RecordingProgram none{{folder.path() / "recordings", {"/nonexistent"}}};
+    sessions[0].second.recording = [&]() -> RecordingProgram& { return none; };
+    EXPECT_EQ(act("recording?do=start").status, 409);
+    EXPECT_EQ(done.back(), "revoked 0badcafe by page of operator");
 }
 
 }  // namespace

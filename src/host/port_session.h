@@ -13,6 +13,7 @@
 #include "host/recording_program.h"
 #include "net/server.h"
 #include "session/admission.h"
+#include "session/audit_event.h"
 #include "wire/control.h"
 #include "wire/role.h"
 
@@ -48,8 +49,9 @@ struct PortSession {
                             const std::string& label, const std::string& by)>
         make_link;
     std::function<void(const std::string& link, const std::string& by)> revoke_link;
-    std::function<void(wire::ManageAction, ParticipantId)> manage;
+    std::function<void(wire::ManageAction, ParticipantId, const std::string& by)> manage;
     std::function<RecordingProgram&()> recording;
+    std::function<void(const session::AuditEvent&)> audit;
 };
 
 }  // namespace theatron::host

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
+#include <string_view>
 #include <thread>
 #include <utility>
 
@@ -46,11 +46,6 @@ std::string file_title(const std::string& title) {
     return result.empty() ? "session" : result;
 }
 
-// What is said about a recording lies beside it.
-fs::path remarks_of(fs::path file) {
-    return file += ".txt";
-}
-
 // "OR-3-2026-11-30T02-19-21Z.mkv", that is not there yet.
 fs::path new_file(const fs::path& folder, const std::string& title) {
     std::string time = files::utc_text(files::utc_now());
@@ -58,22 +53,9 @@ fs::path new_file(const fs::path& folder, const std::string& title) {
     const std::string name = file_title(title) + "-" + time;
     fs::path file = folder / (name + ".mkv");
     std::error_code none;
-    const auto is_taken = [&] {
-        return fs::exists(file, none) || fs::exists(remarks_of(file), none);
-    };
-    for (int number = 2; is_taken(); ++number)
+    for (int number = 2; fs::exists(file, none); ++number)
         file = folder / (name + "-" + std::to_string(number) + ".mkv");
     return file;
-}
-
-// The last line that is not empty.
-std::string last_line(const fs::path& file) {
-    std::ifstream in(file);
-    std::string line, last;
-    while (std::getline(in, line))
-        if (!line.empty())
-            last = line;
-    return clean_text(last, shown_of_remark);
 }
 
 // With its later segments.
@@ -96,23 +78,30 @@ public:
             throw Error("No recording was started: too many files are open.");
     }
     ~Pipe() {
-        close(ends_[0]);
-        close(ends_[1]);
+        for (const int end : ends_)
+            if (end >= 0)
+                close(end);
     }
     Pipe(const Pipe&) = delete;
     int out() const { return ends_[0]; }
+    int in() const { return ends_[1]; }
     // The text fits into the buffer of a pipe.
     void write(const std::string& text) const {
-        if (::write(ends_[1], text.data(), text.size()) != ssize_t(text.size()))
+        if (::write(in(), text.data(), text.size()) != ssize_t(text.size()))
             throw Error("No recording was started: its link could not be handed over.");
+    }
+    // Reading from it never waits; owned by the caller.
+    int take_out() {
+        (void)fcntl(out(), F_SETFL, O_NONBLOCK);
+        return std::exchange(ends_[0], -1);
     }
 
 private:
     int ends_[2];
 };
 
-// Its standard input is `in`, its output nothing, its errors the new file `remarks`.
-pid_t spawn_program(std::vector<std::string> words, int in, const fs::path& remarks) {
+// Its standard input is `in`, its errors go to `said`.
+pid_t spawn_program(std::vector<std::string> words, int in, int said) {
     std::vector<char*> argv;
     for (std::string& word : words)
         argv.push_back(word.data());
@@ -121,10 +110,9 @@ pid_t spawn_program(std::vector<std::string> words, int in, const fs::path& rema
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, in, STDIN_FILENO);
     posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, remarks.c_str(),
-                                     O_WRONLY | O_CREAT | O_EXCL, 0600);
+    posix_spawn_file_actions_adddup2(&actions, said, STDERR_FILENO);
     posix_spawn_file_actions_addclosefrom_np(&actions, STDERR_FILENO + 1);
-    // Ctrl-C in the terminal is for the host, whose end the recording notices.
+    // Ctrl-C in the terminal is for the host, which ends its recording.
     posix_spawnattr_t attributes;
     posix_spawnattr_init(&attributes);
     sigset_t none, all;
@@ -144,6 +132,22 @@ pid_t spawn_program(std::vector<std::string> words, int in, const fs::path& rema
     return id;
 }
 
+// The recordings of a folder that the administrator has made are read by whom that one chose.
+void make_folder(const fs::path& folder) {
+    std::error_code none;
+    if (!fs::is_directory(folder, none))
+        files::open_private_folder(folder);
+}
+
+// Free bytes of the disk on which `folder` is, or will be.
+std::optional<std::uint64_t> free_bytes_for(fs::path folder) {
+    std::error_code none;
+    while (!fs::exists(folder, none) && folder != folder.parent_path())
+        folder = folder.parent_path();
+    const auto space = fs::space(folder, none);
+    return none ? std::nullopt : std::optional(std::uint64_t(space.available));
+}
+
 }  // namespace
 
 const char* text_of(RecordingProgram::Phase phase) {
@@ -151,7 +155,13 @@ const char* text_of(RecordingProgram::Phase phase) {
     return texts[std::size_t(phase)];
 }
 
-RecordingProgram::~RecordingProgram() {
+RecordingProgram::RecordingProgram(Options options)
+    : options_([&] {
+          options.folder = fs::absolute(options.folder);
+          return std::move(options);
+      }()) {}
+
+void RecordingProgram::end() {
     (void)stop();
     const TimePoint end = steady_now() + end_patience;
     for (bool is_killed = false;;) {
@@ -170,23 +180,39 @@ RecordingProgram::~RecordingProgram() {
     }
 }
 
-void RecordingProgram::start(const std::string& link, const std::string& title, TimePoint now) {
+void RecordingProgram::require_ready(TimePoint now) {
     const std::lock_guard lock(mutex_);
     look(now);
     if (child_)
         throw Error("This session is being recorded already.");
-    files::open_private_folder(options_.folder);
+    make_folder(options_.folder);
+    const auto free = free_bytes_for(options_.folder);
+    if (free && *free < least_free_bytes)
+        throw Error("The disk of '" + options_.folder.string() +
+                    "' is full; make room on it, or "
+                    "name another folder with --recordings.");
+}
+
+fs::path RecordingProgram::start(const std::string& link, const std::string& link_name,
+                                 const std::string& title, TimePoint now) {
+    require_ready(now);
+    const std::lock_guard lock(mutex_);
+    if (child_)
+        throw Error("This session is being recorded already.");
     State begun{.phase = Phase::running, .file = new_file(options_.folder, title)};
-    fs::path remarks = remarks_of(begun.file);
-    const Pipe pipe;
-    pipe.write(link + "\n");
+    Pipe said;
+    const Pipe to_child;
+    to_child.write(link + "\n");
     std::vector<std::string> words = options_.program;
     for (const std::string& word : {std::string("@/dev/stdin"), begun.file.string()})
         words.push_back(word);
-    child_ = {spawn_program(std::move(words), pipe.out(), remarks), now, false};
+    const pid_t id = spawn_program(std::move(words), to_child.out(), said.in());
+    child_ = {id, said.take_out(), now, false};
     state_ = std::move(begun);
-    remarks_ = std::move(remarks);
+    link_ = link_name;
+    line_ = remark_ = "";
     log::info("host", "recording", {{"file", state_.file.string()}});
+    return state_.file;
 }
 
 bool RecordingProgram::stop() {
@@ -205,18 +231,35 @@ RecordingProgram::State RecordingProgram::state(TimePoint now) {
     State shown = state_;
     if (child_)
         shown.bytes = bytes_of(shown.file);
-    std::error_code none;
-    fs::path there = options_.folder;
-    while (!fs::exists(there, none) && there != there.parent_path())
-        there = there.parent_path();
-    if (const auto space = fs::space(there, none); !none)
-        shown.free_bytes = space.available;
+    shown.free_bytes = free_bytes_for(options_.folder);
     return shown;
 }
 
-void RecordingProgram::follow(TimePoint now) {
+std::optional<RecordingProgram::End> RecordingProgram::take_end(TimePoint now) {
     const std::lock_guard lock(mutex_);
     look(now);
+    return std::exchange(ended_, std::nullopt);
+}
+
+// Keeps its last line.
+void RecordingProgram::listen() {
+    char part[1024];
+    for (ssize_t count = 0; (count = read(child_->said, part, sizeof(part))) > 0;)
+        for (const char c : std::string_view(part, std::size_t(count))) {
+            if (c != '\n' && line_.size() < sizeof(part))
+                line_ += c;
+            if (c == '\n' && !line_.empty())
+                remark_ = std::exchange(line_, "");
+        }
+}
+
+std::string RecordingProgram::problem_of(int status) const {
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGINT && child_->asked)
+        return "It was stopped before it began.";
+    if (WIFSIGNALED(status))
+        return "Its program was ended by signal " + std::to_string(WTERMSIG(status)) + ".";
+    const std::string said = clean_text(remark_, shown_of_remark);
+    return said.empty() ? "Its program ended and said nothing." : said;
 }
 
 void RecordingProgram::look(TimePoint now) {
@@ -227,20 +270,20 @@ void RecordingProgram::look(TimePoint now) {
     do
         ended = waitpid(child_->id, &status, WNOHANG);
     while (ended < 0 && errno == EINTR);
+    listen();
     if (state_.phase == Phase::running)
         state_.seconds = to_seconds(now - child_->begun);
     if (ended == 0)
         return;
-    const int code = ended > 0 && WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     state_.phase = code == 0                 ? Phase::whole
                    : code == exit_incomplete ? Phase::incomplete
                                              : Phase::failed;
     state_.bytes = bytes_of(state_.file);
     if (code != 0)
-        state_.problem = last_line(remarks_);
-    std::error_code none;
-    if (fs::file_size(remarks_, none) == 0)
-        fs::remove(remarks_, none);
+        state_.problem = problem_of(status);
+    close(child_->said);
+    ended_ = {link_, state_.file.filename().string() + ": " + text_of(state_.phase)};
     log::info("host", "recording ended",
               {{"file", state_.file.string()}, {"as", text_of(state_.phase)}});
     child_.reset();

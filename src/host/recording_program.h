@@ -23,6 +23,8 @@ class RecordingProgram {
 public:
     // Until a child that was asked to end has its file whole; then it is killed.
     static constexpr Duration end_patience = std::chrono::seconds(20);
+    // A recording does not begin on a disk with less.
+    static constexpr std::uint64_t least_free_bytes = 200'000'000;
 
     enum class Phase {
         none,  // nothing was recorded yet
@@ -36,44 +38,58 @@ public:
         Phase phase = Phase::none;
         std::filesystem::path file;  // of the one that runs, or the last one
         double seconds = 0;
-        std::uint64_t bytes = 0;       // of its files
-        std::uint64_t free_bytes = 0;  // of the disk on which recordings are; 0: unknown
-        std::string problem;           // what the program said last
+        std::uint64_t bytes = 0;                  // of its files
+        std::optional<std::uint64_t> free_bytes;  // of the disk of recordings; nullopt: unknown
+        std::string problem;                      // a sentence; of one that is not whole
     };
 
     struct Options {
         std::filesystem::path folder;  // of recordings, is made when the first one begins
-        // The program and its words before the link and the file.
-        std::vector<std::string> program = {"/proc/self/exe", "record"};
+        // The program and its words before the link and the file. It ends with this process.
+        std::vector<std::string> program = {"/proc/self/exe", "record", "--with-parent"};
     };
-    explicit RecordingProgram(Options options) : options_(std::move(options)) {}
-    // Waits for a child that runs, whose session has ended or is asked to end now.
-    ~RecordingProgram();
+    explicit RecordingProgram(Options options);
+    ~RecordingProgram() { end(); }
     RecordingProgram(const RecordingProgram&) = delete;
     RecordingProgram& operator=(const RecordingProgram&) = delete;
 
-    // `link`: by which it joins; no other program sees it. `title` begins the name of the file, as
-    // far as a file may have it. Throws Error with one sentence, also where one runs already.
-    void start(const std::string& link, const std::string& title, TimePoint now);
+    // Throws Error with one sentence where a recording cannot begin now.
+    void require_ready(TimePoint now);
+    // `link`: by which it joins; no other program sees it. `link_name`: of that link. `title`
+    // begins the name of the file, as far as a file may have it. Returns the file. Throws Error.
+    std::filesystem::path start(const std::string& link, const std::string& link_name,
+                                const std::string& title, TimePoint now);
     // Asks it to end. False: none runs.
     bool stop();
+    // Asks it to end and waits for that. From another thread than that of the session.
+    void end();
     State state(TimePoint now);
-    // Notices its end. To be called now and then, also where nobody asks for the state.
-    void follow(TimePoint now);
+
+    // To be called now and then, also where nobody asks for the state: the end of a recording,
+    // once. `told`: its file and how it ended, for the audit log.
+    struct End {
+        std::string link, told;
+    };
+    std::optional<End> take_end(TimePoint now);
 
 private:
     struct Child {
         pid_t id = 0;
+        int said = -1;  // its standard error
         TimePoint begun;
         bool asked = false;  // to end
     };
-    void look(TimePoint now);  // with mutex_
+    // With mutex_:
+    void look(TimePoint now);
+    void listen();
+    std::string problem_of(int status) const;
 
     const Options options_;
     std::mutex mutex_;  // guards all below
     std::optional<Child> child_;
     State state_;
-    std::filesystem::path remarks_;  // what the program says, beside its file
+    std::string link_, line_, remark_;  // the link's name; what the child says, and said last
+    std::optional<End> ended_;
 };
 
 const char* text_of(RecordingProgram::Phase phase);

@@ -49,15 +49,19 @@ protected:
 TEST_F(Recordings, GetTheLinkByStandardInputAndAFileOfTheirOwn) {
     RecordingProgram program(options("test \"$1\" = @/dev/stdin && cat > \"$2\""));
     EXPECT_EQ(program.state(now).phase, Phase::none);
-    program.start("https://or-3/#join=secret", "OR 3: left/right", now);
+    program.start("https://or-3/#join=secret", "0badcafe", "OR 3: left/right", now);
     const auto state = after(program, Phase::running);
     EXPECT_EQ(state.phase, Phase::whole);
     EXPECT_EQ(content(state.file), "https://or-3/#join=secret\n");
     EXPECT_EQ(state.bytes, content(state.file).size());
-    EXPECT_GT(state.free_bytes, 0u);
+    EXPECT_GT(state.free_bytes.value_or(0), 0u);
     EXPECT_THAT(state.file.filename().string(), HasSubstr("OR-3-left-right-20"));
-    EXPECT_FALSE(std::filesystem::exists(state.file.string() + ".txt")) << "nothing was said";
-    program.start("link", "OR 3: left/right", now);
+    const auto end = program.take_end(now);
+    ASSERT_TRUE(end);
+    EXPECT_EQ(end->link, "0badcafe");
+    EXPECT_EQ(end->told, state.file.filename().string() + ": whole");
+    EXPECT_FALSE(program.take_end(now)) << "once";
+    program.start("link", "0badcafe", "OR 3: left/right", now);
     EXPECT_NE(program.state(now).file, state.file);
     after(program, Phase::running);
     EXPECT_EQ(content(state.file), "https://or-3/#join=secret\n") << "nothing is replaced";
@@ -66,7 +70,7 @@ TEST_F(Recordings, GetTheLinkByStandardInputAndAFileOfTheirOwn) {
 TEST_F(Recordings, SayHowTheyEnded) {
     const auto ended = [&](const std::string& script) {
         RecordingProgram program(options(script));
-        program.start("link", "a", now);
+        program.start("link", "0badcafe", "a", now);
         return after(program, Phase::running);
     };
     EXPECT_EQ(ended("echo one >&2; echo 'Something is missing.' >&2; exit 3").phase,
@@ -74,15 +78,20 @@ TEST_F(Recordings, SayHowTheyEnded) {
     const auto failed = ended("echo 'The disk is full.' >&2; exit 1");
     EXPECT_EQ(failed.phase, Phase::failed);
     EXPECT_EQ(failed.problem, "The disk is full.");
-    EXPECT_THAT(content(failed.file.string() + ".txt"), HasSubstr("The disk is full."));
-    EXPECT_EQ(ended("kill -9 $$").phase, Phase::failed);
+    EXPECT_EQ(ended("exit 1").problem, "Its program ended and said nothing.");
+    EXPECT_EQ(ended("kill -9 $$").problem, "Its program was ended by signal 9.");
+    // More than a pipe holds, while nobody asks.
+    EXPECT_EQ(ended("i=0; while [ $i -lt 3000 ]; do echo 'A line of some forty bytes, again and "
+                    "again' >&2; i=$((i+1)); done; exit 3")
+                  .problem,
+              "A line of some forty bytes, again and again");
 }
 
 TEST_F(Recordings, EndWhenTheyAreAsked) {
     RecordingProgram program(options(until_asked()));
     EXPECT_FALSE(program.stop()) << "none runs";
-    program.start("link", "a", now);
-    EXPECT_THROW(program.start("link", "a", now), Error) << "one runs already";
+    program.start("link", "0badcafe", "a", now);
+    EXPECT_THROW(program.start("link", "0badcafe", "a", now), Error) << "one runs already";
     while (program.state(now).bytes == 0)
         std::this_thread::yield();
     EXPECT_EQ(program.state(now + std::chrono::seconds(3)).seconds, 3);
@@ -97,7 +106,7 @@ TEST_F(Recordings, AreAskedToEndWithTheirHost) {
     std::filesystem::path file;
     {
         RecordingProgram program(options(until_asked()));
-        program.start("link", "a", now);
+        program.start("link", "0badcafe", "a", now);
         while (program.state(now).bytes == 0)
             std::this_thread::yield();
         file = program.state(now).file;
@@ -105,13 +114,20 @@ TEST_F(Recordings, AreAskedToEndWithTheirHost) {
     EXPECT_EQ(content(file), "link\nrest\n");
 }
 
+TEST_F(Recordings, ThatAreStoppedAtOnceSaySo) {
+    RecordingProgram program(options("while :; do :; done"));
+    program.start("link", "0badcafe", "a", now);
+    EXPECT_TRUE(program.stop());
+    EXPECT_EQ(after(program, Phase::ending).problem, "It was stopped before it began.");
+}
+
 TEST_F(Recordings, ThatCannotBeginSayWhy) {
     RecordingProgram none({folder.path() / "recordings", {"/nonexistent"}});
-    EXPECT_THROW(none.start("link", "a", now), Error);
+    EXPECT_THROW(none.start("link", "0badcafe", "a", now), Error);
     EXPECT_EQ(none.state(now).phase, Phase::none);
     std::ofstream(folder.path() / "file");
     RecordingProgram blocked({folder.path() / "file", {"/bin/true"}});
-    EXPECT_THROW(blocked.start("link", "a", now), Error);
+    EXPECT_THROW(blocked.start("link", "0badcafe", "a", now), Error);
 }
 
 }  // namespace

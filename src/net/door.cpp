@@ -338,6 +338,8 @@ private:
         if (!answered)
             return false;
         note_guess(asked, *answered);
+        if (*bytes == 0)
+            return answer(std::move(*answered)), true;
         if (answered->status != 204)
             return refuse(std::move(*answered)), true;
         extend(body_deadline, "did not send its body in time");

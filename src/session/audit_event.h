@@ -36,6 +36,10 @@ struct AuditEvent {
         voice_not_agreed,  // no longer
         adjusted,          // a camera; `detail` says how
         deleted,           // the session, with its links and its room
+        created,           // a further session, named by `detail`
+        end_asked,         // of the session that `detail` names, for good
+        recording_begun,   // by the host itself; `detail` names the file
+        recording_ended,   // by the host itself; `detail` names the file, and how it ended
         cleared,           // what somebody made in the room; `detail` says how many objects
     };
     What what{};
@@ -50,10 +54,11 @@ struct AuditEvent {
 
 constexpr const char* text_of(AuditEvent::What what) {
     constexpr const char* texts[] = {
-        "began",     "ended",        "waits",  "admitted", "turned_away",  "joined",
-        "left",      "removed",      "muted",  "unmuted",  "role_changed", "refused",
-        "link_made", "link_revoked", "shared", "unshared", "voice_agreed", "voice_not_agreed",
-        "adjusted",  "deleted",      "cleared"};
+        "began",     "ended",        "waits",   "admitted",  "turned_away",     "joined",
+        "left",      "removed",      "muted",   "unmuted",   "role_changed",    "refused",
+        "link_made", "link_revoked", "shared",  "unshared",  "voice_agreed",    "voice_not_agreed",
+        "adjusted",  "deleted",      "created", "end_asked", "recording_begun", "recording_ended",
+        "cleared"};
     return texts[std::size_t(what)];
 }
 

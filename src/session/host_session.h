@@ -82,8 +82,10 @@ public:
                     const std::map<std::string, std::string>& makers = {});
     // Makes a link invalid. `by`: as in AuditEvent.
     void revoke_link(const std::string& link, const std::string& by);
-    // Carries out a decision of the person at the host's own machine, as one of an operator.
-    wire::ManageRefusal manage(const wire::Manage& decision, TimePoint now);
+    // Carries out a decision of somebody who is no participant, as one of an operator. `by`: as in
+    // AuditEvent.
+    wire::ManageRefusal manage(const wire::Manage& decision, TimePoint now,
+                               const std::string& by = at_the_host);
     // Everyone who waits for admission.
     std::vector<wire::Visitor> visitors() const;
     // The tokens of links by which those came who were removed and are kept out.
@@ -227,8 +229,9 @@ private:
     void end_leading(ParticipantId leader);
     void follow_paths();
     void carry_out_late(ParticipantId id, Participant& participant, TimePoint now);
-    // `by`: the operator; 0: the person at the host's machine.
-    wire::ManageRefusal manage(const wire::Manage& decision, ParticipantId by, TimePoint now);
+    // `by`: the operator; 0: no participant. `by_name`: as in AuditEvent.
+    wire::ManageRefusal manage(const wire::Manage& decision, ParticipantId by,
+                               const std::string& by_name, TimePoint now);
     wire::ManageRefusal clear_objects(ParticipantId id, const std::string& by);
     void set_role(ParticipantId id, Role role);
     // This connection and the others of the same person.

@@ -61,18 +61,20 @@ void HostSession::deny(ParticipantId id, const wire::ToHost& message) {
 }
 
 void HostSession::carry_out(ParticipantId id, const wire::Manage& decision, TimePoint now) {
-    const ManageRefusal refusal = manage(decision, id, now);
+    const std::string name = admission_.find(id)->name;
+    const ManageRefusal refusal = manage(decision, id, name, now);
     // Perhaps the decision has ended the sender's own connection.
     if (const Participant* sender = admission_.find(id); sender && sender->takes_part())
         send(id, wire::Managed{decision.number, refusal});
 }
 
-ManageRefusal HostSession::manage(const wire::Manage& decision, TimePoint now) {
-    return manage(decision, the_host, now);
+ManageRefusal HostSession::manage(const wire::Manage& decision, TimePoint now,
+                                  const std::string& by) {
+    return manage(decision, the_host, by, now);
 }
 
-ManageRefusal HostSession::manage(const wire::Manage& decision, ParticipantId by, TimePoint now) {
-    const std::string by_name = by == the_host ? at_the_host : admission_.find(by)->name;
+ManageRefusal HostSession::manage(const wire::Manage& decision, ParticipantId by,
+                                  const std::string& by_name, TimePoint now) {
     if (decision.action == ManageAction::end_session) {
         actions_.push_back(action::Audit{{What::ended, {}, "", {}, {}, "", by_name, ""}});
         end(TextCode::ended_by_operator);

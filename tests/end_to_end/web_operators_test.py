@@ -3,10 +3,13 @@
 import json
 import os
 import pathlib
+import signal
+import ssl
 import unittest
+import urllib.request
 
 from page_case import PageCase
-from theatron_process import Process, run, wait_until
+from theatron_process import Process, host, run, wait_until
 from web_access_test import AXE, CONTRAST, FINDINGS
 
 PICTURES = os.environ.get("THEATRON_PICTURES")  # a folder where pictures of the page stay
@@ -18,6 +21,16 @@ ROWS = "[...document.querySelectorAll('#%s > li')].map(row => row.querySelector(
 
 def shown(condition):
     return f"document.getElementById('all')?.checkVisibility() && {condition}"
+
+
+def recorders_of(file):
+    found = []
+    for words in pathlib.Path("/proc").glob("[0-9]*/cmdline"):
+        try:
+            found += [words] if file.name.encode() in words.read_bytes() else []
+        except OSError:
+            pass  # it has ended meanwhile
+    return found
 
 
 class WebOperators(PageCase):
@@ -41,8 +54,13 @@ class WebOperators(PageCase):
         return page
 
     def click(self, page, element, times=1):
-        for _ in range(times):
+        page.evaluate("globalThis.later ??= (() => { const now = performance.now.bind(performance); let ms = 0;"
+                      "performance.now = () => now() + ms; return () => ms += 1000; })(); 0")
+        for i in range(times):
             page.evaluate(f"(b => {{ b.focus(); b.click(); }})({element})")
+            if i + 1 < times:  # the second click of a double click does nothing
+                page.evaluate(f"{element}.click()")
+            page.evaluate("later(); 0")
 
     def in_row(self, list_id, words, button):
         return (f"[...document.querySelectorAll('#{list_id} > li')].find(row => row.textContent.includes({json.dumps(words)}))"
@@ -54,8 +72,9 @@ class WebOperators(PageCase):
     def test_cameras_are_shown_with_live_pictures_and_their_state(self):
         page = self.opened()
         page.wait_for("document.querySelectorAll('#cameras canvas').length === 1")
-        page.wait_for("(c => c.width > 100 && new Set(c.getContext('2d').getImageData(0, 0, c.width, c.height).data).size > 20)"
-                      "(document.querySelector('#cameras canvas'))")
+        page.wait_for("document.querySelector('#cameras canvas').width > 100")
+        self.assertGreater(page.evaluate("(c => new Set(c.getContext('2d').getImageData(0, 0, c.width, c.height).data).size)"
+                                         "(document.querySelector('#cameras canvas'))"), 20, "a picture")
         page.wait_for("document.querySelector('#cameras .state').textContent.startsWith('live')")
         self.assertEqual(page.problems, [])
 
@@ -85,19 +104,16 @@ class WebOperators(PageCase):
                 self.click(page, button)
                 page.wait_for(f"!{ROWS % 'links'}.some(words => words.includes('Dr. Adä'))")
                 page.wait_for(f"!{ROWS % 'people'}.some(words => words.includes('Olga'))")
-        wait_until(lambda: any(e["event"] == "link_revoked" and "participant" not in e for e in self.audited()))
-        own = [(e["event"], e["by"]) for e in self.audited() if e["event"] in ("link_made", "link_revoked") and "participant" not in e]
+        name = next(e["link"] for e in self.audited() if e.get("name") == "Olga")
+        own = [(e["event"], e["by"]) for e in self.audited() if e.get("link") == name and "participant" not in e]
         self.assertEqual(own, [("link_made", "page of operator"), ("link_revoked", "page of operator")])
 
     def test_a_link_goes_by_itself_after_a_minute(self):
-        page = self.browser.open("about:blank", SIZES[0])
-        # A second of the page's clock passes in a hundredth.
-        page.call("Page.addScriptToEvaluateOnNewDocument",
-                  source="const slow = setInterval; globalThis.setInterval = (f, ms) => slow(f, ms / 100)")
-        page.call("Page.navigate", url=self.links["operator"].replace("/#", "/operators#"))
-        page.wait_for(shown("document.querySelectorAll('#links > li').length > 0"))
+        page = self.opened()
         self.click(page, self.in_row("links", "expert", "show"))
         page.wait_for("document.getElementById('link_text').value.startsWith('https://')")
+        self.assertRegex(page.evaluate("document.getElementById('link_left').textContent"), r"^It is hidden again in (60|5\d) s\.$")
+        page.evaluate("Date.now = (now => () => now() + 60_000)(Date.now.bind(Date)); 0")
         page.wait_for("!document.getElementById('shown_link').checkVisibility() && document.getElementById('link_text').value === ''"
                       " && document.getElementById('link_code').width === 0")
 
@@ -112,6 +128,8 @@ class WebOperators(PageCase):
             page.wait_for(f"{ROWS % 'people'}.includes('Ben (expert)')")
             self.click(page, self.in_row("people", "Ben", "remove"), times=2)
             page.wait_for(f"!{ROWS % 'people'}.some(words => words.includes('Ben'))")
+        self.assertEqual([(e["event"], e["by"]) for e in self.audited() if e.get("name") == "Ben" and "by" in e],
+                         [(event, "page of operator") for event in ("muted", "unmuted", "removed")])
         for role in ("expert", "observer", "publisher"):
             other = self.page_of(self.links[role])
             other.wait_for("document.getElementById('problem')?.textContent.startsWith('This page is for operators.')")
@@ -135,6 +153,10 @@ class WebOperators(PageCase):
         self.assertEqual((code, json.loads(out)["complete"]), (0, True), err)
         self.assertEqual(file.parent, self.folder / "host/recordings")
         self.assertEqual(file.parent.stat().st_mode & 0o777, 0o700)
+        events = [e for e in self.audited() if e["event"].startswith("recording_")]
+        self.assertEqual([(e["event"], e["by"], e["detail"]) for e in events],
+                         [("recording_begun", "page of operator", file.name), ("recording_ended", "host", f"{file.name}: whole")])
+        page.wait_for(f"!{ROWS % 'links'}.some(words => words.includes('the recording'))")
         self.assertEqual(page.problems, [])
 
     def test_sessions_are_made_and_ended(self):
@@ -156,6 +178,35 @@ class WebOperators(PageCase):
         self.click(page, self.in_row("sessions", "OR 9", "end"), times=2)
         page.wait_for("![...document.getElementById('session_choice').options].some(option => option.textContent === 'OR 9')"
                       " && document.querySelectorAll('#cameras > li').length === 1")
+        # The session that is shown has ended: the page acts on its own one again.
+        page.evaluate("document.getElementById('make_link').requestSubmit()")
+        page.wait_for("document.getElementById('link_text').value.startsWith('https://')")
+        self.assertEqual(page.evaluate("document.getElementById('problem').textContent"), "")
+
+    def test_a_host_that_ends_has_a_whole_recording_and_one_that_is_killed_leaves_no_recorder(self):
+        for sig, code in ((signal.SIGTERM, 0), (signal.SIGKILL, None)):
+            state = self.folder / f"ends by {sig}"
+            with host(state, CAMERA) as h, self.subTest(sig):
+                link = h.greeting["links"]["operator"]
+                token = link.split("join=")[1].split("&")[0]
+                address = link.split("/#")[0]
+                def ask(path, method):
+                    request = urllib.request.Request(f"{address}/operators/{path}", headers={"Authorization": f"Bearer {token}"}, method=method)
+                    return urllib.request.urlopen(request, context=ssl._create_unverified_context()).read()
+
+                ask("recording?do=start", "POST")
+                facts = json.loads(ask("facts", "GET"))
+                file = pathlib.Path(facts["sessions"][0]["recording"]["file"])
+                wait_until(lambda: file.exists() and file.stat().st_size > 200_000, of=h)
+                h.send(sig)
+                if code is not None:
+                    self.assertEqual(h.end(), code)
+            if code is None:
+                # Its file is free once the recorder has ended.
+                wait_until(lambda: not recorders_of(file))
+            result, out, err = run("inspect", file, "--verify", "--json")
+            self.assertIn(result, (0,) if code == 0 else (0, 3), err)
+            self.assertEqual(json.loads(out)["complete"], code == 0)
 
     def test_it_is_readable_in_each_size_scheme_and_language(self):
         with self.member(self.links["expert"], "Ben") as ben:

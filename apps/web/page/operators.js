@@ -53,7 +53,7 @@ function tell(sentence) {
     $("problem").hidden = !sentence;
 }
 
-const links = new Links(act);
+const links = new Links(act, () => shown_session().name);
 
 // The host's answer decides what is shown; false where it will not show anything by this link.
 async function follow() {
@@ -88,7 +88,18 @@ async function follow() {
 const shown_session = () => facts.sessions.find(({ number, is_own }) => session_number === null ? is_own : number === session_number)
     ?? facts.sessions.find(({ is_own }) => is_own);
 
+// Rows of two sessions may have the same names and numbers.
+function show_other_session(number) {
+    session_number = number;
+    links.leave_session();
+    for (const list of ["cameras", "people", "visitors", "problems"])
+        $(list).replaceChildren();
+    $("stop_recording").be_calm();
+}
+
 function show() {
+    if (session_number !== null && !facts.sessions.some(({ number }) => number === session_number))
+        show_other_session(null);  // it has ended
     const session = shown_session();
     $("all").hidden = false;
     $("session_title").textContent = session.name;
@@ -112,8 +123,8 @@ function show_sessions(session) {
     $("session_choice").value = session.number;
     $("enter_room").hidden = !session.is_own;
     $("sessions_part").hidden = !facts.may_create;
-    const rows = [...all, ...facts.closed.map(closed => ({ ...closed, closed: true }))];
-    follow_rows($("sessions"), rows, ({ name }) => name, (row, { name, may_end }) => {
+    const rows = [...all, ...facts.closed.map(closed => ({ ...closed, closed: true, may_end: true }))];
+    follow_rows($("sessions"), rows, ({ name, closed }) => `${closed} ${name}`, (row, { name, may_end }) => {
         const { buttons } = add_words(row);
         if (may_end)
             add_button(buttons, "end", text("end_session"), () => act(`session?${new URLSearchParams({ end: name })}`), text("end_session_sure"));
@@ -133,16 +144,24 @@ function time_text(seconds) {
 
 function show_recording({ phase, file, seconds, bytes, free_bytes, problem }) {
     const is_on = phase === "running", is_ending = phase === "ending";
+    const says = text(phase_texts[phase], { time: time_text(seconds), size: size_text(bytes), problem });
+    $("recording_says").textContent = says;
+    // A screen reader tells changes, and not each second.
+    if ($("recording").dataset.phase !== phase && $("recording").dataset.phase)
+        $("recording_news").textContent = says;
     $("recording").dataset.phase = phase;
-    $("recording_says").textContent = text(phase_texts[phase], { time: time_text(seconds), size: size_text(bytes), problem });
     const rate = is_on && seconds > least_rate_seconds ? bytes / seconds : 0;
     const hours = rate ? free_bytes / rate / 3600 : null;
-    $("recording_space").textContent = !free_bytes ? "" : hours === null ? text("space_free", { size: size_text(free_bytes) })
+    const is_known = free_bytes !== null;
+    $("recording_space").textContent = !is_known ? "" : hours === null ? text("space_free", { size: size_text(free_bytes) })
         : text("space_left", { size: size_text(free_bytes), hours: new Intl.NumberFormat(language, { maximumFractionDigits: 1 }).format(hours) });
-    $("recording_space").classList.toggle("warning", !!free_bytes && (free_bytes < little_bytes || (hours !== null && hours < 1)));
+    $("recording_space").classList.toggle("warning", is_known && (free_bytes < little_bytes || (hours !== null && hours < 1)));
     $("recording_file").textContent = file;
+    const had_focus = $("recording").contains(document.activeElement);
     $("start_recording").hidden = is_on || is_ending;
     $("stop_recording").hidden = !is_on;
+    if (had_focus && !is_ending)
+        $(is_on ? "stop_recording" : "start_recording").focus();
 }
 
 function show_cameras(cameras) {
@@ -210,8 +229,7 @@ for (const element of document.querySelectorAll("[data-text]"))
 document.documentElement.lang = language;
 $("enter_room").addEventListener("click", () => location.href = `/${location.hash}`);
 $("session_choice").addEventListener("change", () => {
-    session_number = Number($("session_choice").value);
-    links.hide();
+    show_other_session(Number($("session_choice").value));
     show();
     show_pictures();
 });

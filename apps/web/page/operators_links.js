@@ -5,15 +5,17 @@ import { text } from "./operators_texts.js";
 import { add_button, add_words, follow_rows } from "./operators_rows.js";
 
 const $ = id => document.getElementById(id);
-const shown_s = 60;
+const shown_ms = 60_000;
 const quiet_modules = 4, module_pixels = 6;
 const lifetimes = [["1", "one_hour"], ["8", "eight_hours"], ["24", "one_day"], ["168", "one_week"], ["", "no_end"]];
 const usual_hours = "8";
 
 export class Links {
-    // `act(path)` asks the host, and resolves to its answer's JSON, or null where it refused.
-    constructor(act) {
-        this.act = act;
+    turn = 0;  // an answer that comes after the change to another session is not shown
+
+    // `act(path)` asks the host, and resolves to its answer's JSON, or null where it refused. `session_name()`: that is shown.
+    constructor(act, session_name) {
+        Object.assign(this, { act, session_name });
         $("link_role").append(...["expert", "observer", "publisher", "operator"].map(role => new Option(texts.roles[role], role)));
         $("link_hours").append(...lifetimes.map(([hours, key]) => new Option(text(key), hours, hours === usual_hours, hours === usual_hours)));
         $("make_link").addEventListener("submit", event => {
@@ -23,31 +25,47 @@ export class Links {
         });
         $("hide_link").addEventListener("click", () => this.hide());
         $("copy_link").addEventListener("click", () => this.copy());
+        // A page in the background has hardly a clock, and one that is kept for the button "Back" has none.
+        document.addEventListener("visibilitychange", () => this.follow_time());
+        addEventListener("pagehide", () => this.hide());
     }
 
     async ask(wish) {
-        const link = await this.act(`link?${new URLSearchParams(wish)}`);
-        if (link)
+        const turn = this.turn, link = await this.act(`link?${new URLSearchParams(wish)}`);
+        if (link && turn === this.turn)
             this.show(link);
         return link;
     }
 
+    hidden_at = 0;  // by the clock of the day, which goes on while the computer sleeps
+
     show(link) {
-        $("shown_link_for").textContent = title_of(link);
+        $("shown_link_for").textContent = `${this.session_name()}: ${title_of(link)}`;
         $("link_text").value = link.link;
         $("link_says").textContent = "";
         $("link_code").setAttribute("aria-label", text("code_of_link"));
         draw_code($("link_code"), link.qr);
         $("shown_link").hidden = false;
         $("copy_link").focus();
-        this.left_s = shown_s;
+        this.hidden_at = Date.now() + shown_ms;
         clearInterval(this.timer);
-        this.tell_left();
-        this.timer = setInterval(() => --this.left_s > 0 ? this.tell_left() : this.hide(), 1000);
+        this.follow_time();
+        this.timer = setInterval(() => this.follow_time(), 1000);
     }
 
-    tell_left() {
-        $("link_left").textContent = text("link_left", { s: this.left_s });
+    follow_time() {
+        const left_ms = this.hidden_at - Date.now();
+        if (left_ms > 0)
+            $("link_left").textContent = text("link_left", { s: Math.ceil(left_ms / 1000) });
+        else
+            this.hide();
+    }
+
+    // Another session is shown: nothing of the one before.
+    leave_session() {
+        ++this.turn;
+        this.hide();
+        $("links").replaceChildren();
     }
 
     // Nothing of it stays in the page.
