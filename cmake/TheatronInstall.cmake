@@ -33,7 +33,11 @@ install(CODE "if(NOT EXISTS \"${THEATRON_PAGE}/files.txt\")
 endif()" COMPONENT page)
 
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT doc PATTERN changes EXCLUDE)
-install(FILES ${CMAKE_SOURCE_DIR}/README.md ${CMAKE_SOURCE_DIR}/CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT doc)
+# The pages have links to these, too.
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT doc PATTERN __pycache__ EXCLUDE)
+foreach(page README.md CHANGELOG.md SECURITY.md CONTRIBUTING.md LICENSE)
+  install(FILES ${CMAKE_SOURCE_DIR}/${page} DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT doc)
+endforeach()
 
 install(FILES ${packaging}/theatron.desktop ${packaging}/theatron-link.desktop ${packaging}/theatron-view.desktop
   DESTINATION ${CMAKE_INSTALL_DATADIR}/applications

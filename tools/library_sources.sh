@@ -45,22 +45,27 @@ for file in /etc/apt/sources.list /etc/apt/sources.list.d/*.list; do
 done
 grep -q deb-src "$work"/parts/* 2> /dev/null || give_up "apt has no sources of Debian"
 
-apt() {
-    apt-get -q -o APT::Sandbox::User="$(id -un)" -o APT::Update::Error-Mode=any \
-        -o Acquire::Retries=1 -o Acquire::http::Timeout=20 -o Acquire::https::Timeout=20 \
-        -o Dir::Etc::SourceList=/dev/null -o Dir::Etc::SourceParts="$work/parts" \
-        -o Dir::State::Lists="$work/lists" -o Dir::Cache="$work/cache" "$@"
-}
+options=(-q -o APT::Sandbox::User="$(id -un)" -o APT::Update::Error-Mode=any
+    -o Acquire::Retries=1 -o Acquire::http::Timeout=20 -o Acquire::https::Timeout=20
+    -o Dir::Etc::SourceList=/dev/null -o Dir::Etc::SourceParts="$work/parts"
+    -o Dir::State::Lists="$work/lists" -o Dir::Cache="$work/cache")
+apt() { apt-get "${options[@]}" "$@"; }
+cache() { apt-cache "${options[@]}" "$@"; }
 echo "setup: fetching the sources of ${packages[*]} for the browser client"
 apt update > "$work/log" 2>&1 || give_up "Debian's lists of sources cannot be fetched"
-exact=()
-while read -r package version; do
-    exact+=("$package=$version")
-done <<< "$versions"
 cd "$work/unpacked"
-# A mirror that is ahead of this machine has newer ones alone.
-apt source "${exact[@]}" >> "$work/log" 2>&1 || apt source "${packages[@]}" >> "$work/log" 2>&1 ||
-    give_up "the sources of ${packages[*]} cannot be fetched"
+# versions_of SOURCE: the installed version first, then what Debian's lists have, newest first.
+versions_of() {
+    awk -v name="$1" '$1 == name { print $2 }' <<< "$versions"
+    cache showsrc "$1" 2>> "$work/log" | awk -v name="$1" '$1 == "Package:" { is_it = $2 == name } is_it && $1 == "Version:" { print $2 }' | sort -rV
+}
+# A mirror that is ahead of this machine, or behind its own lists, still has another version.
+for package in "${packages[@]}"; do
+    for version in $(versions_of "$package"); do
+        apt source "$package=$version" >> "$work/log" 2>&1 && continue 2
+    done
+    give_up "the sources of $package cannot be fetched"
+done
 cd ../../..
 for package in "${packages[@]}"; do
     rm -rf "${folder:?}/$package"

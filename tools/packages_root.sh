@@ -53,6 +53,10 @@ cp "$source"/build/packages/*.deb "$folder/packages/"
 inside "apt-get update -q && apt-get install -y -q --no-install-recommends /packages/*.deb" >> "$source/build/packages_root.log"
 inside "id theatron" > /dev/null || fail "the package made no user"
 [ "$(inside 'stat -c %a:%U:%G /etc/theatron')" = 750:root:theatron ] || fail "/etc/theatron has other rights"
+[ -z "$(find "$folder/etc/systemd" -name 'theatron*')" ] || fail "installed, and a unit starts by itself"
+for page in SECURITY.md LICENSE docs/service.md examples/proxy/nginx.conf; do
+    [ -e "$folder/usr/share/doc/theatron/$page" ] || fail "theatron-doc lacks $page"
+done
 
 health() { [ "$("$@" curl -sk -o /dev/null -w '%{http_code}' https://127.0.0.1:4400/health)" = 200 ]; }
 
@@ -196,6 +200,16 @@ done
 enabled=$folder/etc/systemd/system/multi-user.target.wants/theatron-host@or.service
 mkdir -p "${enabled%/*}"
 ln -s /lib/systemd/system/theatron-host@.service "$enabled"
+
+say "purge beside a host that was started by hand"
+cp "$folder/bin/sleep" "$folder/tmp/theatron"
+chroot "$folder" setpriv --reuid theatron --regid theatron --clear-groups /tmp/theatron 600 &
+pid=$!
+inside "apt-get purge -y -q theatron-server" >> "$source/build/packages_root.log" 2>&1 && fail "it is purged while a host runs"
+grep -q "Nothing was deleted" "$source/build/packages_root.log" || fail "nobody says why it cannot be purged"
+[ "$(written)" = "$before" ] || fail "a purge that failed deleted something"
+kill "$pid"
+wait "$pid" 2> /dev/null || true
 
 say "purge"
 inside "apt-get purge -y -q theatron theatron-server theatron-doc python3-theatron" >> "$source/build/packages_root.log"

@@ -182,14 +182,12 @@ void run(const ExportFlags& flags) {
     std::size_t calibrations = 1;
     for (const record::CameraContent& camera : recording->cameras())
         calibrations = std::max(calibrations, capture::calibrations_of(camera));
-    bool damaged = !recording->intact();
+    bool damaged = !(recording->intact() && recording->complete());
     for (const std::string& remark : record::remarks_on_files(*recording))
         std::cerr << remark << std::endl;
-    for (const record::Segment& segment : recording->segments()) {
-        damaged |= !segment.closed || !segment.early_end.empty() || !segment.lacks.empty();
+    for (const record::Segment& segment : recording->segments())
         for (const std::string& remark : record::remarks_on(segment))
             std::cerr << segment.file << ": " << remark << std::endl;
-    }
 
     if (!flags.room.empty() && !recording->room().present)
         throw Error("'" + flags.file + "' has no room: only recordings of sessions have one.");

@@ -230,28 +230,37 @@ private:
                           step([this] {
                               beast::error_code ignored;
                               raw_.shutdown(tcp::socket::shutdown_send, ignored);
-                              discard(raw_, 0, "spoke HTTP without TLS");
+                              discard(raw_, "spoke HTTP without TLS");
                           }));
     }
 
     // Reads what still comes, then leaves: unread bytes would destroy the answer on its way.
     template <class Stream>
-    void discard(Stream& stream, std::size_t discarded, const char* why) {
+    void discard(Stream& stream, const char* why) {
+        drop(stream, max_unread_bytes + 1, why, [this, why] { leave(why); });
+    }
+
+    // Reads this many bytes, drops them, and goes on with `then`; leaves if they break off.
+    template <class Stream, class Then>
+    void drop(Stream& stream, std::uint64_t left, const char* why, Then then) {
         incoming_.clear();
-        stream.async_read_some(incoming_.prepare(discarded_at_once),
-                               door_.here([this, self = shared_from_this(), &stream, discarded,
-                                           why](beast::error_code error, std::size_t count) {
-                                   if (gone_)
-                                       return;
-                                   if (error || discarded + count > max_unread_bytes)
-                                       return leave(why);
-                                   guarded([&] { discard(stream, discarded + count, why); });
-                               }));
+        if (left == 0)
+            return then();
+        stream.async_read_some(
+            incoming_.prepare(std::size_t(std::min(left, std::uint64_t(discarded_at_once)))),
+            door_.here([this, self = shared_from_this(), &stream, left, why, then](
+                           beast::error_code error, std::size_t count) {
+                if (gone_)
+                    return;
+                if (error)
+                    return leave(why);
+                guarded([&] { drop(stream, left - count, why, then); });
+            }));
     }
 
     void read_request() {
         parser_.header_limit(max_request_bytes);
-        // The library reads no body: drop_body() reads the one of a request that may have it.
+        // The library reads no body: take_post() drops the one of a request that may have it.
         parser_.skip(true);
         http::async_read_header(
             *stream_, incoming_, parser_,
@@ -286,7 +295,7 @@ private:
         answer(std::move(refusal), step([this] {
                    beast::error_code ignored;
                    socket().shutdown(tcp::socket::shutdown_send, ignored);
-                   discard(*stream_, 0, "said too much");
+                   discard(*stream_, "said too much");
                }));
     }
 
@@ -338,25 +347,8 @@ private:
                             ignored);
         answer_ = std::move(*answered);
         const std::uint64_t here = std::min(*bytes, std::uint64_t(incoming_.size()));
-        drop_body(*bytes - here);
+        drop(*stream_, *bytes - here, "broke off", [this] { answer(std::move(answer_)); });
         return true;
-    }
-
-    // Reads this many bytes, drops them, and answers.
-    void drop_body(std::uint64_t left) {
-        incoming_.clear();
-        if (left == 0)
-            return answer(std::move(answer_));
-        stream_->async_read_some(
-            incoming_.prepare(std::size_t(std::min(left, std::uint64_t(discarded_at_once)))),
-            door_.here([this, self = shared_from_this(), left](beast::error_code error,
-                                                               std::size_t count) {
-                if (gone_)
-                    return;
-                if (error)
-                    return leave("broke off");
-                guarded([&] { drop_body(left - std::min(left, std::uint64_t(count))); });
-            }));
     }
 
     void decide() {

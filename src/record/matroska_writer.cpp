@@ -38,10 +38,11 @@ int write_at(int file, ByteView bytes, std::uint64_t offset) {
     return 0;
 }
 
-// Creates a file, locked against other writers and readers; its old content is cut after locking.
+// Creates a file that only its owner may read, as patients may be seen in it, locked against other
+// writers and readers; its old content is cut after locking.
 int create(const std::filesystem::path& path, bool replace) {
     const std::string name = "'" + path.string() + "'";
-    const int file = open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644);
+    const int file = open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0600);
     if (file < 0)
         throw Error("Cannot create " + name + ": " + std::strerror(errno) + ".");
     const auto refuse = [&](const std::string& why) {

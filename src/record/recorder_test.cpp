@@ -149,7 +149,9 @@ TEST(Recording, AFullDiskEndsItWithASentenceAndKeepsWhatCameBefore) {
         EXPECT_LE(figures.bytes, 500'000u);
     }
     const auto recording = RecordingFile::open(path);
-    EXPECT_TRUE(recording->complete()) << "it was closed, if early";
+    EXPECT_TRUE(recording->segments()[0].closed);
+    EXPECT_FALSE(recording->complete());
+    EXPECT_TRUE(recording->intact());
     EXPECT_EQ(remarks_on(recording->segments()[0]),
               std::vector<std::string>{"it stopped early: the system allowed no larger file"});
     EXPECT_GT(frames_in(*recording), 10u);
@@ -174,7 +176,8 @@ TEST(Recording, NotesInItsFileWhatItLacks) {
         }
         const auto recording = RecordingFile::open(path);
         const Segment& segment = recording->segments()[0];
-        EXPECT_TRUE(recording->complete()) << "nothing is damaged";
+        EXPECT_EQ(recording->complete(), lacks.empty());
+        EXPECT_TRUE(recording->intact());
         EXPECT_EQ(segment.lacks, lacks);
         EXPECT_EQ(remarks_on(segment).empty(), lacks.empty());
         EXPECT_EQ(count_equal(*recording, messages), messages.size());

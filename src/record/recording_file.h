@@ -132,7 +132,10 @@ struct Segment {
     bool intact() const {
         return !head_damaged && damaged_places == 0 && repeated == 0 && foreign.files == 0;
     }
-    bool complete() const { return closed && intact(); }
+    // True if it is as its recorder wrote it.
+    bool is_whole() const { return closed && intact(); }
+    // True if it also has all that was to be recorded, as far as its recorder knew.
+    bool complete() const { return is_whole() && early_end.empty() && lacks.empty(); }
     // True if pictures may be missing at its end, not only the index.
     bool lacks_end() const { return !closed && (missing_end != Duration(0) || unread_end > 0); }
 };
@@ -168,7 +171,9 @@ public:
     // The file of the recording's segment 1, if a later one was opened and the earlier ones exist;
     // else empty.
     const std::string& begins_in() const { return begins_in_; }
-    // False if a segment is missing, was never closed, or was cut off or damaged.
+    // False if a segment is missing, was never closed, was cut off, ended early or is damaged where
+    // its elements show it, or if its recorder noted that something is missing. Damage inside a
+    // picture is not known here.
     bool complete() const;
     // True if no segment is missing and nothing is damaged. Unclosed segments count as intact.
     bool intact() const;

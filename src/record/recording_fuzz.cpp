@@ -33,7 +33,7 @@ void recover_all(const record::RecordingFile& recording) {
     }
     const auto saved = record::RecordingFile::open(stem + ".mkv");
     for (const record::Segment& segment : saved->segments())
-        if (!segment.complete())
+        if (!segment.is_whole())
             std::abort();
     if (saved->refused() > 0)
         std::abort();

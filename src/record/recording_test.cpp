@@ -60,6 +60,8 @@ TEST(Recording, GivesBackWhatWasRecordedToTheByteAndMicrosecond) {
     record_all(folder.path() / "four.mkv", 4, messages);
 
     const auto recording = RecordingFile::open(folder.path() / "four.mkv");
+    EXPECT_EQ(std::filesystem::status(folder.path() / "four.mkv").permissions(),
+              std::filesystem::perms(0600));
     EXPECT_TRUE(recording->complete());
     EXPECT_EQ(recording->refused(), 0u);
     ASSERT_EQ(recording->cameras().size(), 4u);

@@ -159,10 +159,10 @@ struct Written {
     std::uint64_t pictures = 0, room_parts = 0, voice_blocks = 0;
 };
 
-// Reads the new file again and checks that it is complete and has what is expected.
+// Reads the new file again and checks that it is whole and has what is expected.
 void check(const std::filesystem::path& file, const Written& expected) {
     const auto written = RecordingFile::read(open_file_source(file));
-    if (!written || !(*written)->segments()[0].complete() || (*written)->refused() > 0 ||
+    if (!written || !(*written)->segments()[0].is_whole() || (*written)->refused() > 0 ||
         (*written)->segments()[0].frames != expected.pictures ||
         (*written)->room().frames.size() != expected.room_parts ||
         voice_blocks_in(**written) != expected.voice_blocks)

@@ -53,7 +53,7 @@ std::unique_ptr<RecordingFile> recovered(const Bytes& bytes, const fs::path& fol
     const auto saved =
         recover(*RecordingFile::open(folder / "broken.mkv"), folder / "whole.mkv", {});
     auto recording = RecordingFile::open(folder / "whole.mkv");
-    EXPECT_TRUE(recording->complete());
+    EXPECT_TRUE(recording->segments()[0].is_whole());
     EXPECT_EQ(recording->refused(), 0u);
     EXPECT_EQ(recording->segments().size(), saved.files.size());
     return recording;
@@ -273,7 +273,7 @@ TEST(Recover, LeavesWhatRefersAcrossAPlaceWhereTheFileGoesBack) {
     const auto broken = RecordingFile::open(folder.path() / "broken.mkv");
     recover(*broken, folder.path() / "whole.mkv", {});
     const auto whole = RecordingFile::open(folder.path() / "whole.mkv");
-    EXPECT_TRUE(whole->complete());
+    EXPECT_TRUE(whole->segments()[0].is_whole());
     EXPECT_GT(frames_in(*whole), 90u);
     const auto& frames = whole->cameras()[0].depth.frames;
     for (std::size_t i = 0; i < frames.size(); ++i) {

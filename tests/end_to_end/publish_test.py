@@ -44,7 +44,6 @@ class Publishing(unittest.TestCase):
                 both = seen.wait_for(lambda f: len(f["cameras"]) == 2 and camera(f, 1)["frames"] > 20)
                 self.assertEqual(camera(both, 1)["name"], "face")
                 self.assertGreater(camera(both, 1)["publisher"], 0)
-                self.assertEqual(camera(both, 1)["dropped"], 0)
                 self.assertEqual(names(publisher.newest_json()), ["lamp"], "one's own is not sent back")
                 # Codecs are chosen for each camera.
                 seen.say("depth rvl 1")
@@ -55,7 +54,6 @@ class Publishing(unittest.TestCase):
                 alone = seen.wait_for(lambda f: len(f["cameras"]) == 1)
                 seen.wait_until(lambda: "Camera face is gone: the connection of its sender broke." in "".join(seen.errors))
             later = seen.wait_for(lambda f: camera(f, 0)["frames"] > camera(alone, 0)["frames"] + 30)
-            self.assertEqual(camera(later, 0)["dropped"], 0)
             self.assertEqual(later["joins"], 1)
             # Numbers never come again, and a publisher finds back by itself.
             with viewer(h.greeting["publish_link"], "--publish", self.cameras["hand"],
@@ -132,12 +130,11 @@ class Publishing(unittest.TestCase):
                 peer.send_media(media_message(b"no depth", stream=2 * number, setting=setting["setting"]))
                 # Each setting begins with a key frame.
                 self.assertEqual(peer.receive_control("EncodeKey")[1]["stream"], 2 * number)
-                self.assertEqual(names(seen.newest_json()), ["lamp", "made up"])
+                seen.wait_for(lambda f: names(f) == ["lamp", "made up"])
                 peer.send_media(media_message(b"a lie", stream=0, setting=1))
                 self.assertIn("no camera of this participant", peer.receive_control("Refused")[1]["in_english"])
                 peer.wait_for_end()
-            alone = seen.wait_for(lambda f: names(f) == ["lamp"])
-            self.assertEqual(camera(alone, 0)["dropped"], 0)
+            seen.wait_for(lambda f: names(f) == ["lamp"])
             with RawPeer(h.greeting["publish_link"]) as peer:
                 peer.join(features=[PUBLISH])
                 peer.send_control("Publish", cameras=[offer])
@@ -164,8 +161,8 @@ class Publishing(unittest.TestCase):
             recorder = stack.enter_context(Process("record", h.greeting["link"], file, "--name", "OR recorder"))
             stay = stack.enter_context(viewer(h.greeting["publish_link"], "--publish", self.cameras["face"],
                                               "--may-record"))
-            # A setting that is new may leave out frames until its cost is known.
-            before = [one.wait_for(lambda f: camera(f, 1) and camera(f, 1)["frames"] > 20) for one in watching]
+            for one in watching:
+                one.wait_for(lambda f: camera(f, 1) and camera(f, 1)["frames"] > 20)
             others = {}
             for _ in range(6):
                 which = choice.randrange(2)
@@ -176,12 +173,8 @@ class Publishing(unittest.TestCase):
                     stack.callback(others[which].__exit__)
                 seen = camera(watching[0].newest_json(), 0)["frames"]
                 watching[0].wait_for(lambda f: camera(f, 0)["frames"] > seen + 20)  # time between two changes
-            for one, first in zip(watching, before):
+            for one in watching:
                 figures = one.wait_for(lambda f: len(f["cameras"]) == 2 + len(others))
-                for number in (0, 1):
-                    lost = camera(figures, number)["dropped"] - camera(first, number)["dropped"]
-                    # A busy machine may cost a frame; a chain that breaks costs dozens.
-                    self.assertLessEqual(lost, 2, figures)
                 one.wait_for(lambda f: all(camera(f, n)["frames"] > camera(figures, n)["frames"] + 5 for n in (0, 1)))
             figures = stay.newest_json()
             self.assertEqual(figures["joins"], 1)

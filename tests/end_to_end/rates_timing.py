@@ -45,6 +45,13 @@ class Rates(unittest.TestCase):
         with self.session() as h, Process("publish", h.greeting["publish_link"], "--camera", self.camera), \
                 Process("join", h.greeting["link"], "--every", "0.2") as viewer:
             viewer.wait_for(lambda f: len(f["cameras"]) == 2 and f["cameras"][1]["frames"] > 30)
+
+            def dropped_meanwhile():
+                before = viewer.read_json()["cameras"][1]
+                after = viewer.wait_for(lambda f: f["cameras"][1]["frames"] > before["frames"] + 30)
+                return after["cameras"][1]["dropped"] - before["dropped"]
+
+            self.assertEqual(median_of_three(dropped_meanwhile), 0)
             self.assertLess(median_of_three(lambda: viewer.read_json()["cameras"][1]["newest_age_ms"]), 300)
 
     def test_a_viewer_that_slept_is_up_to_date_within_a_second(self):

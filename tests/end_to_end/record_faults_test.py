@@ -66,6 +66,9 @@ class RecordFaults(unittest.TestCase):
         figures = recorder.read_json()
         self.assertEqual(recorder.end(), expected, "".join(recorder.errors) + json.dumps(figures))
         self.assertEqual(figures["complete"], expected == COMPLETE)
+        code, out, _ = run("inspect", self.file, "--json")
+        if code == 0:
+            self.assertEqual(json.loads(out)["complete"], figures["complete"], out)
         return figures
 
     def assert_decodes(self, file, at_least=1):

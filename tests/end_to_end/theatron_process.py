@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Starts the program as a user would, and makes and reads small pictures."""
+import contextlib
 import json
 import os
 import pathlib
@@ -97,12 +98,13 @@ class Process:
         return newest
 
     def wait_for(self, condition):
-        """Reads JSON lines until one meets the condition; returns it."""
+        """Reads JSON lines until one meets the condition; returns it. One in which a list has no such entry yet does not."""
         wait = patience.Wait(condition)
         while True:
             figures = self.read_json(wait)
-            if condition(figures):
-                return figures
+            with contextlib.suppress(IndexError):
+                if condition(figures):
+                    return figures
             wait.check()
 
     def wait_until(self, condition):

@@ -25,9 +25,11 @@ public:
             if (!person.is_here())
                 return;
             for (const auto& frame : person->take_frames())
-                numbers.push_back(SentCamera::number_in(frame->depth.view()));
+                if (frame->camera == camera.value_or(frame->camera))
+                    numbers.push_back(SentCamera::number_in(frame->depth.view()));
         };
     }
+    std::optional<CameraId> camera;  // this one alone
     bool is_in_order() const { return std::is_sorted(numbers.begin(), numbers.end()); }
     int gaps() const {
         int count = 0;
@@ -120,6 +122,31 @@ TEST(WorldCameras, ACameraThatEndsIsGoneAndComesBack) {
     EXPECT_TRUE(stage.seen.is_in_order());
     stage.carl.leave();
     EXPECT_TRUE(stage.world.until([&] { return cameras(stage.anna).empty(); }));
+}
+
+TEST(WorldCameras, CamerasThatComeAndGoCostTheOthersNoPicture) {
+    Stage stage;
+    Person& dora = stage.world.person("Dora");
+    SentCamera other(dora, "hand");
+    stage.begin();
+    ASSERT_TRUE(stage.world.until([&] { return !stage.seen.numbers.empty(); }));
+    stage.seen.camera = cameras(stage.anna).front().description.id;
+    (void)stage.world.joined("Dora", wire::Role::publisher);
+    other.start();
+    EXPECT_TRUE(stage.world.until([&] { return cameras(stage.anna).size() == 2; }));
+    stage.world.advance(3s);
+    other.stop();
+    EXPECT_TRUE(stage.world.until([&] { return cameras(stage.anna).size() == 1; }));
+    other.start();
+    EXPECT_TRUE(stage.world.until([&] { return cameras(stage.anna).size() == 2; }));
+    dora.path().reset();
+    EXPECT_TRUE(stage.world.until([&] { return cameras(stage.anna).size() == 1; }));
+    EXPECT_TRUE(stage.world.until([&] { return cameras(stage.anna).size() == 2; }));
+    dora.leave();
+    EXPECT_TRUE(stage.world.until([&] { return cameras(stage.anna).size() == 1; }));
+    stage.world.advance(3s);
+    EXPECT_GT(stage.seen.numbers.size(), 60u);
+    EXPECT_EQ(stage.seen.gaps(), 0);
 }
 
 TEST(WorldCameras, APublisherWhoseLinkBreaksGoesOn) {

@@ -220,7 +220,9 @@ class Recording:
         """The time of day of the first frame, in UTC; None: not known."""
     @property
     def complete(self) -> bool:
-        """False if a segment is missing, was never closed, or was cut off or damaged."""
+        """False if a segment is missing, was never closed, was cut off, ended early or is damaged where its elements show it, or if its
+        recorder noted that something is missing; `remarks` has the reasons. Only `verify()` finds damage inside pictures: `frames()`
+        leaves those out and counts them in `losses`."""
     @property
     def remarks(self) -> List[str]:
         """What `theatron inspect` says of damage and missing parts, a sentence each; empty: nothing."""

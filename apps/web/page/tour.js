@@ -32,9 +32,10 @@ export class Tour {
     // Follows each state of the client.
     show({ phase, has_picture, cameras }, way) {
         this.way = way;
-        if (phase !== "joined" && this.step)
+        if (phase !== "joined" && this.step) {
+            this.is_due = true;  // it was broken off, also by the change to the other view
             this.hide();
-        else if (phase === "joined" && this.is_due && !this.step && (has_picture || !cameras.length))
+        } else if (phase === "joined" && this.is_due && !this.step && (has_picture || !cameras.length))
             this.go(1);
         else if (this.step)
             this.fill();
