@@ -22,8 +22,11 @@ void FaceKeeper::on_connected() {
 void FaceKeeper::on_face(ParticipantId owner, const wire::OwnFace& face) {
     const std::lock_guard lock(mutex_);
     const auto known = told_.find(owner);
-    if (face.kind == FaceKind::offered && known != told_.end() && known->second == face)
+    if (face.kind == FaceKind::offered && known != told_.end() && known->second == face) {
+        // It may have been away in between, when it was asked for.
+        fetch_.retry();
         return;
+    }
     if (known != told_.end())
         told_.erase(known);
     faces_.erase(owner);

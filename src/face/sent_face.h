@@ -18,7 +18,7 @@ EnrolledFace without_shoulders(const EnrolledFace& face);
 
 // The face with at most about this number of vertices: edges are collapsed where that changes the
 // face and its moves least (Garland and Heckbert, 1997), onto vertices that were there. Borders,
-// also those in the texture, stay. Takes some tenths of a second for a head of 25 000 vertices.
+// also those in the texture, stay. Takes a second or two for a head of 25 000 vertices.
 EnrolledFace thinned(const EnrolledFace& face, std::size_t most_vertices);
 
 // The content of enrolled_bytes() as a receiver takes it. Safe on any bytes. The textures' bytes

@@ -30,14 +30,16 @@ constexpr double neck_high_m = -0.125, neck_low_m = -0.155, widest_neck_m = 0.07
 constexpr double farthest_shift_m = 0.045;
 // Skin below this, and farther from the neck's axis than the collar is wide, is hidden.
 constexpr double collar_below_m = -0.14, collar_m = 0.06;
+// Sides and back of a whole head's neck get narrower from here to there, so that they go into the
+// collar; its distances from the axis there.
+constexpr double wide_at_m = -0.09, wide_m = 0.08, narrow_at_m = -0.15, narrow_m = 0.0548;
 // A head that reaches less far behind its eyes is a face alone.
 constexpr double whole_behind_m = 0.11;
 // A face alone is that of the generated head, whose forehead is narrower than a cap: as in
 // face_shape.cpp.
 constexpr double forehead_wider = 0.43, forehead_before = 0.22, forehead_mm = 60;
-// The bust's back of the head: half of its width and how far back it reaches, at the height of the
-// eyes, and half of its width at the rim.
-constexpr double back_side_m = 0.0695, back_reach_m = 0.104, back_rim_m = 0.068, back_margin = 0.98;
+// How far back the bust's head reaches at the rim, and how much narrower its back is than the face.
+constexpr double back_reach_m = 0.104, back_margin = 0.985;
 // Steps of an emotion's weight for the skin's picture.
 constexpr float share_steps = 16;
 
@@ -79,18 +81,38 @@ Vec3 OwnHead::in_head(const float* mm) const {
     return {-p.x / 1000, p.y / 1000, (eyes_mm_.z - p.z) / 1000 - pupils_before_m_};
 }
 
-// The bust's back begins inside of the face's edges, at every height.
+// A vertex that has moved; in_head() with the neck that the collar takes.
+Vec3 OwnHead::dressed(const float* mm) const {
+    Vec3 p = in_head(mm);
+    if (!is_whole_ || p.y >= wide_at_m)
+        return p;
+    const double share = std::min((wide_at_m - p.y) / (wide_at_m - narrow_at_m), 1.0);
+    const double limit = wide_m + share * (narrow_m - wide_m);
+    // In front are the chin and the throat.
+    const bool is_behind = p.z > neck_back;
+    const double away = is_behind ? std::hypot(p.x, p.z - neck_back) : std::abs(p.x);
+    if (away <= limit)
+        return p;
+    p.x *= limit / away;
+    if (is_behind)
+        p.z = neck_back + (p.z - neck_back) * limit / away;
+    return p;
+}
+
+// The back begins inside of the face's edges, at every height.
 void OwnHead::measure_back() {
-    double side = 0, rim = 0;
+    BackSizes farthest;
+    farthest.fill(-1);
     for (std::size_t i = 0; i < face_.rest.vertex_count(); ++i) {
         const Vec3 p = in_head(&face_.rest.points[3 * i]);
-        if (std::abs(p.y) < rim_band_m)
-            side = std::max(side, std::abs(p.x));
-        if (std::abs(p.y - rim_above_m) < rim_band_m)
-            rim = std::max(rim, std::abs(p.x));
+        for (std::size_t k = 0; k < back_.size(); ++k)
+            if (std::abs(p.y - back_heights[k]) < rim_band_m && p.z > farthest[k]) {
+                farthest[k] = p.z;
+                back_[k] =
+                    std::clamp(back_margin * std::abs(p.x), least_scale * usual_back_widths[k],
+                               most_scale * usual_back_widths[k]);
+            }
     }
-    back_.scale = std::clamp(back_margin * std::min(side / back_side_m, rim / back_rim_m),
-                             least_scale, most_scale);
 }
 
 void OwnHead::measure_neck() {
@@ -127,8 +149,8 @@ void OwnHead::measure_cap() {
         back = std::max(back, p.z);
     }
     if (!is_whole_) {
-        side = std::max(side, back_rim_m * back_.scale);
-        back = back_reach_m * back_.scale;
+        side = std::max(side, back_.back());
+        back = back_reach_m;
     }
     if (back <= front)
         return;
@@ -139,14 +161,13 @@ void OwnHead::measure_cap() {
 }
 
 void OwnHead::hide_what_clothes_cover() {
-    const double neck_z = neck_.place.translation.z + neck_back * neck_.scale;
     for (std::size_t t = 0; t < is_hidden_.size(); ++t) {
         bool is_above = true, is_below = false;
         for (const std::uint32_t corner : face_.rest.triangles[t]) {
-            const Vec3 p = in_head(&face_.rest.points[3 * std::size_t(corner)]);
+            const Vec3 p = dressed(&face_.rest.points[3 * std::size_t(corner)]);
             is_above = is_above && p.y > rim_above_m + hidden_above_m;
             is_below =
-                is_below || (p.y < collar_below_m && std::hypot(p.x, p.z - neck_z) > collar_m);
+                is_below || (p.y < collar_below_m && std::hypot(p.x, p.z - neck_back) > collar_m);
         }
         is_hidden_[t] = is_above || is_below;
     }
@@ -159,7 +180,7 @@ std::array<render::MeshData, face::part_count> OwnHead::meshes(const ShownFace& 
     face::blend_face(face_, shown.emotions, shown.direct, points);
     std::vector<Vec3> places(count), normals(count);
     for (std::size_t i = 0; i < count; ++i)
-        places[i] = in_head(&points[3 * i]);
+        places[i] = dressed(&points[3 * i]);
     for (const auto& corners : rest.triangles) {
         const Vec3 a = places[corners[0]];
         const Vec3 normal = cross(places[corners[1]] - a, places[corners[2]] - a);

@@ -10,6 +10,7 @@
 #include "face/enrolled_face.h"
 #include "image/image.h"
 #include "render/scene_frame.h"
+#include "room/figure_meshes.h"
 
 namespace theatron::room {
 
@@ -40,8 +41,10 @@ public:
     Shares shares(const face::Emotions& emotions) const;
     void blend(const Shares& shares, ColorImage& out) const;
 
-    // False: it is a face alone, behind which the bust's head is needed.
+    // False: it is a face alone, behind which back() is needed.
     bool is_whole() const { return is_whole_; }
+    // In the colour of the skin, in the frame of the head.
+    render::MeshData back() const { return back_mesh(back_); }
     // Places and sizes of the bust's parts with which they meet this head; the neck is that below a
     // whole one, in the frame of the body.
     struct Part {
@@ -49,13 +52,13 @@ public:
         double scale = 1;
     };
     const Part& cap() const { return cap_; }
-    const Part& back() const { return back_; }
     const Part& neck() const { return neck_; }
     // The pupils are so far before the head's origin, that of a bust.
     double pupils_before_m() const { return pupils_before_m_; }
 
 private:
     Vec3 in_head(const float* mm) const;
+    Vec3 dressed(const float* mm) const;
     void measure_back();
     void measure_neck();
     void measure_cap();
@@ -66,7 +69,8 @@ private:
     Vec3 eyes_mm_;
     bool is_whole_ = false;
     double pupils_before_m_ = 0;
-    Part cap_, back_, neck_;
+    BackSizes back_ = usual_back_widths;
+    Part cap_, neck_;
     // The first vertex at the same place: they were parted for the texture, and have one normal.
     std::vector<std::uint32_t> same_place_;
     std::vector<bool> is_hidden_;  // triangles below cap and collar

@@ -244,6 +244,11 @@ const People::Own& People::own_of(const RoomPerson& person) {
                 own.parts[i].emplace(meshes[i]);
         }
     }
+    if (is_other) {
+        own.back.reset();
+        if (!head.is_whole())
+            own.back.emplace(head.back());
+    }
     const OwnHead::Shares shares = head.shares(own.shown.emotions);
     if (is_other || shares != own.shares) {
         head.blend(shares, blended_);
@@ -278,15 +283,11 @@ void People::add_own_head(render::SceneFrame& frame, const RoomPerson& person, d
             of_part.texture = &*own.skin;
         frame.objects.push_back({&*own.parts[i], place, of_part});
     }
-    const auto add_scaled = [&](const render::SceneMesh& mesh, const OwnHead::Part& part,
-                                Vec3 color) {
-        render::SceneObject object{&mesh, place * part.place, look_of(color)};
-        object.scale = part.scale;
-        frame.objects.push_back(object);
-    };
-    if (!head.is_whole())
-        add_scaled(bust_.back, head.back(), head.color(face::HeadPart::skin));
-    add_scaled(bust_.cap, head.cap(), color_of(person.id));
+    if (own.back)
+        frame.objects.push_back({&*own.back, place, look_of(head.color(face::HeadPart::skin))});
+    render::SceneObject cap{&bust_.cap, place * head.cap().place, look_of(color_of(person.id))};
+    cap.scale = head.cap().scale;
+    frame.objects.push_back(cap);
 }
 
 void People::add_bust(render::SceneFrame& frame, const RoomPerson& person, double opacity) {

@@ -81,6 +81,7 @@ private:
         ShownFace shown;
         OwnHead::Shares shares{};
         std::array<std::optional<render::SceneMesh>, face::part_count> parts;
+        std::optional<render::SceneMesh> back;  // of a face alone
         std::optional<render::SceneTexture> skin;
     };
     struct Hand {

@@ -38,7 +38,7 @@ public:
     // A state of these topics came from a participant who takes part. False: a flood.
     bool put(ParticipantId sender, const wire::State& state, TimePoint now);
 
-    // The participant has come, or may not have got the newest states.
+    // The participant has come.
     void tell_all(ParticipantId participant);
     // It has other rights.
     void follow_rights(ParticipantId participant);
