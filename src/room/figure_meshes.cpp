@@ -79,14 +79,14 @@ void append_finger(MeshData& mesh, Vec3 root, double length_m, double bent, doub
 
 }  // namespace
 
-render::MeshData back_mesh(const BackSizes& half_widths) {
+render::MeshData back_mesh(const BackSizes& half_widths, double below) {
     // How far back each ring reaches from where it begins, behind the edges of the face.
     constexpr BackSizes reach{0.04, 0.058, 0.08, 0.09, 0.094, 0.092},
         begin{0, 0.008, 0.012, 0.012, 0.012, 0.012};
     std::array<Ring, back_heights.size()> rings;
     for (std::size_t i = 0; i < rings.size(); ++i)
         rings[i] = {back_heights[i], half_widths[i], reach[i], begin[i]};
-    return loft(rings, 0.5 * pi, 1.5 * pi);
+    return loft(rings, 0.5 * pi - below, 1.5 * pi + below);
 }
 
 BustMeshes bust_meshes() {

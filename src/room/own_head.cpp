@@ -32,7 +32,7 @@ constexpr double farthest_shift_m = 0.045;
 constexpr double collar_below_m = -0.14, collar_m = 0.06;
 // Sides and back of a whole head's neck get narrower from here to there, so that they go into the
 // collar; its distances from the axis there.
-constexpr double wide_at_m = -0.09, wide_m = 0.08, narrow_at_m = -0.15, narrow_m = 0.0548;
+constexpr double wide_at_m = -0.09, wide_m = 0.072, narrow_at_m = -0.15, narrow_m = 0.0548;
 // A head that reaches less far behind its eyes is a face alone.
 constexpr double whole_behind_m = 0.11;
 // A face alone is that of the generated head, whose forehead is narrower than a cap: as in
@@ -134,6 +134,14 @@ void OwnHead::measure_neck() {
     pupils_before_m_ -=
         std::clamp(neck_back - (front + back) / 2, -farthest_shift_m, farthest_shift_m);
     neck_.place.translation.z = neck_back - neck_back * neck_.scale;
+}
+
+// Thinner, so that it does not come out of the person's own.
+OwnHead::Part OwnHead::neck_in_cloud() const {
+    Part neck;
+    neck.scale = 0.85 * neck_.scale;
+    neck.place.translation.z = neck_back - neck_back * neck.scale;
+    return neck;
 }
 
 // The cap goes round the head at the height of its rim, and round the bust's back behind a face

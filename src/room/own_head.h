@@ -44,7 +44,7 @@ public:
     // False: it is a face alone, behind which back() is needed.
     bool is_whole() const { return is_whole_; }
     // In the colour of the skin, in the frame of the head.
-    render::MeshData back() const { return back_mesh(back_); }
+    render::MeshData back() const { return back_mesh(back_, 0.06); }
     // Places and sizes of the bust's parts with which they meet this head; the neck is that below a
     // whole one, in the frame of the body.
     struct Part {
@@ -53,6 +53,7 @@ public:
     };
     const Part& cap() const { return cap_; }
     const Part& neck() const { return neck_; }
+    Part neck_in_cloud() const;
     // The pupils are so far before the head's origin, that of a bust.
     double pupils_before_m() const { return pupils_before_m_; }
 

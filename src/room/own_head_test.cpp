@@ -69,6 +69,25 @@ TEST(OwnHead, IsWhereTheBustHasItsFace) {
     EXPECT_GT(towards, 0);
 }
 
+TEST(OwnHead, TheNeckOfAWholeHeadGoesIntoTheCollar) {
+    face::EnrolledFace face = face::enrolled_person(face::generated_head(), {});
+    // As deep as a head with its back, and with a neck as wide as shoulders.
+    for (std::size_t i = 0; i < face.rest.vertex_count(); ++i) {
+        float* p = &face.rest.points[3 * i];
+        p[0] *= p[1] < -80 ? 3 : 1;
+        p[2] *= 2;
+    }
+    OwnHead::Textures textures;
+    textures[std::size_t(Emotion::neutral)] = plain({100, 100, 100});
+    const OwnHead head(face, std::move(textures));
+    EXPECT_TRUE(head.is_whole());
+    const auto meshes = head.meshes({});
+    for (const auto& v : meshes[0].vertices)
+        if (v.py < -0.1)
+            EXPECT_LT(std::abs(v.px), 0.072);
+    EXPECT_LT(head.neck_in_cloud().scale, head.neck().scale);
+}
+
 TEST(OwnHead, MovesWithWhatThePersonShows) {
     const OwnHead head = some_head();
     const auto rest = head.meshes({})[0].vertices;

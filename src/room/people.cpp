@@ -103,6 +103,12 @@ render::SurfaceLook sign_look(Vec3 color, double opacity) {
     return sign;
 }
 
+// The same for what is drawn into a cloud, whose colours are those of a camera: sRGB.
+render::SurfaceLook cloud_look(Vec3 linear, double opacity) {
+    const auto encoded = [](double value) { return std::pow(value, 1 / 2.2); };
+    return sign_look({encoded(linear.x), encoded(linear.y), encoded(linear.z)}, opacity);
+}
+
 double brightness(Vec3 linear) {
     return 0.2126 * linear.x + 0.7152 * linear.y + 0.0722 * linear.z;
 }
@@ -271,7 +277,7 @@ void People::add_own_head(render::SceneFrame& frame, const RoomPerson& person, d
         const Vec3 gain = person.skin_gain;
         if (!person.has_cloud)
             return look(color, opacity);
-        return sign_look({color.x * gain.x, color.y * gain.y, color.z * gain.z}, opacity);
+        return cloud_look({color.x * gain.x, color.y * gain.y, color.z * gain.z}, opacity);
     };
     for (std::size_t i = 0; i < own.parts.size(); ++i) {
         if (!own.parts[i])
@@ -285,16 +291,23 @@ void People::add_own_head(render::SceneFrame& frame, const RoomPerson& person, d
     }
     if (own.back)
         frame.objects.push_back({&*own.back, place, look_of(head.color(face::HeadPart::skin))});
-    render::SceneObject cap{&bust_.cap, place * head.cap().place, look_of(color_of(person.id))};
+    const Vec3 of_cap = color_of(person.id);
+    render::SceneObject cap{&bust_.cap, place * head.cap().place,
+                            person.has_cloud ? cloud_look(of_cap, opacity) : look(of_cap, opacity)};
     cap.scale = head.cap().scale;
     frame.objects.push_back(cap);
+    // The cloud's own neck goes round it where it is seen.
+    const OwnHead::Part of_neck = person.has_cloud ? head.neck_in_cloud() : head.neck();
+    render::SceneObject neck{&bust_.neck, body_below(place) * of_neck.place,
+                             look_of(head.color(face::HeadPart::skin))};
+    neck.scale = of_neck.scale;
+    frame.objects.push_back(neck);
 }
 
 void People::add_bust(render::SceneFrame& frame, const RoomPerson& person, double opacity) {
     const Pose body = body_below(*person.head);
     const Vec3 color = color_of(person.id);
     const bool has_own = person.expression && person.own_head;
-    const Vec3 skin = has_own ? person.own_head->color(face::HeadPart::skin) : skin_color;
     if (has_own) {
         add_own_head(frame, person, opacity);
     } else if (person.expression) {
@@ -305,10 +318,8 @@ void People::add_bust(render::SceneFrame& frame, const RoomPerson& person, doubl
         frame.objects.push_back({&bust_.mask, *person.head, look(mask_color, opacity)});
         frame.objects.push_back({&bust_.eyes, *person.head, look(eye_color, opacity)});
     }
-    const OwnHead::Part neck = has_own ? person.own_head->neck() : OwnHead::Part();
-    render::SceneObject of_neck{&bust_.neck, body * neck.place, look(skin, opacity)};
-    of_neck.scale = neck.scale;
-    frame.objects.push_back(of_neck);
+    if (!has_own)
+        frame.objects.push_back({&bust_.neck, body, look(skin_color, opacity)});
     frame.objects.push_back({&bust_.gown, body, look(gown_color, opacity)});
     frame.objects.push_back({&bust_.collar, body, look(color, opacity)});
 }
