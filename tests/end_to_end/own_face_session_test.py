@@ -61,7 +61,7 @@ class OwnFaceInASession(unittest.TestCase):
         wait = patience.Wait(f"a picture of {name}")
         while True:
             with Process("join", self.host.greeting["link"], "--name", name, "--offscreen", file, "--size", f"{WIDTH}x{HEIGHT}",
-                         "--room", "off", "--quality", "low", "--view", "camera:0", "--seconds", "2", "--json") as seeing:
+                         "--quality", "low", "--view", "camera:0", "--seconds", "2", "--json") as seeing:
                 self.assertEqual(seeing.end(), 0, seeing.last_words())
                 seeing.output_thread.join(5)
             if (face_of(json.loads(seeing.last_line), "Ada") or {}).get("own") is has_own:
@@ -78,7 +78,7 @@ class OwnFaceInASession(unittest.TestCase):
         late.wait_for(lambda f: (face_of(f, "Ada") or {}).get("own"))
         ada.say("face off")
         bob.wait_for(lambda f: face_of(f, "Ada") is None)
-        self.assertEqual(ada.wait_for(lambda f: f["face"]["state"] == "off")["face"]["own"], "off")
+        ada.wait_for(lambda f: (f["face"]["state"], f["face"]["own"]) == ("off", "off"))
         ada.say("face on")
         bob.wait_for(lambda f: (face_of(f, "Ada") or {}).get("own"))
         ada.send(signal.SIGTERM)
