@@ -17,7 +17,7 @@ public:
     // Further ones are not drawn: each takes some 5 MB, and 1 MB of the GPU's memory.
     static constexpr std::size_t max_own_heads = 16;
 
-    // True if somebody has another head than before. A new one takes some 20 ms.
+    // True if somebody has another head than before. A new one takes some 10 ms.
     bool take(const client::FaceKeeper::Faces& faces);
 
     // Null: this person has none.
