@@ -58,6 +58,7 @@ client::Participant::Options viewer_options(const net::Link& link) {
     join.remark = [](const std::string& text) { log::say(text); };
     join.keeps_room = true;
     join.takes_faces = true;
+    join.takes_own_faces = true;
     return join;
 }
 

@@ -324,6 +324,7 @@ void add_join_command(CLI::App& app) {
         "  theatron join --list-devices\n"
         "  theatron join LINK --microphone default --speaker default\n"
         "  theatron join LINK --publish k4a:0\n"
+        "  theatron join LINK --face 9001 --own-face me.face\n"
         "  theatron join LINK --person 1=0.2:1.65:-0.4,reach=1 --myself 0=0:1.7:0.5,yaw=180");
     command->add_option("link", flags->link,
                         "The link that the host printed, or @FILE with it. In a window it can be "
@@ -415,6 +416,13 @@ void add_join_command(CLI::App& app) {
                         "one learns from synthetic persons at first, for some seconds");
     command->add_flag("--face-channels", flags->face_channels,
                       "Send all 52 channels of your face, so that it moves as it was tracked");
+    command->add_option("--own-face", flags->own_face,
+                        "Your own face, of 'theatron face enrol': the others see it in place of "
+                        "the usual head, moved by --face. The host forgets it when you leave, or "
+                        "at the line 'face off'; it is in no recording");
+    command->add_option("--passphrase-file", flags->passphrase_file,
+                        "A file with its passphrase in the first line, which only you may read "
+                        "(default: asked for)");
     command->add_flag("--push-to-talk", flags->push_to_talk,
                       "Speak only while a key is held: Enter in the window, where F7 switches, "
                       "elsewhere between the lines 'talk on' and 'talk off'");

@@ -12,6 +12,8 @@
 #include "video/color_codec.h"
 #include "video/depth_codecs.h"
 #include "viewer_window.h"
+#include "visit/face_files.h"
+#include "visit/shown_face.h"
 
 namespace theatron::app {
 
@@ -74,6 +76,8 @@ void refuse_unused(const JoinFlags& flags) {
         {"--face", !or_screen, "is about how the others see you: it goes without --or-screen."},
         {"--face-model", !flags.face.empty(), "is about what your face shows: it needs --face."},
         {"--face-channels", !flags.face.empty(), "is about what your face shows: it needs --face."},
+        {"--own-face", !flags.face.empty(), "needs --face: a tracker, or actor, that moves it."},
+        {"--passphrase-file", !flags.own_face.empty(), "is about --own-face: it needs that."},
         {"--spatial-voices", hears, "is about what you hear: it needs --speaker."},
     };
     for (const Use& use : uses)
@@ -118,6 +122,7 @@ client::Participant::Options participant_options(const JoinFlags& flags) {
     options.knows_studies = !flags.or_screen;
     options.voice_may_record = flags.voice_may_record;
     options.takes_faces = !flags.or_screen;
+    options.takes_own_faces = true;
     options.direct = flags.direct == "on";
     return options;
 }
@@ -137,8 +142,15 @@ std::unique_ptr<publish::CameraPublisher> open_own_cameras(const JoinFlags& flag
 std::unique_ptr<visit::FaceLine> open_face(const JoinFlags& flags) {
     if (flags.face.empty())
         return nullptr;
-    return std::make_unique<visit::FaceLine>(
-        visit::FaceLine::Options{flags.face, flags.face_model, flags.face_channels});
+    visit::FaceLine::Options options{flags.face, flags.face_model, flags.face_channels, nullptr};
+    if (!flags.own_face.empty()) {
+        // A wrong file is told before a passphrase is asked for.
+        visit::require_own_face(flags.own_face);
+        const auto own = visit::read_own_face(flags.own_face,
+                                              visit::face_passphrase(flags.passphrase_file, false));
+        options.own_face = std::make_shared<const Bytes>(visit::shown_face(own, flags.own_face));
+    }
+    return std::make_unique<visit::FaceLine>(options);
 }
 
 visit::VoiceLine::Options::Cleaning parse_cleaning(const std::string& text) {

@@ -52,7 +52,8 @@ struct JoinFlags {
     std::string direct = "on";
     std::string render_scale = "auto";
     std::string microphone, speaker;
-    std::string webcam;            // empty: the face is not shown
+    std::string webcam;                     // empty: the face is not shown
+    std::string own_face, passphrase_file;  // a file of 'theatron face enrol'; empty: none
     std::string face, face_model;  // as visit::FaceLine::Options; empty: no expression is sent
     bool face_channels = false;
     int voice_frame_ms = 20;

@@ -45,13 +45,15 @@ Pose towards(Vec3 place, Vec3 at) {
            Pose{Quat{0, 1, 0, 0}, {}};
 }
 
-// The state of the tracker and the strongest emotion, as it is drawn.
-nlohmann::json face_json(const wire::FaceExpression& shown) {
+// The state of the tracker and the strongest emotion, as it is drawn; whether the person's own face
+// has come.
+nlohmann::json face_json(const wire::FaceExpression& shown, bool has_own) {
     const auto strongest = std::max_element(shown.emotions.begin(), shown.emotions.end());
     const bool is_tracked = shown.state == wire::FaceExpression::State::tracked;
     return {{"state", is_tracked ? "tracked" : "lost"},
             {"emotion", face::emotion_names[std::size_t(strongest - shown.emotions.begin())]},
-            {"channels", shown.channels.has_value()}};
+            {"channels", shown.channels.has_value()},
+            {"own", has_own}};
 }
 
 }  // namespace
@@ -224,6 +226,7 @@ nlohmann::json room_json(const client::Participant& participant) {
     const auto room = participant.room();
     const auto poses = participant.poses();
     const auto expressions = participant.expressions();
+    const auto own_faces = participant.own_faces();
     nlohmann::json people = nlohmann::json::array(), objects = nlohmann::json::array();
     for (const auto& [id, object] : room.objects) {
         if (object.kind == session::ObjectKind::person) {
@@ -239,7 +242,8 @@ nlohmann::json room_json(const client::Participant& participant) {
                      {"muted", facts->muted},
                      {"voice_recorded", facts->voice_recorded}});
                 if (const auto found = expressions.find(object.creator); found != expressions.end())
-                    people.back()["face"] = face_json(found->second);
+                    people.back()["face"] =
+                        face_json(found->second, own_faces.contains(object.creator));
                 if (const auto pose = poses.find(object.creator); pose != poses.end())
                     for (const auto& [name, part] : {std::pair{"head", &pose->second.head},
                                                      {"left_hand", &pose->second.left_hand},

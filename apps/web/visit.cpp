@@ -61,6 +61,7 @@ viewer::Viewer::Options viewer_options(const client::Participant::Options& join,
 client::Participant::Options with_faces(client::Participant::Options join,
                                         client::PictureSender& face) {
     join.takes_faces = true;
+    join.takes_own_faces = true;
     join.face = face.events();
     return join;
 }

@@ -12,6 +12,7 @@
 #include "cli/progress.h"
 #include "face/expression.h"
 #include "face/fit_figures.h"
+#include "face/sent_face.h"
 #include "face/synthetic_faces.h"
 #include "face/training.h"
 #include "files/file_bytes.h"
@@ -91,9 +92,23 @@ nlohmann::json times_json(const face::MorphModel& model, const face::Network& ne
     return {{"infer", infer}, {"blend", one}, {"blend_all_channels", most}};
 }
 
+// A person's own face as a session has it: with six different pictures of the skin.
+std::shared_ptr<const room::OwnHead> own_head_of(const face::MorphModel& model) {
+    room::OwnHead::Textures textures;
+    for (std::size_t i = 0; i < textures.size(); ++i) {
+        textures[i] = ColorImage(Size{face::max_sent_texture_side, face::max_sent_texture_side});
+        for (std::size_t k = 0; k < textures[i].pixels.size(); ++k)
+            textures[i].pixels[k] = {std::uint8_t(120 + 20 * i), std::uint8_t(90 + k % 16),
+                                     std::uint8_t(80 + k / 512 % 16)};
+    }
+    face::EnrolledFace person = face::without_shoulders(face::enrolled_person(model, {}));
+    return std::make_shared<const room::OwnHead>(face::thinned(person, 6000), std::move(textures));
+}
+
 // A picture of 640x480 pixels in which one head takes the middle third: of a bust whose face shows
-// something else each time, and of the usual bust. With the wait for the driver, and reading back.
-nlohmann::json draw_json() {
+// something else each time, of the person's own face, which does so, too, and of the usual bust.
+// With the wait for the driver, and reading back.
+nlohmann::json draw_json(const face::MorphModel& model) {
     constexpr Size size{640, 480};
     const render::OffscreenContext context;
     render::ScenePasses passes;
@@ -118,11 +133,35 @@ nlohmann::json draw_json() {
         person.expression = face::blend_expressions(smile, {jaw, 0, 0});
         draw();
     });
+    person.own_head = own_head_of(model);
+    float smile = 0;
+    const auto draw_own = [&](float step) {
+        jaw = jaw < 0.5F ? jaw + 0.01F : 0;
+        smile = smile < 0.9F ? smile + step : 0;
+        person.shown_face = {};
+        person.shown_face.direct.jaw_open = jaw;
+        person.shown_face.emotions[std::size_t(face::Emotion::happiness)] = smile;
+        person.shown_face.emotions[std::size_t(face::Emotion::neutral)] = 1 - smile;
+        draw();
+    };
+    const double with_own = median_ms([&] { draw_own(0); });
+    const double with_other_skin = median_ms([&] { draw_own(0.1F); });
+    const room::OwnHead& own = *person.own_head;
+    const double own_meshes = median_ms([&] { (void)own.meshes(person.shown_face); });
+    ColorImage skin;
+    face::Emotions half{};
+    half[std::size_t(face::Emotion::happiness)] = half[std::size_t(face::Emotion::neutral)] = 0.5F;
+    const double own_skin = median_ms([&] { own.blend(own.shares(half), skin); });
+    person.own_head = nullptr;
     const room::FaceShape shape;
     const double meshes = median_ms([&] { (void)shape.meshes(*person.expression); });
     return {{"driver", render::driver_name()},
             {"meshes", meshes},
             {"draw", with_face},
+            {"own_meshes", own_meshes},
+            {"own_skin", own_skin},
+            {"draw_own_face", with_own},
+            {"draw_own_face_new_skin", with_other_skin},
             {"draw_usual_bust", bust}};
 }
 
@@ -157,7 +196,7 @@ nlohmann::json measure_face(const FaceFlags& flags) {
     }
     result["ms"] = times_json(model, *network);
     progress("drawing", 0);
-    result["ms"].update(draw_json());
+    result["ms"].update(draw_json(model));
     return result;
 }
 
@@ -189,8 +228,12 @@ void print_face(const nlohmann::json& r) {
         number(r["ms"]["infer"]), number(r["ms"]["blend"]), number(r["ms"]["blend_all_channels"]));
     std::printf(
         "meshes of the drawn face %.3f ms; a picture with it %.2f ms, with the usual bust %.2f ms\n"
+        "a person's own face: meshes %.3f ms, the skin of another emotion %.3f ms; a picture with\n"
+        "it %.2f ms, and %.2f ms where the skin changes, too\n"
         "(640x480, %s)\n",
         number(r["ms"]["meshes"]), number(r["ms"]["draw"]), number(r["ms"]["draw_usual_bust"]),
+        number(r["ms"]["own_meshes"]), number(r["ms"]["own_skin"]),
+        number(r["ms"]["draw_own_face"]), number(r["ms"]["draw_own_face_new_skin"]),
         r["ms"]["driver"].get<std::string>().c_str());
 }
 

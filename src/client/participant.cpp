@@ -69,6 +69,8 @@ Participant::Participant(Options options)
     shared_->voice_may_record = options_.voice_may_record;
     if (options_.keeps_cases)
         cases_ = std::make_unique<CaseKeeper>([this] { announce(); }, [this] { tell_content(); });
+    if (options_.takes_own_faces)
+        faces_ = std::make_unique<FaceKeeper>();
     if (session_.begin().size() + 1 > wire::max_first_envelope_size)
         throw Error(say(Phrase::long_join, std::to_string(wire::max_first_envelope_size)));
     start();
@@ -167,6 +169,8 @@ bool Participant::begin_connection(net::Client& client) {
     }
     if (cases_)
         cases_->on_connected();
+    if (faces_)
+        faces_->on_connected();
     return true;
 }
 
@@ -258,6 +262,8 @@ void Participant::on_state(const wire::State& state) {
     }
     if (state.key.topic == wire::StateTopic::expression)
         return on_expression(ParticipantId{state.key.id}, state.body);
+    if (state.key.topic == wire::StateTopic::own_face)
+        return on_own_face(ParticipantId{state.key.id}, state.body);
     // A later host may send states that this participant does not know.
     const auto pose = state.key.topic == wire::StateTopic::pose
                           ? wire::decode_person_pose(state.body)
@@ -399,6 +405,8 @@ void Participant::on_control(ByteView message) {
         case Change::content:
             if (cases_)
                 cases_->on_content(session_.content(), steady_now());
+            if (faces_ && faces_->on_content(session_.content(), steady_now()))
+                announce();
             break;
         case Change::refused:
             // A host closes the connection, too. The sentence is made of the refusal.
@@ -455,6 +463,7 @@ void Participant::on_tick() {
 
     on_encode_keys();
     request_content();
+    send_own_face();
     if (delivery_wish)
         client.send_control(session_.choose_delivery(*delivery_wish));
 

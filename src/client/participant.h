@@ -21,10 +21,12 @@
 #include "client/decoders.h"
 #include "client/direct_reception.h"
 #include "client/direct_sender.h"
+#include "client/face_keeper.h"
 #include "geometry/calibration.h"
 #include "net/client.h"
 #include "session/camera_adjustment.h"
 #include "session/direct_arrivals.h"
+#include "session/face_upload.h"
 #include "session/key_gate.h"
 #include "session/key_requests.h"
 #include "session/member_room.h"
@@ -91,6 +93,8 @@ public:
         bool keeps_room = false;
         // Takes the content of the case that is open in the room; needs keeps_room.
         bool keeps_cases = false;
+        // Takes the own faces of the others; see own_faces().
+        bool takes_own_faces = false;
         // Shows patient() to this person, and to nobody else.
         bool shows_patient = false;
         // This person agrees that others record its voice; see allow_voice_recording().
@@ -222,6 +226,14 @@ public:
     void send_expression(const wire::FaceExpression& expression);
     std::map<ParticipantId, wire::FaceExpression> expressions() const;
 
+    // From any thread: the others see this face (face/sent_face.h) of this person from now on,
+    // again after each loss of the connection; null ends it, and the host forgets it. At most
+    // wire::max_own_face_bytes. It leaves in pieces, beside everything else.
+    void show_own_face(std::shared_ptr<const Bytes> face);
+    session::FaceUpload::State own_face_state() const;
+    // The faces of the others that have come whole. Empty without Options::takes_own_faces.
+    FaceKeeper::Faces own_faces() const;
+
     // Sends a packet of this participant's voice (voice/packet.h), from any thread. The oldest are
     // dropped if they cannot be sent at once. The others get it with this participant's number.
     void send_voice(ByteView packet);
@@ -328,6 +340,8 @@ private:
     void tell_pose();
     void tell_expression();
     void on_expression(ParticipantId person, ByteView body);
+    void send_own_face();
+    void on_own_face(ParticipantId person, ByteView body);
     void tell_voice();
     void tell_voice_consent();
     void on_room_message();
@@ -403,6 +417,7 @@ private:
     session::DirectArrivals arrivals_;
     std::map<CameraId, ParticipantId> compared_;  // cameras in moments_, and their publishers
     MomentMeter moments_;
+    session::FaceUpload upload_;
     session::KeyGate to_host_;  // holds back the settings that the host does not need
 
     struct Shared;
@@ -412,6 +427,7 @@ private:
     std::unique_ptr<DirectReception> direct_reception_;  // null without Options::direct
     std::unique_ptr<Decoders> decoders_;                 // its threads use all above
     std::unique_ptr<CaseKeeper> cases_;                  // its threads use all above; may be null
+    std::unique_ptr<FaceKeeper> faces_;                  // may be null
     Attempts attempts_;
 
     // The thread, in a browser the page's events: participant_loop_native.cpp, _web.cpp.

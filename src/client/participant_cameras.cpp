@@ -69,6 +69,8 @@ void Participant::on_welcome() {
     const bool again = is_new && shared_->status.joins > 1;
     compare_cameras();
     lock.unlock();
+    if (is_new)
+        upload_.on_joined();
     if (!session_.may_publish() && !numbers(Offer::cameras).empty())
         forget_numbers(Offer::cameras);
     for (const wire::Text& problem : session_.left_out())

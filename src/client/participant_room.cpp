@@ -58,10 +58,14 @@ void Participant::request_content() {
         const std::lock_guard lock(shared_->mutex);
         shared_->is_asking_content = false;
     }
-    if (!cases_ || !session_.joined())
+    if (!session_.joined())
         return;
-    for (const wire::RequestContent& request : cases_->take_requests(steady_now()))
-        shared_->client->send_control(wire::encode(request));
+    if (cases_)
+        for (const wire::RequestContent& request : cases_->take_requests(steady_now()))
+            shared_->client->send_control(wire::encode(request));
+    if (faces_)
+        for (const wire::RequestContent& request : faces_->take_requests(steady_now()))
+            shared_->client->send_control(wire::encode(request));
 }
 
 std::vector<wire::OfferedCase> Participant::cases() const {

@@ -60,7 +60,9 @@ struct Participant::Shared {
     std::optional<wire::PersonPose> own_pose;  // not yet sent
     std::map<ParticipantId, wire::FaceExpression> expressions;
     std::optional<wire::FaceExpression> own_expression;  // not yet sent
-    std::deque<Bytes> voice;                             // packets not yet sent
+    std::shared_ptr<const Bytes> own_face;               // null: none is shown
+    session::FaceUpload::State own_face_state{};
+    std::deque<Bytes> voice;  // packets not yet sent
     bool voice_may_record = false;
     bool asks_voice_consent = false;  // the host does, on this connection
     session::MemberRoom room;

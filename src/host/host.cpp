@@ -13,6 +13,7 @@
 #include "host/codec_steps.h"
 #include "host/host_identity.h"
 #include "host/host_impl.h"
+#include "net/content_digest.h"
 #include "session/viewer_session.h"
 #include "video/color_codec.h"
 #include "video/depth_codecs.h"
@@ -137,6 +138,7 @@ void Host::Impl::open(const SessionOptions& options, const capture::Progress& pr
     config.past.reach = options.look_back;
     if (options.direct)
         config.make_secret = [] { return net::random_bytes(wire::direct_secret_size); };
+    config.make_digest = net::make_content_digest;
     port->open_page();
     SavedRoom saved = room_file->load();
     config.room = std::move(saved.room);

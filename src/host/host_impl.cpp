@@ -230,12 +230,19 @@ void Host::Impl::carry_out(const session::action::Drawing& a) {
 
 // A range that goes beyond the content is cut at its end.
 void Host::Impl::carry_out(const session::action::SendContent& a) {
-    const auto bytes = cases ? cases->content(a.content) : nullptr;
+    auto bytes = session->own_face(a.content);
+    if (!bytes && cases)
+        bytes = cases->content(a.content);
     const bool is_here = bytes && a.offset < bytes->size();
     const std::uint64_t end =
         is_here ? a.offset + std::min<std::uint64_t>(a.count, bytes->size() - a.offset) : 0;
     server->send_content(peer_of(a.participant),
                          {a.content, is_here ? bytes : nullptr, a.offset, end});
+}
+
+void Host::Impl::carry_out(const session::action::SendState& a) {
+    const wire::State state{a.key, a.body};
+    server->send_states(peer_of(a.participant), {&state, 1});
 }
 
 void Host::Impl::note_left(net::PeerId peer) {
@@ -415,6 +422,11 @@ void Host::Impl::take_state(net::PeerId peer, const wire::State& state) {
         return;
     if (state.key.topic == wire::StateTopic::object)
         return forward_object_pose(peer, state);
+    if (session::OwnFaces::is_topic(state.key.topic)) {
+        if (!session->on_own_face(sender, state, steady_now()))
+            end_flood(peer, "there were far more pieces of a face than a host takes");
+        return carry_out();
+    }
     const auto may = [&](session::Right right) { return session->allow(sender, right); };
     if (poses.put(sender, state, may, steady_now()) == session::PoseBoard::Answer::flood)
         end_flood(peer, "there were far more poses or expressions than a host sends on");

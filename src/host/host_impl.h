@@ -216,6 +216,7 @@ struct Host::Impl {
     void carry_out(const session::action::Audit& a);
     void carry_out(const session::action::RevokeLink& a);
     void carry_out(const session::action::SendContent& a);
+    void carry_out(const session::action::SendState& a);
     void carry_out(const session::action::Adjusted& a);
     void carry_out(const session::action::Play& a);
     void follow_playback(const std::string& by);

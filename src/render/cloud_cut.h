@@ -42,6 +42,9 @@ inline constexpr double usual_reach_m = 1.1;
 // middle belong to the room and are removed.
 CloudCut other_person(const Pose& room_from_head, double reach_m = usual_reach_m);
 
+// Head and headset, without the neck: what is removed where another head is drawn.
+CloudCut::Capsule head_of(const Pose& room_from_head);
+
 // As other_person() for the viewer's own body; also removes the headset, the head and points so
 // near the eyes that they would hide everything else. Hands at work stay.
 CloudCut oneself(const Pose& room_from_head, double reach_m = usual_reach_m);

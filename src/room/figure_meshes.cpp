@@ -79,15 +79,21 @@ void append_finger(MeshData& mesh, Vec3 root, double length_m, double bent, doub
 
 }  // namespace
 
+render::MeshData back_mesh(const BackSizes& half_widths, double below) {
+    // How far back each ring reaches from where it begins, behind the edges of the face.
+    constexpr BackSizes reach{0.04, 0.058, 0.08, 0.09, 0.094, 0.092},
+        begin{0, 0.008, 0.012, 0.012, 0.012, 0.012};
+    std::array<Ring, back_heights.size()> rings;
+    for (std::size_t i = 0; i < rings.size(); ++i)
+        rings[i] = {back_heights[i], half_widths[i], reach[i], begin[i]};
+    return loft(rings, 0.5 * pi - below, 1.5 * pi + below);
+}
+
 BustMeshes bust_meshes() {
     constexpr Ring head[] = {{-0.128, 0, 0, -0.03},          {-0.122, 0.026, 0.028, -0.028},
                              {-0.105, 0.044, 0.052, -0.018}, {-0.07, 0.06, 0.074, -0.002},
                              {-0.03, 0.07, 0.088, 0.008},    {0.01, 0.074, 0.094, 0.012},
                              {0.06, 0.075, 0.095, 0.014}};
-    // Meets the edges of the face.
-    constexpr Ring back[] = {{-0.12, 0.03, 0.04, 0},       {-0.105, 0.044, 0.058, 0.008},
-                             {-0.07, 0.0625, 0.08, 0.012}, {-0.03, 0.0705, 0.09, 0.012},
-                             {0.01, 0.0695, 0.094, 0.012}, {0.06, 0.067, 0.092, 0.012}};
     constexpr Ring neck[] = {
         {-0.24, 0.058, 0.056, 0.035}, {-0.17, 0.053, 0.053, 0.032}, {-0.07, 0.052, 0.055, 0.03}};
     constexpr Ring cap[] = {{0.028, 0.077, 0.097, 0.014}, {0.032, 0.084, 0.104, 0.014},
@@ -106,7 +112,7 @@ BustMeshes bust_meshes() {
                                {-0.186, 0.076, 0.073, 0.032},
                                {-0.166, 0.066, 0.067, 0.032},
                                {-0.162, 0.056, 0.058, 0.032}};
-    BustMeshes meshes{loft(head), loft(back, 0.5 * pi, 1.5 * pi),
+    BustMeshes meshes{loft(head), back_mesh(usual_back_widths),
                       loft(cap),  loft(mask, -0.44 * pi, 0.44 * pi),
                       {},         loft(neck),
                       loft(gown), loft(collar)};

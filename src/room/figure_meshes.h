@@ -6,6 +6,8 @@
 // hand's -z points where its fingers point. Metres.
 #pragma once
 
+#include <array>
+
 #include "render/scene_frame.h"
 
 namespace theatron::room {
@@ -22,6 +24,12 @@ struct BustMeshes {
     render::MeshData collar;  // of the gown
 };
 BustMeshes bust_meshes();
+// BustMeshes::back behind another face: at each of back_heights it has half of this width. It
+// begins below the face, by this angle in radians.
+using BackSizes = std::array<double, 6>;
+inline constexpr BackSizes back_heights{-0.12, -0.105, -0.07, -0.03, 0.01, 0.06},
+    usual_back_widths{0.03, 0.044, 0.0625, 0.0705, 0.0695, 0.067};
+render::MeshData back_mesh(const BackSizes& half_widths, double below = 0);
 // The body below a head turns about the vertical alone, around this point of the head's frame.
 inline constexpr Vec3 neck_pivot{0, -0.1, 0.03};
 

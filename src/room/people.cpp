@@ -103,6 +103,12 @@ render::SurfaceLook sign_look(Vec3 color, double opacity) {
     return sign;
 }
 
+// The same for what is drawn into a cloud, whose colours are those of a camera: sRGB.
+render::SurfaceLook cloud_look(Vec3 linear, double opacity) {
+    const auto encoded = [](double value) { return std::pow(value, 1 / 2.2); };
+    return sign_look({encoded(linear.x), encoded(linear.y), encoded(linear.z)}, opacity);
+}
+
 double brightness(Vec3 linear) {
     return 0.2126 * linear.x + 0.7152 * linear.y + 0.0722 * linear.z;
 }
@@ -230,10 +236,81 @@ void People::add_face(render::SceneFrame& frame, const RoomPerson& person, doubl
     frame.objects.push_back(cap);
 }
 
+// Uploads what has changed since the picture before: the mesh, and more seldom the skin's picture.
+const People::Own& People::own_of(const RoomPerson& person) {
+    Own& own = own_heads_[person.id];
+    const OwnHead& head = *person.own_head;
+    const bool is_other = own.head != person.own_head;
+    if (is_other || !(own.shown == person.shown_face)) {
+        own.shown = person.shown_face;
+        const auto meshes = head.meshes(own.shown);
+        for (std::size_t i = 0; i < meshes.size(); ++i) {
+            own.parts[i].reset();
+            if (!meshes[i].indices.empty())
+                own.parts[i].emplace(meshes[i]);
+        }
+    }
+    if (is_other) {
+        own.back.reset();
+        if (!head.is_whole())
+            own.back.emplace(head.back());
+    }
+    const OwnHead::Shares shares = head.shares(own.shown.emotions);
+    if (is_other || shares != own.shares) {
+        head.blend(shares, blended_);
+        if (!own.skin || own.skin->size() != blended_.size)
+            own.skin.emplace(blended_.size);
+        own.skin->set(blended_.view());
+        own.shares = shares;
+    }
+    own.head = person.own_head;
+    return own;
+}
+
+void People::add_own_head(render::SceneFrame& frame, const RoomPerson& person, double opacity) {
+    const Own& own = own_of(person);
+    const OwnHead& head = *own.head;
+    // In a cloud the pupils are at the head's origin, as in the person who wears the headset.
+    const Pose in_cloud{{}, {0, 0, head.pupils_before_m()}};
+    const Pose place = person.has_cloud ? *person.head * in_cloud : *person.head;
+    const auto look_of = [&](Vec3 color) {
+        const Vec3 gain = person.skin_gain;
+        if (!person.has_cloud)
+            return look(color, opacity);
+        return cloud_look({color.x * gain.x, color.y * gain.y, color.z * gain.z}, opacity);
+    };
+    for (std::size_t i = 0; i < own.parts.size(); ++i) {
+        if (!own.parts[i])
+            continue;
+        const auto part = face::HeadPart(i);
+        const bool is_skin = part == face::HeadPart::skin;
+        render::SurfaceLook of_part = look_of(is_skin ? Vec3{1, 1, 1} : head.color(part));
+        if (is_skin)
+            of_part.texture = &*own.skin;
+        frame.objects.push_back({&*own.parts[i], place, of_part});
+    }
+    if (own.back)
+        frame.objects.push_back({&*own.back, place, look_of(head.color(face::HeadPart::skin))});
+    const Vec3 of_cap = color_of(person.id);
+    render::SceneObject cap{&bust_.cap, place * head.cap().place,
+                            person.has_cloud ? cloud_look(of_cap, opacity) : look(of_cap, opacity)};
+    cap.scale = head.cap().scale;
+    frame.objects.push_back(cap);
+    // The cloud's own neck goes round it where it is seen.
+    const OwnHead::Part of_neck = person.has_cloud ? head.neck_in_cloud() : head.neck();
+    render::SceneObject neck{&bust_.neck, body_below(place) * of_neck.place,
+                             look_of(head.color(face::HeadPart::skin))};
+    neck.scale = of_neck.scale;
+    frame.objects.push_back(neck);
+}
+
 void People::add_bust(render::SceneFrame& frame, const RoomPerson& person, double opacity) {
     const Pose body = body_below(*person.head);
     const Vec3 color = color_of(person.id);
-    if (person.expression) {
+    const bool has_own = person.expression && person.own_head;
+    if (has_own) {
+        add_own_head(frame, person, opacity);
+    } else if (person.expression) {
         add_face(frame, person, opacity);
     } else {
         frame.objects.push_back({&bust_.head, *person.head, look(skin_color, opacity)});
@@ -241,7 +318,8 @@ void People::add_bust(render::SceneFrame& frame, const RoomPerson& person, doubl
         frame.objects.push_back({&bust_.mask, *person.head, look(mask_color, opacity)});
         frame.objects.push_back({&bust_.eyes, *person.head, look(eye_color, opacity)});
     }
-    frame.objects.push_back({&bust_.neck, body, look(skin_color, opacity)});
+    if (!has_own)
+        frame.objects.push_back({&bust_.neck, body, look(skin_color, opacity)});
     frame.objects.push_back({&bust_.gown, body, look(gown_color, opacity)});
     frame.objects.push_back({&bust_.collar, body, look(color, opacity)});
 }
@@ -294,6 +372,11 @@ void People::add_to(render::SceneFrame& frame, const std::vector<RoomPerson>& pe
             return person.id == drawn.first && person.expression;
         });
     });
+    std::erase_if(own_heads_, [&](const auto& drawn) {
+        return std::none_of(people.begin(), people.end(), [&](const RoomPerson& person) {
+            return person.id == drawn.first && person.own_head;
+        });
+    });
     for (const RoomPerson& person : people) {
         const double opacity = person.is_stale ? stale_opacity : 1;
         add_hands(frame, person, opacity);
@@ -308,6 +391,8 @@ void People::add_to(render::SceneFrame& frame, const std::vector<RoomPerson>& pe
             }
             if (person.face)
                 add_picture(frame, person, opacity);
+        } else if (person.expression && person.own_head) {
+            add_own_head(frame, person, opacity);
         }
         const std::string name = person.is_stale && person.age.empty()
                                      ? say(Phrase::person_of_old_view, person.name)

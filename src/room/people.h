@@ -5,6 +5,7 @@
 // points where the person looks.
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
 #include <optional>
@@ -17,6 +18,7 @@
 #include "render/scene_frame.h"
 #include "room/face_shape.h"
 #include "room/figure_meshes.h"
+#include "room/own_head.h"
 
 namespace theatron::room {
 
@@ -35,13 +37,18 @@ struct RoomPerson {
     bool is_stale = false;  // its poses are old: it is drawn half transparent
     std::string age;        // of what is seen of it, above the name; empty: not shown
     bool has_headset = false;
-    // It is seen as a point cloud, in place of its bust, picture or plate.
+    // It is seen as a point cloud, in place of its bust, picture or plate. An own head is drawn
+    // into the cloud, without light of the room, as the cloud is.
     bool has_cloud = false;
     std::optional<FacePicture> face;
     // The channels of its face, if it sends its expression.
     std::optional<face::Channels> expression;
-    bool calls = false;   // asks the others to come
-    bool points = false;  // with the right hand
+    // The same as emotions, and the head that shows them; null: the usual one.
+    ShownFace shown_face;
+    std::shared_ptr<const OwnHead> own_head;
+    Vec3 skin_gain{1, 1, 1};  // of the own head's colours, in a cloud
+    bool calls = false;       // asks the others to come
+    bool points = false;      // with the right hand
 };
 
 // The colour of everything that belongs to a participant: avatar, pointer, ownership. Neighbouring
@@ -69,6 +76,14 @@ private:
         face::Channels shown;
         render::SceneMesh skin, whites, dark, lips, mouth;
     };
+    struct Own {
+        std::shared_ptr<const OwnHead> head;
+        ShownFace shown;
+        OwnHead::Shares shares{};
+        std::array<std::optional<render::SceneMesh>, face::part_count> parts;
+        std::optional<render::SceneMesh> back;  // of a face alone
+        std::optional<render::SceneTexture> skin;
+    };
     struct Hand {
         render::SceneMesh glove, cuff;
     };
@@ -77,6 +92,8 @@ private:
     void add_bust(render::SceneFrame& frame, const RoomPerson& person, double opacity);
     void add_face(render::SceneFrame& frame, const RoomPerson& person, double opacity);
     const Face& face_of(const RoomPerson& person);
+    void add_own_head(render::SceneFrame& frame, const RoomPerson& person, double opacity);
+    const Own& own_of(const RoomPerson& person);
     void add_plate(render::SceneFrame& frame, const RoomPerson& person, double opacity,
                    Vec3 eye) const;
     void add_picture(render::SceneFrame& frame, const RoomPerson& person, double opacity) const;
@@ -84,6 +101,8 @@ private:
     Bust bust_;
     std::unique_ptr<FaceShape> shape_;  // made for the first face
     std::map<ParticipantId, Face> drawn_faces_;
+    std::map<ParticipantId, Own> own_heads_;
+    ColorImage blended_;
     Hand left_, right_, pointing_;
     render::SceneMesh plate_, plate_rim_, cone_, picture_, rim_;
 };

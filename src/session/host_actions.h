@@ -11,6 +11,7 @@
 #include "session/audit_event.h"
 #include "session/key_requests.h"
 #include "wire/control.h"
+#include "wire/envelope.h"
 
 namespace theatron::session {
 
@@ -94,6 +95,12 @@ struct SendContent {
     std::uint64_t offset = 0;
     std::uint32_t count = 0;
 };
+// Send the participant this state.
+struct SendState {
+    ParticipantId participant{};
+    wire::StateKey key;
+    Bytes body;
+};
 // A camera was adjusted; the session's description of it says how.
 struct Adjusted {
     CameraId camera{};
@@ -112,10 +119,11 @@ struct RevokeLink {
 
 }  // namespace action
 
-using Action = std::variant<action::Send, action::Close, action::Drop, action::End, action::Joined,
-                            action::TakeMedia, action::RequestKey, action::ChangeSettings,
-                            action::KeepEverything, action::SetCeiling, action::ChangeRights,
-                            action::Stepped, action::Drawing, action::Audit, action::RevokeLink,
-                            action::SendContent, action::Adjusted, action::Play, action::Delay>;
+using Action =
+    std::variant<action::Send, action::Close, action::Drop, action::End, action::Joined,
+                 action::TakeMedia, action::RequestKey, action::ChangeSettings,
+                 action::KeepEverything, action::SetCeiling, action::ChangeRights, action::Stepped,
+                 action::Drawing, action::Audit, action::RevokeLink, action::SendContent,
+                 action::Adjusted, action::Play, action::Delay, action::SendState>;
 
 }  // namespace theatron::session

@@ -28,6 +28,7 @@ HostSession::HostSession(Config config)
       adjusting_(streams_, look_back_, actions_),
       renderers_(admission_, actions_),
       cases_(config_.patient_for, admission_, room_, actions_),
+      faces_(config_.make_digest, admission_, actions_),
       studies_(admission_, actions_) {
     std::vector<wire::Camera> own = config_.cameras;
     int number = 0;
@@ -126,7 +127,7 @@ void HostSession::carry_out(ParticipantId id, const wire::RequestContent& reques
     if (request.count == 0)
         return;
     const ContentHash hash = to_content_hash(request.hash).value_or(ContentHash{});
-    if (cases_.may_have(id, hash))
+    if (faces_.content(hash) ? faces_.may_have(id) : cases_.may_have(id, hash))
         actions_.push_back(action::SendContent{id, hash, request.offset, request.count});
     else  // as of content that there is not
         send(id, wire::Content{request.hash, request.offset, 0, {}});
@@ -200,6 +201,7 @@ void HostSession::leave_everything(ParticipantId id, Removal cameras) {
     direct_.leave(id);
     streams_.leave(id);
     room_.leave(id);
+    faces_.leave(id);
 }
 
 void HostSession::on_tick(TimePoint now) {

@@ -22,6 +22,7 @@
 #include "session/look_backs.h"
 #include "session/membership.h"
 #include "session/offered_cases.h"
+#include "session/own_faces.h"
 #include "session/renderers.h"
 #include "session/shared_cameras.h"
 #include "session/streams.h"
@@ -55,6 +56,7 @@ public:
         std::vector<Role> patient_for = {Role::operator_};
         PastBounds past = {};                      // that participants may look back at
         DirectPaths::MakeSecret make_secret = {};  // empty: nothing is sent directly
+        OwnFaces::MakeDigest make_digest = {};     // empty: nobody shows a face of their own
     };
 
     explicit HostSession(Config config);
@@ -119,6 +121,13 @@ public:
         return room_.on_pose(participant, state, now);
     }
     const HostRoom& room() const { return room_; }
+    // See OwnFaces.
+    bool on_own_face(ParticipantId participant, const wire::State& state, TimePoint now) {
+        return faces_.put(participant, state, now);
+    }
+    std::shared_ptr<const Bytes> own_face(const ContentHash& content) const {
+        return faces_.content(content);
+    }
     // See HostRoom::replay().
     std::vector<ObjectPose> replay_room(const RoomObjects& recorded, TimePoint now);
     // The cases that can be opened from now on, in this order, at most wire::max_offered_cases, and
@@ -267,6 +276,7 @@ private:
     CameraAdjusting adjusting_;
     Renderers renderers_;
     OfferedCases cases_;
+    OwnFaces faces_;
     Studies studies_;
     bool has_ended_ = false;
     std::optional<wire::Playback> playback_;

@@ -111,6 +111,7 @@ void HostSession::enter(ParticipantId id, const wire::Join& hello) {
         room_.watch(id);
     tell_playback(id);
     cases_.tell_changes();
+    faces_.tell_all(id);
     if (participant.may(Right::manage))
         tell_operators();
 }

@@ -214,6 +214,7 @@ void HostSession::set_role(ParticipantId id, Role role) {
     const bool could_manage = person.may(Right::manage);
     person.role = role;
     actions_.push_back(action::ChangeRights{id});
+    faces_.follow_rights(id);
     if (could_manage && !person.may(Right::manage)) {
         end_leading(id);
         // A program that is nobody in the room watches it for as long as it may manage.

@@ -117,6 +117,7 @@ void LiveScene::note_screens(const client::Participant& participant) {
 
 bool LiveScene::take_meeting(const client::Participant& participant) {
     meeting_.set_clouds(person_clouds_.seen());
+    meeting_.set_cloud_skins(person_clouds_.skins());
     meeting_.show_moment(past_moment());
     const bool changed = meeting_.take(participant);
     if (changed) {

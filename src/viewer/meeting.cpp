@@ -9,6 +9,7 @@
 #include "room/facing.h"
 #include "session/room_bytes.h"
 #include "viewer/age_text.h"
+#include "viewer/cloud_skin.h"
 #include "viewer/placed_marks.h"
 #include "viewer/voices.h"
 
@@ -26,7 +27,18 @@ bool same(const room::RoomPerson& a, const room::RoomPerson& b) {
     return a.id == b.id && a.name == b.name && a.head == b.head && a.left_hand == b.left_hand &&
            a.right_hand == b.right_hand && a.is_stale == b.is_stale && a.has_cloud == b.has_cloud &&
            a.has_headset == b.has_headset && a.calls == b.calls && a.points == b.points &&
-           a.expression == b.expression && (!a.is_stale || a.age == b.age);
+           a.expression == b.expression && a.own_head == b.own_head && a.skin_gain == b.skin_gain &&
+           a.shown_face == b.shown_face && (!a.is_stale || a.age == b.age);
+}
+
+room::ShownFace shown_face_of(const wire::FaceExpression& expression) {
+    room::ShownFace shown;
+    shown.emotions = expression.emotions;
+    shown.direct = {expression.jaw_open, expression.blink_left, expression.blink_right};
+    if (const auto& all = expression.channels)
+        shown.direct = {(*all)[face::jaw_open], (*all)[face::eye_blink_left],
+                        (*all)[face::eye_blink_right]};
+    return shown;
 }
 
 }  // namespace
@@ -110,13 +122,21 @@ bool Meeting::take(const client::Participant& participant) {
     }
     headsets_.take(poses, now);
     take_expressions(participant, now);
+    changed = own_heads_.take(participant.own_faces()) || changed;
     std::vector<room::RoomPerson> people = people_of(room_, poses, now);
     for (room::RoomPerson& person : people) {
         person.has_cloud = clouds_.contains(person.id);
         person.has_headset = headsets_.has(person.id);
         if (const auto track = expressions_.find(person.id); track != expressions_.end())
-            if (const auto expression = track->second.at(now))
+            if (const auto expression = track->second.at(now)) {
                 person.expression = channels_of(*expression);
+                person.shown_face = shown_face_of(*expression);
+                person.own_head = own_heads_.of(person.id);
+                if (const auto skin = skins_.find(person.id);
+                    person.own_head && skin != skins_.end())
+                    person.skin_gain =
+                        skin_gain(person.own_head->color(face::HeadPart::skin), skin->second);
+            }
         const auto pose = poses.find(person.id);
         if (pose == poses.end())
             continue;

@@ -19,6 +19,7 @@
 #include "session/expression_track.h"
 #include "session/pose_track.h"
 #include "viewer/case_scene.h"
+#include "viewer/own_heads.h"
 #include "viewer/room_past.h"
 #include "viewer/shared_screens.h"
 #include "viewer/tools/hold.h"
@@ -40,6 +41,9 @@ public:
 
     // The people who are seen as point clouds, from the next take().
     void set_clouds(std::set<ParticipantId> people) { clouds_ = std::move(people); }
+
+    // The colours of skin that are seen in clouds (cloud_skin.h), from the next take().
+    void set_cloud_skins(std::map<ParticipantId, Vec3> skins) { skins_ = std::move(skins); }
 
     // The pictures of faces on the heads of these people, in the next pictures; their textures must
     // exist until the next call.
@@ -95,6 +99,9 @@ public:
     // The name of another participant; empty if it is not in the room.
     std::string name_of(ParticipantId id) const;
 
+    // The heads of those who show their own face.
+    const OwnHeads& own_heads() const { return own_heads_; }
+
     const std::vector<room::RoomPerson>& people() const { return people_; }
     // As it is now.
     const client::Participant::Room& room() const { return room_; }
@@ -119,11 +126,13 @@ private:
     session::RoomObjects then_;  // at moment_
     std::vector<room::RoomPerson> people_;
     std::set<ParticipantId> clouds_;
+    std::map<ParticipantId, Vec3> skins_;
     std::map<ParticipantId, room::FacePicture> faces_;
     bool shows_ages_ = false;
     std::map<ParticipantId, std::string> meters_;  // of those who speak
     std::map<ParticipantId, session::PoseTrack> tracks_;
     std::map<ParticipantId, session::ExpressionTrack> expressions_;
+    OwnHeads own_heads_;
     WornHeadsets headsets_;
     TimePoint taken_at_;  // session time
     std::optional<room::TeleportArc> arc_;

@@ -3,12 +3,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "viewer/cloud_skin.h"
 
 namespace theatron::viewer {
 namespace {
 
 // Closer to the vertical than this, the direction of the head says nothing about that of the body.
 constexpr double least_horizontal = 0.3;
+// Light changes slowly, and looking for skin takes some milliseconds.
+constexpr Duration skin_interval = std::chrono::seconds(2);
+// A new colour of the skin counts this share, so that the face does not flicker.
+constexpr double new_share = 0.3;
 
 }  // namespace
 
@@ -32,7 +39,7 @@ void PersonClouds::set_camera(ParticipantId id, CameraId number, const Calibrati
         programs_ = std::make_shared<render::CloudPrograms>();
     std::unique_ptr<Person>& person = people_[id];
     if (!person) {
-        person = std::make_unique<Person>(Person{render::CloudSet(programs_), {}, {}});
+        person = std::make_unique<Person>(Person{render::CloudSet(programs_), {}, {}, false, {}});
         person->clouds.set_depth_step(depth_step_);
     }
     if (!person->cameras.contains(number) &&
@@ -43,6 +50,7 @@ void PersonClouds::set_camera(ParticipantId id, CameraId number, const Calibrati
         return;
     camera.person_from_camera = calibration;
     camera.newest.reset();
+    camera.rays = {};
     person->clouds.set_camera(number, calibration);
 }
 
@@ -69,9 +77,35 @@ Status PersonClouds::upload(const receive::CameraFramePtr& frame) {
         return Status::size_mismatch;
     const Status status = person->clouds.upload(frame->camera, frame->depth.view(),
                                                 frame->color ? frame->color->view() : ColorView{});
-    if (status == Status::ok)
-        person->cameras[frame->camera].newest = frame;
+    if (status == Status::ok) {
+        Camera& camera = person->cameras[frame->camera];
+        camera.newest = frame;
+        if (person->has_own_head)
+            note_skin(*person, camera);
+    }
     return status;
+}
+
+void PersonClouds::note_skin(Person& person, Camera& camera) {
+    const receive::CameraFrame& frame = *camera.newest;
+    if (!frame.color || frame.times.captured - camera.skin_of < skin_interval)
+        return;
+    camera.skin_of = frame.times.captured;
+    Calibration calibration = camera.person_from_camera;
+    if (camera.rays.empty())
+        camera.rays = make_ray_table(calibration.depth);
+    calibration.color = scaled(calibration.color, frame.color->size);
+    const auto seen = cloud_skin(frame.depth.view(), frame.color->view(), calibration, camera.rays);
+    if (seen)
+        person.skin = person.skin ? *person.skin * (1 - new_share) + *seen * new_share : *seen;
+}
+
+std::map<ParticipantId, Vec3> PersonClouds::skins() const {
+    std::map<ParticipantId, Vec3> skins;
+    for (const auto& [id, person] : people_)
+        if (person->has_own_head && person->skin)
+            skins[id] = *person->skin;
+    return skins;
 }
 
 void PersonClouds::set_depth_step(int step) {
@@ -88,14 +122,20 @@ void PersonClouds::place(const std::vector<room::RoomPerson>& people) {
         const auto known = std::find_if(people.begin(), people.end(),
                                         [wanted = id](const auto& p) { return p.id == wanted; });
         const auto head = known == people.end() ? std::nullopt : known->head;
-        if (head == person->room_from_head)
+        const bool has_own_head =
+            known != people.end() && known->own_head && known->expression.has_value();
+        if (head == person->room_from_head && has_own_head == person->has_own_head)
             continue;
         person->room_from_head = head;
+        person->has_own_head = has_own_head;
         if (!head)
             continue;
         const Pose place = room_from_person(*head);
         // The cut's frame has y down and z forward.
-        const render::CloudCut cut = render::other_person(place * Pose{Quat{0, 1, 0, 0}, {}});
+        constexpr Quat turned{0, 1, 0, 0};
+        render::CloudCut cut = render::other_person(place * Pose{turned, {}});
+        if (has_own_head)
+            cut.remove = render::head_of(*head * Pose{turned, {}});
         for (const auto& [number, camera] : person->cameras) {
             Calibration calibration = camera.person_from_camera;
             calibration.room_from_camera = place * calibration.room_from_camera;

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/ray_table.h"
 #include "receive/receiver.h"
 #include "render/room_picture.h"
 #include "room/people.h"
@@ -36,7 +37,10 @@ public:
     void set_depth_step(int step);
 
     // Moves the clouds to these people's heads. The clouds of people without a pose are not drawn.
+    // Where an own head is drawn, the cloud has none, nor a headset.
     void place(const std::vector<room::RoomPerson>& people);
+    // The colours of the skin of people whose own head is drawn, where it is seen.
+    std::map<ParticipantId, Vec3> skins() const;
     // The people whose cameras have sent a picture and are live.
     std::set<ParticipantId> seen() const;
 
@@ -48,12 +52,17 @@ private:
         Calibration person_from_camera;
         receive::CameraFramePtr newest;
         bool is_live = true;
+        Image<Ray> rays;    // made when the skin's colour is wanted
+        TimePoint skin_of;  // the picture in which it was looked for
     };
     struct Person {
         render::CloudSet clouds;
         std::map<CameraId, Camera> cameras;
         std::optional<Pose> room_from_head;
+        bool has_own_head = false;
+        std::optional<Vec3> skin;
     };
+    static void note_skin(Person& person, Camera& camera);
     static bool is_seen(const Person& person);
     Person* person_of(CameraId camera) const;
 

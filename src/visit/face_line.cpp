@@ -52,6 +52,38 @@ std::string sentence_of(face::Tracking tracking) {
     return "";
 }
 
+std::string name_of(session::FaceUpload::State state) {
+    switch (state) {
+        case session::FaceUpload::State::none:
+            break;
+        case session::FaceUpload::State::sending:
+            return "sending";
+        case session::FaceUpload::State::there:
+            return "there";
+        case session::FaceUpload::State::refused:
+            return "refused";
+        case session::FaceUpload::State::unanswered:
+            return "unanswered";
+    }
+    return "off";
+}
+
+std::string sentence_of(session::FaceUpload::State state) {
+    switch (state) {
+        case session::FaceUpload::State::there:
+            return "The others see your own face.";
+        case session::FaceUpload::State::refused:
+            return "The host takes no face of your own now; the others see the usual head.";
+        case session::FaceUpload::State::unanswered:
+            return "The host does not know faces of one's own; it is of an earlier version. The "
+                   "others see the usual head.";
+        case session::FaceUpload::State::none:
+        case session::FaceUpload::State::sending:
+            break;
+    }
+    return "";
+}
+
 }  // namespace
 
 wire::FaceExpression expression_of(const face::FaceNow& face, const face::EmotionNow& told,
@@ -73,7 +105,8 @@ wire::FaceExpression expression_of(const face::FaceNow& face, const face::Emotio
     return sent;
 }
 
-FaceLine::FaceLine(const Options& options) : all_channels_(options.all_channels) {
+FaceLine::FaceLine(const Options& options)
+    : all_channels_(options.all_channels), own_face_(options.own_face) {
     if (options.source != "actor")
         tracked_ = std::make_unique<TrackedFace>(port_of(options.source));
     if (!options.model.empty())
@@ -129,6 +162,7 @@ void FaceLine::send(client::Participant& participant, const std::stop_token& sto
         const bool shown = shown_ && may_be_seen(participant);
         note(shown ? std::string(to_text(face.tracking)) : "off",
              shown ? std::string(to_text(told.told)) : "");
+        follow_own_face(participant, shown);
         if (due < send_at || !can_send(participant))
             continue;
         send_at = std::max(send_at + period, due);
@@ -148,6 +182,19 @@ void FaceLine::send(client::Participant& participant, const std::stop_token& sto
     }
 }
 
+void FaceLine::follow_own_face(client::Participant& participant, bool shown) {
+    if (!own_face_)
+        return;
+    participant.show_own_face(shown ? own_face_ : nullptr);
+    const session::FaceUpload::State state = participant.own_face_state();
+    if (std::exchange(told_, state) == state)
+        return;
+    if (const std::string sentence = sentence_of(state); !sentence.empty())
+        log::say(sentence);
+    const std::lock_guard lock(mutex_);
+    own_state_ = name_of(state);
+}
+
 void FaceLine::note(const std::string& state, const std::string& emotion) {
     const std::lock_guard lock(mutex_);
     state_ = state;
@@ -156,7 +203,10 @@ void FaceLine::note(const std::string& state, const std::string& emotion) {
 
 nlohmann::json FaceLine::json() const {
     const std::lock_guard lock(mutex_);
-    return {{"state", state_}, {"emotion", emotion_}};
+    nlohmann::json json{{"state", state_}, {"emotion", emotion_}};
+    if (own_face_)
+        json["own"] = own_state_;
+    return json;
 }
 
 }  // namespace theatron::visit

@@ -34,6 +34,9 @@ public:
         std::string source;  // "actor", or the UDP port of this machine where packets arrive
         std::string model;   // a file of `theatron face train`; empty: a network learns at first
         bool all_channels = false;
+        // This person's own face (shown_face()), which the others see in place of the usual one;
+        // null: none.
+        std::shared_ptr<const Bytes> own_face;
     };
 
     // Opens port and file. Throws Error.
@@ -52,7 +55,9 @@ public:
     // From any thread. Shown at first; where it is not, nothing is sent.
     void show(bool shown) { shown_ = shown; }
 
-    // {"state": "off", "learning", "waiting", "tracked", "relaxing" or "lost", "emotion": as told}.
+    // {"state": "off", "learning", "waiting", "tracked", "relaxing" or "lost", "emotion": as told};
+    // where there is an own face also {"own": "off", "sending", "there", "refused" or
+    // "unanswered"}.
     nlohmann::json json() const;
 
 private:
@@ -62,14 +67,18 @@ private:
     face::FaceNow next(TimePoint end);
     void note(const std::string& state, const std::string& emotion);
 
+    void follow_own_face(client::Participant& participant, bool shown);
+
     const bool all_channels_;
+    const std::shared_ptr<const Bytes> own_face_;
+    session::FaceUpload::State told_ = session::FaceUpload::State::none;  // of own_face_
     std::optional<face::Network> network_;
     std::unique_ptr<TrackedFace> tracked_;  // null: the actor
     TimePoint began_;                       // of the actor's script
     std::atomic<bool> shown_ = true;
 
     mutable std::mutex mutex_;
-    std::string state_ = "off", emotion_;  // for json()
+    std::string state_ = "off", emotion_, own_state_ = "off";  // for json()
 };
 
 }  // namespace theatron::visit

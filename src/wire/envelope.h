@@ -39,6 +39,8 @@ enum class StateTopic : std::uint8_t {
     pose = 1,    // wire/person_pose.h; the id is the participant's
     object = 2,  // of an object that somebody holds (session/room_bytes.h); the id is the object's
     expression = 3,  // wire/face_expression.h; the id is the participant's
+    own_face = 4,    // wire/own_face.h; the id is the participant's whose face it is
+    face_piece = 5,  // of the sender's own face; the id is the place of its first byte
 };
 
 // The name of a state: a newer state with the same key replaces an older one.

@@ -5,6 +5,7 @@
 
 #include "wire/envelope.h"
 #include "wire/face_expression.h"
+#include "wire/own_face.h"
 #include "wire/person_pose.h"
 
 namespace {
@@ -21,6 +22,12 @@ void check_expression(ByteView body) {
         std::abort();
 }
 
+void check_own_face(ByteView body) {
+    const auto face = wire::decode_own_face(body);
+    if (face && wire::encode_own_face(*face) != Bytes(body.begin(), body.end()))
+        std::abort();
+}
+
 // States, voice and acknowledgements have one encoding: writing them again gives equal bytes.
 void check_same_bytes(const wire::Unwrapper::Unwrapped& got, const Bytes& envelope) {
     Bytes again;
@@ -30,6 +37,7 @@ void check_same_bytes(const wire::Unwrapper::Unwrapped& got, const Bytes& envelo
             std::abort();
         (void)wire::decode_person_pose(state.body);
         check_expression(state.body);
+        check_own_face(state.body);
     }
     if (got.voice)
         wire::wrap_voice(*got.voice, again);

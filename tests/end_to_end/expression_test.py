@@ -102,7 +102,7 @@ class Expressions(unittest.TestCase):
             self.assertEqual(tracker.end(), 0)
         ada.wait_for_error("silent")
         lost = bob.wait_for(lambda f: (face_of(f, "Ada") or {}).get("state") == "lost")
-        self.assertEqual(face_of(lost, "Ada"), {"state": "lost", "emotion": "neutral", "channels": True})
+        self.assertEqual(face_of(lost, "Ada"), {"state": "lost", "emotion": "neutral", "channels": True, "own": False})
 
     def test_an_observer_shows_no_face(self):
         links = self.host.greeting["links"]

@@ -105,9 +105,18 @@ def landmarks():
     return ("version: 1\nn_points: 68\n{\n" + "".join(f"{i}.5 {2 * i}\n" for i in range(LANDMARKS)) + "}\n").encode()
 
 
+def states():
+    """A face of four bytes that is offered and sent in two pieces, and what is said of it."""
+    def put(what, body, place=None):
+        return bytes([what]) + (b"" if place is None else struct.pack("<H", place)) + bytes([len(body)]) + body
+    offered = b"\1" + struct.pack("<I", 4) + bytes(32)
+    return put(132, offered) + put(0, b"ab", 0) + put(0, b"cd", 2) + put(132, b"\2" + struct.pack("<I", 4) + bytes(32)) + put(132, b"\0")
+
+
 def seeds():
     """Fuzz target: (name, bytes)."""
     return {"face_osc_fuzz": list(packets()), "face_recording_fuzz": [("takes", RECORDING.encode())],
             "face_network_fuzz": [("small", network())], "face_model_fuzz": [("head", head()), ("older_head", head(1)), ("landmarks", landmarks())],
-            "ict_head_fuzz": [("small", ict_files())], "enrolled_face_fuzz": [("small", enrolled())],
+            "ict_head_fuzz": [("small", ict_files())], "enrolled_face_fuzz": [("small", enrolled())], "own_head_fuzz": [("small", enrolled())],
+            "own_faces_fuzz": [("whole", states())],
             "sealed_bytes_fuzz": [("small", sealed())]}
