@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loads the page's modules. Where a file of them did not come, because the host closed a connection that the browser had
-// opened in advance, the page is loaded again: a browser does not ask a second time for a module that failed. The page has
-// this script twice, since it may be the file that did not come.
+// Loads the modules of a page, beginning with the one that the attribute data-module names. Where a file of them did not
+// come, because the host closed a connection that the browser had opened in advance, the page is loaded again: a browser does
+// not ask a second time for a module that failed. The page has this script twice, since it may be the file that did not come.
 (() => {
     const most_loads = 4, wait_ms = 300, key = "theatron_loads";
     if (globalThis.theatron_started)
         return;
     globalThis.theatron_started = true;
+    const { module } = document.currentScript.dataset;
 
     // Times that this tab has loaded the page without success; too many where the browser keeps nothing.
     const loads = () => {
@@ -38,13 +39,13 @@
         .then(() => location.reload(), reload), wait_ms);
 
     const is_styled = () => new Promise((resolve, reject) => {
-        const look = () => document.querySelector("link[rel=stylesheet]").sheet ? resolve() : reject(new Error("the style"));
+        const look = () => [...document.querySelectorAll("link[rel=stylesheet]")].every(link => link.sheet) ? resolve() : reject(new Error("the style"));
         if (document.readyState === "complete")
             look();
         else
             addEventListener("load", look);
     });
-    const load = () => Promise.all([import("./page.js"), is_styled()])
+    const load = () => Promise.all([import(`./${module}`), is_styled()])
         .then(() => note_loads(0), error => load_again(error.message));
     if (document.readyState === "loading")
         addEventListener("DOMContentLoaded", load);
