@@ -79,9 +79,9 @@ std::filesystem::path usual_audit_log(const std::filesystem::path& state_folder)
     return state_folder / "audit.jsonl";
 }
 
-session::AuditEvent deletion_of(const std::string& session) {
-    using session::AuditEvent;
-    return {AuditEvent::What::deleted, {}, "", {}, {}, "", session::at_the_host, session};
+session::AuditEvent deletion_of(const std::string& name) {
+    return session::event_of_session(session::AuditEvent::What::deleted, session::at_the_host,
+                                     name);
 }
 
 AuditLog::AuditLog(std::filesystem::path path, std::size_t max_bytes)

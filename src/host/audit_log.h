@@ -25,7 +25,7 @@ std::string audit_line(const session::AuditEvent& event, const std::string& time
 std::filesystem::path usual_audit_log(const std::filesystem::path& state_folder);
 
 // The event of a further session that was ended for good, by the person at the host's machine.
-session::AuditEvent deletion_of(const std::string& session);
+session::AuditEvent deletion_of(const std::string& name);
 
 // An own thread writes each line to the disk before it takes the next ones. A slow or full disk
 // delays nobody: lines wait, those beyond max_waiting_lines are left out, and a line says how many

@@ -258,14 +258,8 @@ void Host::Impl::keep_for_next_time() {
         links->revoke(*link, steady_now());
     room_file->save(session->room(), session->streams().cameras().adjustments(), steady_now());
     if (audit && !has_ended)
-        audit->add({session::AuditEvent::What::ended,
-                    {},
-                    "",
-                    {},
-                    {},
-                    "",
-                    ends_by_host ? session::at_the_host : "",
-                    name},
+        audit->add(session::event_of_session(session::AuditEvent::What::ended,
+                                             ends_by_host ? session::at_the_host : "", name),
                    "");
 }
 

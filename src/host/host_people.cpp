@@ -83,9 +83,9 @@ void Host::Impl::decide(const wire::Manage& decision, const std::string& by) {
 void Host::Impl::audit_beginning() {
     if (!audit)
         return;
-    audit->add({What::began, {}, "", {}, {}, "", "", name}, "");
+    audit->add(session::event_of_session(What::began, "", name), "");
     for (const wire::Camera& camera : session->streams().cameras().descriptions())
-        audit->add({What::shared, {}, "", {}, {}, "", "", camera.name}, "");
+        audit->add(session::event_of_session(What::shared, "", camera.name), "");
 }
 
 void Host::Impl::take_links() {
@@ -98,8 +98,9 @@ std::optional<std::string> Host::Impl::ended_recording() {
     if (!ended)
         return std::nullopt;
     if (audit)
-        audit->add({What::recording_ended, {}, "", {}, {}, "", session::at_the_host, ended->told},
-                   "");
+        audit->add(
+            session::event_of_session(What::recording_ended, session::at_the_host, ended->told),
+            "");
     return ended->link;
 }
 

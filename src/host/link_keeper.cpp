@@ -41,7 +41,6 @@ void LinkKeeper::load(TimePoint now) {
     seen_ = look_at_links(folder_);
     KnownLinks book = load_links(folder_);
     const std::lock_guard lock(mutex_);
-    tokens_.clear();
     links_.clear();
     for (const KnownLink& known : book.links) {
         // 'theatron link --revoke' changes the token that the own one replaces.
@@ -50,13 +49,10 @@ void LinkKeeper::load(TimePoint now) {
             replaced_ = known.token;
         if (is_of_experts && replaced_ != known.token && !own_token_.empty())
             revoked_.insert(std::exchange(own_token_, {}));
-        const bool is_of_role = wire::parse_role(known.name).has_value();
         const bool is_own = is_of_experts && !own_token_.empty();
         const std::string& secret = is_own ? own_token_ : known.token;
         if (revoked_.contains(secret) || unsaved_.contains(known.name))
             continue;
-        tokens_.push_back({secret, known.role, is_of_role ? roles_expire_ : std::nullopt,
-                           known.name, known.expires});
         links_.push_back(known);
         links_.back().token = secret;
     }
@@ -87,8 +83,13 @@ void LinkKeeper::tell_followed(TimePoint now) {
 }
 
 std::vector<session::Admission::Token> LinkKeeper::tokens() const {
-    const std::lock_guard lock(mutex_);
-    return tokens_;
+    std::vector<session::Admission::Token> tokens;
+    for (const KnownLink& link : links()) {
+        const bool is_of_role = wire::parse_role(link.name).has_value();
+        tokens.push_back({link.token, link.role, is_of_role ? roles_expire_ : std::nullopt,
+                          link.name, link.expires});
+    }
+    return tokens;
 }
 
 std::vector<KnownLink> LinkKeeper::links() const {
@@ -103,7 +104,6 @@ KnownLink LinkKeeper::make(wire::Role role, std::optional<files::UtcSeconds> exp
     const std::lock_guard lock(mutex_);
     makers_[link.name] = maker;
     // It admits people at once; follow() reads it again.
-    tokens_.push_back({link.token, link.role, std::nullopt, link.name, link.expires});
     links_.push_back(link);
     return link;
 }
@@ -116,10 +116,9 @@ std::map<std::string, std::string> LinkKeeper::makers() const {
 void LinkKeeper::revoke(const std::string& link, TimePoint now) {
     {
         const std::lock_guard lock(mutex_);
-        for (const auto& token : tokens_)
-            if (token.link == link)
-                revoked_.insert(token.secret);
-        std::erase_if(tokens_, [&](const auto& token) { return token.link == link; });
+        for (const KnownLink& known : links_)
+            if (known.name == link)
+                revoked_.insert(known.token);
         std::erase_if(links_, [&](const auto& known) { return known.name == link; });
         if (link == wire::text_of(wire::Role::expert))
             own_token_.clear();

@@ -70,8 +70,7 @@ private:
     mutable std::mutex mutex_;  // guards all below
     std::string own_token_;
     std::string replaced_;  // the first token of the expert's file, whose place own_token_ takes
-    std::vector<session::Admission::Token> tokens_;
-    std::vector<KnownLink> links_;               // the same ones
+    std::vector<KnownLink> links_;               // those that are valid, or only expired
     std::map<std::string, std::string> makers_;  // by link
     std::vector<std::string> problems_;          // of files
     std::set<std::string> revoked_;              // secrets

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/lobby.h"
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "base/error.h"
 #include "files/json_text.h"
+#include "host/bearer.h"
 #include "host/host_http.h"
 #include "host/whose_published.h"
 #include "wire/condition_text.h"
@@ -66,16 +66,14 @@ net::HttpAnswer answer_lobby(const net::HttpRequest& request,
                              const SessionSwitch::Sessions& sessions,
                              const std::vector<ClosedSession>& closed) {
     const std::string secret = net::shown_token(request);
-    std::optional<session::Admission::Token> token;
-    const auto own = std::ranges::find_if(sessions, [&](const auto& entry) {
-        return (token = entry.second.find_token(secret)).has_value();
-    });
-    if (own == sessions.end())
+    const auto bearer = find_bearer(secret, sessions);
+    if (!bearer)
         return {.status = 401, .body = "Show the token of a link: docs/room.md\n"};
-    const wire::Role role = token->role;
+    const auto* own = bearer->session;
+    const wire::Role role = bearer->token.role;
     const LobbyGuest guest{role, own->second.must_ask(role), own->second.is_held_back(secret)};
     const bool sees_all =
-        own == sessions.begin() && role == wire::Role::operator_ && !guest.is_held_back;
+        own == &sessions.front() && role == wire::Role::operator_ && !guest.is_held_back;
 
     if (net::path_of(request.target) == lobby_path) {
         nlohmann::json lobby = lobby_json(own->second.figures(), guest);

@@ -13,6 +13,7 @@
 #include "base/steady_clock.h"
 #include "files/json_text.h"
 #include "files/utc_text.h"
+#include "host/bearer.h"
 #include "host/qr_code.h"
 #include "host/session_folder.h"
 #include "host/whose_published.h"
@@ -29,7 +30,7 @@ constexpr double max_hours = 10'000;
 
 using Sessions = SessionSwitch::Sessions;
 using net::HttpAnswer, net::HttpRequest;
-using session::AuditEvent;
+using session::AuditEvent, session::event_of_session;
 
 // The bearer of an operator's link.
 struct Operator {
@@ -51,20 +52,17 @@ HttpAnswer json_answer(const nlohmann::json& json) {
 std::optional<HttpAnswer> refuse(const HttpRequest& request, const Sessions& sessions,
                                  Operator& who) {
     const std::string secret = net::shown_token(request);
-    for (const auto& entry : sessions) {
-        const auto token = entry.second.find_token(secret);
-        if (!token)
-            continue;
-        if (token->has_expired(steady_now(), files::utc_now()))
-            return refusal(410, "This link has expired; ask for a new one.");
-        if (entry.second.is_held_back(secret))
-            return refusal(403, "Somebody who came by this link was removed: docs/room.md");
-        if (token->role != wire::Role::operator_)
-            return refusal(403, "This page is for operators; open it by an operator's link.");
-        who = {&entry, &entry == &sessions.front(), token->link};
-        return std::nullopt;
-    }
-    return refusal(401, "The host does not know this link; ask for an operator's link.");
+    const auto bearer = find_bearer(secret, sessions);
+    if (!bearer)
+        return refusal(401, "The host does not know this link; ask for an operator's link.");
+    if (bearer->has_expired())
+        return refusal(410, "This link has expired; ask for a new one.");
+    if (bearer->session->second.is_held_back(secret))
+        return refusal(403, "Somebody who came by this link was removed: docs/room.md");
+    if (bearer->token.role != wire::Role::operator_)
+        return refusal(403, "This page is for operators; open it by an operator's link.");
+    who = {bearer->session, bearer->session == &sessions.front(), bearer->token.link};
+    return std::nullopt;
 }
 
 template <class Number>
@@ -265,7 +263,7 @@ HttpAnswer act_on_recording(const HttpRequest& request, const PortSession& sessi
     if (asked != "start")
         return refusal(400, "A recording is started or stopped.");
     const std::string file = start_recording(session, address, who.by());
-    session.audit({AuditEvent::What::recording_begun, {}, "", {}, {}, "", who.by(), file});
+    session.audit(event_of_session(AuditEvent::What::recording_begun, who.by(), file));
     return {.status = 204};
 }
 
@@ -274,7 +272,7 @@ HttpAnswer act_on_sessions(const HttpRequest& request, const Operator& who,
                            const std::filesystem::path& state) {
     using What = AuditEvent::What;
     const auto audit = [&](What what, const std::string& name) {
-        who.own->second.audit({what, {}, "", {}, {}, "", who.by(), name});
+        who.own->second.audit(event_of_session(what, who.by(), name));
     };
     const std::string created = net::query_value(request.target, "create"),
                       ended = net::query_value(request.target, "end");

@@ -6,8 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/steady_clock.h"
-#include "files/utc_text.h"
+#include "host/bearer.h"
 #include "host/host_http.h"
 #include "host/lobby.h"
 #include "host/operators_page.h"
@@ -17,10 +16,8 @@ namespace theatron::host {
 namespace {
 
 bool has_expired(const std::string& secret, const SessionSwitch::Sessions& sessions) {
-    for (const auto& [number, session] : sessions)
-        if (const auto token = session.find_token(secret))
-            return token->has_expired(steady_now(), files::utc_now());
-    return false;
+    const auto bearer = find_bearer(secret, sessions);
+    return bearer && bearer->has_expired();
 }
 
 bool is_held_back(const std::string& secret, const SessionSwitch::Sessions& sessions) {
@@ -29,19 +26,17 @@ bool is_held_back(const std::string& secret, const SessionSwitch::Sessions& sess
 }
 
 bool must_knock(const std::string& secret, const SessionSwitch::Sessions& sessions) {
-    return std::ranges::any_of(sessions, [&](const auto& entry) {
-        const auto token = entry.second.find_token(secret);
-        return token && entry.second.must_ask(token->role);
-    });
+    const auto bearer = find_bearer(secret, sessions);
+    return bearer && bearer->session->second.must_ask(bearer->token.role);
 }
 
 // True for an operator's token, and that of the host's monitoring.
 bool decides_on_people(const std::string& secret, const SessionSwitch::Sessions& sessions) {
-    return std::ranges::any_of(sessions, [&](const auto& entry) {
-        const auto token = entry.second.find_token(secret);
-        return net::equal_secrets(secret, entry.second.metrics_token) ||
-               (token && token->role == wire::Role::operator_);
-    });
+    const auto bearer = find_bearer(secret, sessions);
+    return (bearer && bearer->token.role == wire::Role::operator_) ||
+           std::ranges::any_of(sessions, [&](const auto& entry) {
+               return net::equal_secrets(secret, entry.second.metrics_token);
+           });
 }
 
 // The sessions whose figures a token opens.
@@ -127,9 +122,7 @@ std::optional<net::HttpAnswer> refuse_line(const net::HttpRequest& request,
         return expired();
     if (is_held_back(secret, sessions))
         return held_back();
-    const bool is_known = std::ranges::any_of(
-        sessions, [&](const auto& entry) { return entry.second.find_token(secret).has_value(); });
-    if (!is_known)
+    if (!find_bearer(secret, sessions))
         return net::HttpAnswer{.status = 401, .body = "Show the token of a link: docs/room.md\n"};
     return std::nullopt;
 }

@@ -3,13 +3,11 @@
 
 #include <fcntl.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <string_view>
 #include <thread>
 #include <utility>
@@ -21,6 +19,7 @@
 #include "files/private_file.h"
 #include "files/utc_text.h"
 #include "record/segment_files.h"
+#include "sandbox/spawn_plan.h"
 
 namespace theatron::host {
 namespace {
@@ -102,34 +101,13 @@ private:
 
 // Its standard input is `in`, its errors go to `said`.
 pid_t spawn_program(std::vector<std::string> words, int in, int said) {
-    std::vector<char*> argv;
-    for (std::string& word : words)
-        argv.push_back(word.data());
-    argv.push_back(nullptr);
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_adddup2(&actions, in, STDIN_FILENO);
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_adddup2(&actions, said, STDERR_FILENO);
-    posix_spawn_file_actions_addclosefrom_np(&actions, STDERR_FILENO + 1);
-    // Ctrl-C in the terminal is for the host, which ends its recording.
-    posix_spawnattr_t attributes;
-    posix_spawnattr_init(&attributes);
-    sigset_t none, all;
-    sigemptyset(&none);
-    sigfillset(&all);
-    posix_spawnattr_setsigmask(&attributes, &none);
-    posix_spawnattr_setsigdefault(&attributes, &all);
-    posix_spawnattr_setpgroup(&attributes, 0);
-    posix_spawnattr_setflags(
-        &attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
-    pid_t id = -1;
-    const int error = posix_spawn(&id, argv.front(), &actions, &attributes, argv.data(), environ);
-    posix_spawnattr_destroy(&attributes);
-    posix_spawn_file_actions_destroy(&actions);
-    if (error != 0)
-        throw Error(std::string("No recording was started: ") + std::strerror(error) + ".");
-    return id;
+    sandbox::SpawnPlan plan("a recording");
+    plan.move(in, STDIN_FILENO);
+    plan.to_null(STDOUT_FILENO, O_WRONLY);
+    plan.move(said, STDERR_FILENO);
+    plan.close_from(STDERR_FILENO + 1);
+    const std::string program = words.front();
+    return plan.start(program.c_str(), std::move(words), environ);
 }
 
 // The recordings of a folder that the administrator has made are read by whom that one chose.
@@ -207,7 +185,7 @@ fs::path RecordingProgram::start(const std::string& link, const std::string& lin
     for (const std::string& word : {std::string("@/dev/stdin"), begun.file.string()})
         words.push_back(word);
     const pid_t id = spawn_program(std::move(words), to_child.out(), said.in());
-    child_ = {id, said.take_out(), now, false};
+    child_ = {id, said.take_out(), now};
     state_ = std::move(begun);
     link_ = link_name;
     line_ = remark_ = "";
@@ -219,7 +197,6 @@ bool RecordingProgram::stop() {
     const std::lock_guard lock(mutex_);
     if (!child_)
         return false;
-    child_->asked = true;
     state_.phase = Phase::ending;
     kill(child_->id, SIGINT);
     return true;
@@ -254,7 +231,7 @@ void RecordingProgram::listen() {
 }
 
 std::string RecordingProgram::problem_of(int status) const {
-    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGINT && child_->asked)
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGINT && state_.phase == Phase::ending)
         return "It was stopped before it began.";
     if (WIFSIGNALED(status))
         return "Its program was ended by signal " + std::to_string(WTERMSIG(status)) + ".";
@@ -276,12 +253,12 @@ void RecordingProgram::look(TimePoint now) {
     if (ended == 0)
         return;
     const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    if (code != 0)
+        state_.problem = problem_of(status);
     state_.phase = code == 0                 ? Phase::whole
                    : code == exit_incomplete ? Phase::incomplete
                                              : Phase::failed;
     state_.bytes = bytes_of(state_.file);
-    if (code != 0)
-        state_.problem = problem_of(status);
     close(child_->said);
     ended_ = {link_, state_.file.filename().string() + ": " + text_of(state_.phase)};
     log::info("host", "recording ended",

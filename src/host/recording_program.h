@@ -77,7 +77,6 @@ private:
         pid_t id = 0;
         int said = -1;  // its standard error
         TimePoint begun;
-        bool asked = false;  // to end
     };
     // With mutex_:
     void look(TimePoint now);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 
 #include "base/bytes.h"
 #include "base/ids.h"
@@ -51,6 +52,12 @@ struct AuditEvent {
     std::string by;      // the name of the operator who decided, or at_the_host
     std::string detail;  // a camera's name; "records" of one who joined to record
 };
+
+// One that concerns no participant.
+inline AuditEvent event_of_session(AuditEvent::What what, std::string by = "",
+                                   std::string detail = "") {
+    return {what, {}, "", {}, {}, "", std::move(by), std::move(detail)};
+}
 
 constexpr const char* text_of(AuditEvent::What what) {
     constexpr const char* texts[] = {

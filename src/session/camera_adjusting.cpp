@@ -34,15 +34,9 @@ void CameraAdjusting::on_tick(TimePoint now) {
             continue;
         }
         if (const CameraStreams* camera = streams_.cameras().find(next->first))
-            actions_.push_back(
-                action::Audit{{AuditEvent::What::adjusted,
-                               {},
-                               "",
-                               {},
-                               {},
-                               "",
-                               by,
-                               camera->description().name + ": " + text_of(camera->adjustment())}});
+            actions_.push_back(action::Audit{event_of_session(
+                AuditEvent::What::adjusted, by,
+                camera->description().name + ": " + text_of(camera->adjustment()))});
         next = adjusted_.erase(next);
     }
 }

@@ -76,7 +76,7 @@ ManageRefusal HostSession::manage(const wire::Manage& decision, TimePoint now,
 ManageRefusal HostSession::manage(const wire::Manage& decision, ParticipantId by,
                                   const std::string& by_name, TimePoint now) {
     if (decision.action == ManageAction::end_session) {
-        actions_.push_back(action::Audit{{What::ended, {}, "", {}, {}, "", by_name, ""}});
+        actions_.push_back(action::Audit{event_of_session(What::ended, by_name)});
         end(TextCode::ended_by_operator);
         return ManageRefusal::none;
     }
@@ -205,7 +205,7 @@ void HostSession::begin_again(const std::string& by) {
     room_.clear();
     cases_.tell_changes();
     look_back_.clear();
-    actions_.push_back(action::Audit{{What::began, {}, "", {}, {}, "", by, config_.name}});
+    actions_.push_back(action::Audit{event_of_session(What::began, by, config_.name)});
 }
 
 void HostSession::set_role(ParticipantId id, Role role) {

@@ -72,6 +72,17 @@ class WebLoading(PageCase):
         # The first ones are the page and its script; a browser asks again for the others by itself, some times.
         self.assertTrue(any(self.enter_behind(range(8, end)) > 1 for end in (50, 100, 150)))
 
+    def test_files_of_the_operators_page_are_asked_for_again(self):
+        port = int(re.search(r":(\d+)/", self.link)[1])
+
+        def loads_behind(closed):
+            with ClosingDoor(port, closed) as door:
+                page = self.browser.open(self.links["operator"].replace(f":{port}/#", f":{door.own_port}/operators#"))
+                page.wait_for("document.getElementById('all')?.checkVisibility() && document.getElementById('session_title').textContent !== ''")
+                return sum(request.split("#")[0].endswith("/operators") for request in page.requests)
+
+        self.assertTrue(any(loads_behind(range(4, end)) > 1 for end in (20, 40, 80)))
+
     def test_lost_graphics_bring_the_person_back_once(self):
         lose = """(document.getElementById('view').getContext('webgl2').getExtension('WEBGL_lose_context').loseContext(),
             globalThis.is_old = true)"""

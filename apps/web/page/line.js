@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measures the line to the host: its rate in both directions, and the time of the way there and back. The host bounds
 // the bytes (docs/limits.md); here the time is bounded, to about two seconds.
+import { ask_host } from "./host_request.js";
 import { language, text } from "./texts.js";
 
 const round_trips = 4, down_bytes = 2 << 20, longest_way_ms = 900, patience_ms = 4000;
@@ -37,8 +38,7 @@ export async function measure_line(token, signal) {
 async function request(token, bytes, signal, body) {
     const ends = AbortSignal.any?.([signal, AbortSignal.timeout(patience_ms)]) ?? signal;
     const path = `/line?bytes=${bytes}&n=${++asked}`;  // its times are found by this number
-    const answer = await fetch(path, { method: body ? "POST" : "GET", body, headers: { Authorization: `Bearer ${token}` },
-                                       cache: "no-store", credentials: "omit", signal: ends });
+    const answer = await ask_host(token, path, { method: body ? "POST" : "GET", body, signal: ends });
     if (!answer.ok)
         throw new LineProblem(problems[answer.status] ?? "line_silent");
     return answer;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The session as the form shows it before one enters: its people, cameras and picture, by the token in a header.
+import { ask_host, draw_answer } from "./host_request.js";
 import { text, texts } from "./texts.js";
 
 const $ = id => document.getElementById(id);
@@ -29,8 +30,7 @@ export class Lobby {
     }
 
     fetch(path) {
-        return fetch(path, { headers: { Authorization: `Bearer ${this.token}` }, cache: "no-store", credentials: "omit",
-                             signal: AbortSignal.timeout?.(patience_ms) });
+        return ask_host(this.token, path, { signal: AbortSignal.timeout?.(patience_ms) });
     }
 
     async ask(turn) {
@@ -101,10 +101,7 @@ export class Lobby {
         const answer = await this.fetch(thumbnail);
         if (answer.status !== 200)
             return void (canvas.hidden = true);
-        const picture = await createImageBitmap(await answer.blob());
-        Object.assign(canvas, { width: picture.width, height: picture.height });
-        canvas.getContext("2d").drawImage(picture, 0, 0);
-        picture.close();
+        await draw_answer(canvas, answer);
         canvas.hidden = false;
     }
 }

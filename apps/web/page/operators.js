@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page of a host's operators (docs/operators_page.md): its cameras, people, links, sessions and a recording, by the token
 // of an operator's link in a header. The token stands behind '#' in the address, which no request and no referrer contains.
+import { ask_host, draw_answer } from "./host_request.js";
 import { Links } from "./operators_links.js";
 import { add_button, add_words, follow_rows, set_button } from "./operators_rows.js";
 import { text } from "./operators_texts.js";
@@ -21,8 +22,7 @@ let facts = null;           // the host's newest answer
 let asked = 0;              // an answer of an older one is late
 
 function ask(path, options = {}) {
-    return fetch(`/operators/${path}`, { headers: { Authorization: `Bearer ${token}` }, cache: "no-store", credentials: "omit",
-                                         signal: AbortSignal.timeout?.(patience_ms), ...options });
+    return ask_host(token, `/operators/${path}`, { signal: AbortSignal.timeout?.(patience_ms), ...options });
 }
 
 function with_session(path) {
@@ -196,10 +196,7 @@ async function show_pictures() {
         const answer = await ask(`picture?session=${number}&camera=${parseInt(row.dataset.key)}`).catch(() => null);
         if (answer?.status !== 200)
             continue;
-        const picture = await createImageBitmap(await answer.blob());
-        Object.assign(canvas, { width: picture.width, height: picture.height });
-        canvas.getContext("2d").drawImage(picture, 0, 0);
-        picture.close();
+        await draw_answer(canvas, answer);
     }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every text of the operators' page, by language.
-import { language } from "./texts.js";
+import { filled, language } from "./texts.js";
 
 const tables = {
     en: {
@@ -199,5 +199,5 @@ const tables = {
 
 // The text with its {names} replaced.
 export function text(key, values = {}) {
-    return tables[language][key].replace(/\{(\w+)\}/g, (_, name) => values[name]);
+    return filled(tables[language][key], values);
 }

@@ -585,5 +585,9 @@ const key_names = new RegExp(` \\((?:[A-Z]|F\\d+|${texts.key_words})\\)`, "g");
 // The text with its {names} replaced; without keys for somebody who has none.
 export function text(key, values = {}) {
     const whole = by_touch() ? (texts[`${key}_touch`] ?? texts[key].replace(key_names, "")) : texts[key];
+    return filled(whole, values);
+}
+
+export function filled(whole, values) {
     return whole.replace(/\{(\w+)\}/g, (_, name) => values[name]);
 }
