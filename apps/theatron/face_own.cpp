@@ -2,6 +2,8 @@
 // theatron face model, photos, enrol, show and delete
 //
 // The content of photos and faces goes into the files that their owner asked for, and nowhere else.
+#include <sys/stat.h>
+
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -16,6 +18,7 @@
 #include "files/json_text.h"
 #include "files/png_file.h"
 #include "files/private_file.h"
+#include "net/sealed_bytes.h"
 #include "video/jpeg_encoder_native.h"
 #include "video/jpeg_file_native.h"
 #include "video/jpeg_native.h"
@@ -180,6 +183,14 @@ std::string enrolment_text(const face::Enrolment& made, const std::vector<ReadPh
            std::to_string(int(100 * made.seen_share + 0.5)) + " % of the skin\n";
 }
 
+// A face that is replaced or deleted by a link to it would stay.
+void refuse_link(const fs::path& file) {
+    std::error_code none;
+    if (fs::is_symlink(fs::symlink_status(file, none)))
+        throw Error("'" + file.string() + "' is a link to '" +
+                    fs::read_symlink(file, none).string() + "'; name the face itself.");
+}
+
 std::string pts_text(const std::array<Vec2, face::landmark_count>& landmarks) {
     std::string text = "version: 1\nn_points: 68\n{\n";
     for (const Vec2 point : landmarks) {
@@ -245,6 +256,8 @@ void run_face_photos(const FacePhotos& wanted) {
 
 void run_face_enrol(const FaceEnrol& wanted) {
     files::require_new(wanted.out, wanted.overwrite);
+    refuse_link(wanted.out);
+    files::require_own_kind(wanted.out, net::sealed_magic, "a face of 'theatron face enrol'");
     files::require_writable(wanted.out);
     const face::MorphModel model = visit::read_face_model(wanted.model);
     if (model.vertex_count() > face::max_enrolled_vertices ||
@@ -281,6 +294,7 @@ void run_face_show(const FaceShow& wanted) {
     const std::string passphrase = visit::face_passphrase(wanted.passphrase_file, false);
     const face::EnrolledFace own = visit::read_own_face(wanted.face, passphrase);
     const face::FaceCamera camera = face::portrait_camera(own.rest, tile, sheet_yaw_degrees);
+    umask(S_IRWXG | S_IRWXO);  // it is a picture of a person
     write_sheet(wanted.out, [&](face::Emotion emotion) {
         const Bytes& jpeg = own.textures[std::size_t(emotion)].empty()
                                 ? own.textures[std::size_t(face::Emotion::neutral)]
@@ -297,6 +311,7 @@ void run_face_show(const FaceShow& wanted) {
 }
 
 void run_face_delete(const std::string& face) {
+    refuse_link(face);
     visit::require_own_face(face);
     files::remove_private_file(face);
     output::result(face + ": deleted. Copies that you made of it are still there.\n");

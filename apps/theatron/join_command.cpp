@@ -18,6 +18,7 @@
 #include "base/steady_clock.h"
 #include "camera_lines.h"
 #include "case_lines.h"
+#include "chat_lines.h"
 #include "cli/choice_check.h"
 #include "cli/number_check.h"
 #include "cli/seconds_option.h"
@@ -109,8 +110,8 @@ bool obey(visit::Stay& stay, RoomLines& room, const std::string& line) {
     if (obey_people_line(participant, line) || obey_look_back_line(participant, line) ||
         refuse_looking_back(participant, line) || obey_camera_line(participant, line) ||
         obey_playback_line(participant, line) || obey_case_line(participant, line) ||
-        obey_mark_line(participant, line) || obey_study_line(participant, line) ||
-        room.obey(line, participant))
+        obey_mark_line(participant, line) || obey_chat_line(participant, line) ||
+        obey_study_line(participant, line) || room.obey(line, participant))
         return true;
     std::istringstream words(line);
     std::string what, value, camera;
@@ -128,9 +129,9 @@ bool obey(visit::Stay& stay, RoomLines& room, const std::string& line) {
             "'quit', in the room " +
                 std::string(RoomLines::help()) + ", on cases " + case_lines_help() + ", on marks " +
                 mark_lines_help() + ", on a recording that the host plays " +
-                playback_lines_help() + ", in a study " + study_lines_help() +
-                ", on the last minute " + look_back_help() + ", or as an operator " +
-                people_help() + ", " + camera_lines_help() + ".\n",
+                playback_lines_help() + ", in a study " + study_lines_help() + ", to the others " +
+                chat_lines_help() + ", on the last minute " + look_back_help() +
+                ", or as an operator " + people_help() + ", " + camera_lines_help() + ".\n",
             output::Stream::error);
     return true;
 }
@@ -154,6 +155,7 @@ nlohmann::json json_of(const visit::Stay& stay, const JoinPicture* picture) {
     json["room"] = room_json(participant);
     json["cases"] = case_json(participant);
     json["study"] = study_json(participant);
+    json["chat"] = chat_json(participant);
     json["voice"] = stay.ports().voice->json();
     json["voice"]["may_record"] = participant.voice_may_record();
     if (const auto* const face = stay.ports().expression)
@@ -310,6 +312,7 @@ void add_join_command(CLI::App& app) {
         RoomLines::help() + ".\nOn the case in the room (docs/cases.md):\n" + case_lines_help() +
         ".\nOn a recording that the host plays (docs/views.md):\n" + playback_lines_help() +
         ".\nAt the last minute of the session, you alone (docs/views.md):\n" + look_back_help() +
+        ".\nTo all others (docs/room.md):\n" + chat_lines_help() +
         ".\nIn a study that you take part in (docs/studies.md):\n" + study_lines_help() +
         ".\nOperators decide on people (docs/room.md):\n" + people_help() +
         ".\nThey adjust cameras for all (docs/registration.md):\n" + camera_lines_help() +

@@ -120,6 +120,7 @@ client::Participant::Options participant_options(const JoinFlags& flags) {
     options.keeps_room = true;
     options.keeps_cases = true;
     options.knows_studies = !flags.or_screen;
+    options.shows_chat = true;
     options.voice_may_record = flags.voice_may_record;
     options.takes_faces = !flags.or_screen;
     options.takes_own_faces = true;

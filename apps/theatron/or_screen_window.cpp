@@ -168,6 +168,7 @@ void OrScreenPicture::add_to(nlohmann::json& json) const {
                          {"warning", content.warning},
                          {"recording", content.playback},
                          {"message", content.message},
+                         {"written", content.written},
                          {"people", people},
                          {"pointers", pointers},
                          {"marks", content.marks.size()},

@@ -23,7 +23,8 @@ constexpr struct {
 } commands[] = {{"admit", ManageAction::admit},        {"refuse", ManageAction::turn_away},
                 {"mute", ManageAction::mute},          {"unmute", ManageAction::unmute},
                 {"role", ManageAction::set_role},      {"remove", ManageAction::remove},
-                {"revoke", ManageAction::revoke_link}, {"clear", wire::clear_objects}};
+                {"revoke", ManageAction::revoke_link}, {"clear", wire::clear_objects},
+                {"lower", ManageAction::lower_hand}};
 
 ParticipantId find_person(const std::string& who, const std::vector<SomePerson>& people,
                           bool waits) {
@@ -103,8 +104,10 @@ bool obey(const std::string& line, const std::vector<SomePerson>& people, const 
 }  // namespace
 
 const char* people_help() {
-    return "'admit NAME', 'refuse NAME', 'mute NAME', 'unmute NAME', 'role NAME ROLE',\n"
-           "'remove NAME', 'revoke NAME' (the link by which that person came), 'clear NAME' (what\n"
+    return "'admit NAME', 'refuse NAME', 'mute NAME', 'unmute NAME', 'lower NAME' (a raised "
+           "hand),\n"
+           "'role NAME ROLE', 'remove NAME', 'revoke NAME' (the link by which that person came), "
+           "'clear NAME' (what\n"
            "that person has made in the room; 'clear #7' also of somebody who has left, 'clear\n"
            "earlier' of people before the host was started), 'end session'";
 }

@@ -240,7 +240,8 @@ nlohmann::json room_json(const client::Participant& participant) {
                      {"points", poses.contains(object.creator) && poses.at(object.creator).points},
                      {"role", wire::text_of(facts->role)},
                      {"muted", facts->muted},
-                     {"voice_recorded", facts->voice_recorded}});
+                     {"voice_recorded", facts->voice_recorded},
+                     {"hand_raised", facts->hand_raised}});
                 if (const auto found = expressions.find(object.creator); found != expressions.end())
                     people.back()["face"] =
                         face_json(found->second, own_faces.contains(object.creator));

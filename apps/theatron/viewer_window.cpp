@@ -138,8 +138,10 @@ private:
         const bool picture_is_due = before < next_picture_ || viewer_.is_animated();
         window_.wait((picture_is_due ? next_picture_ : next_texts_) - before);
 
+        window_.take_text(viewer_.takes_text());
         window::WindowInput input = window_.poll();
         const TimePoint now = steady_now();
+        type(input, now);
         if (input.close)
             return end(WindowEnd::closed);
         press_controls(input, now);
@@ -210,6 +212,16 @@ private:
             input.redraw = true;
         }
         input.pointer_covered = input.pointer && overlay_.covers(*input.pointer);
+    }
+
+    void type(window::WindowInput& input, TimePoint now) {
+        for (window::FormKeyPress& press : input.typed) {
+            if (press.key == window::FormKey::v && press.control)
+                press = {window::FormKey::letters, false, false, window_.clipboard()};
+            viewer_.type(press, now);
+            next_texts_ = now;
+            input.redraw = true;
+        }
     }
 
     // The keys that are not the viewer's.

@@ -129,6 +129,15 @@ json people_json(const client::Participant::Room& room, const client::Participan
     return people;
 }
 
+// The names of the others who have raised a hand.
+json hands_json(const client::Participant& participant) {
+    json names = json::array();
+    for (const auto& [person, name] : participant.raised_hands())
+        if (person != participant.room_self())
+            names.push_back(name);
+    return names;
+}
+
 json ear_json(const Pose& room_from_eye) {
     const Pose turn{room_from_eye.rotation, {}};
     return {{"position", to_json(room_from_eye.translation)},
@@ -208,6 +217,12 @@ json state_of(const viewer::Facts& facts, const client::Participant& participant
             // Null where the host does not ask.
             {"voice_may_record", asks_consent ? json(participant.voice_may_record()) : json()},
             {"is_recorded", !participant.recordings().empty()},
+            {"chat",
+             {{"has_chat", participant.has_chat()},
+              {"may_write", participant.may_write()},
+              {"version", participant.chat_version()},
+              {"hand_raised", participant.hand_raised()}}},
+            {"hands", hands_json(participant)},
             {"bricks", bricks},
             // Equal for all who see the same room.
             {"room_hash", session::hash_text(room.objects)}};

@@ -120,6 +120,7 @@ client::Participant::Options join_options(const net::Link& link, const char* nam
     options.color_codec = color.codec();
     options.keeps_room = options.keeps_cases = options.shows_patient = true;
     options.knows_studies = true;
+    options.shows_chat = true;
     options.screen = page().screen.events();
     // The page made the digits itself.
     options.person = bytes_of_hex(person).value_or(Bytes());

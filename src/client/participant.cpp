@@ -44,6 +44,8 @@ std::vector<wire::Feature> features_of(const Participant::Options& options) {
         features.push_back(wire::Feature::shows_screen);
     if (options.knows_studies)
         features.push_back(wire::Feature::study);
+    if (options.shows_chat)
+        features.push_back(wire::Feature::chat);
     if (options.draws_flat)
         features.push_back(wire::Feature::draws_flat);
     if (options.direct && DirectReception::is_possible())
@@ -160,6 +162,7 @@ bool Participant::begin_connection(net::Client& client) {
         shared_->visitors.clear();
         shared_->study.reset();
         shared_->study_replies.clear();
+        shared_->chat.on_connected();
         shared_->has_standing = false;
         shared_->status.standing = {};
         shared_->camera_wishes.clear();  // numbers of cameras may be others
@@ -391,6 +394,9 @@ void Participant::on_control(ByteView message) {
         case Change::study_reply:
             on_study_reply();
             break;
+        case Change::chat:
+            on_chat();
+            break;
         case Change::direct:
             on_direct_grants();
             break;
@@ -464,6 +470,7 @@ void Participant::on_tick() {
     on_encode_keys();
     request_content();
     send_own_face();
+    tell_chat();
     if (delivery_wish)
         client.send_control(session_.choose_delivery(*delivery_wish));
 

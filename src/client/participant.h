@@ -29,7 +29,9 @@
 #include "session/face_upload.h"
 #include "session/key_gate.h"
 #include "session/key_requests.h"
+#include "session/member_chat.h"
 #include "session/member_room.h"
+#include "session/raised_hands.h"
 #include "session/viewer_session.h"
 #include "wire/face_expression.h"
 #include "wire/person_pose.h"
@@ -101,6 +103,8 @@ public:
         bool voice_may_record = false;
         // Shows steps of a study to this person, or leads one as an operator's program.
         bool knows_studies = false;
+        // Shows this person what people write, and who raises a hand; needs keeps_room for that.
+        bool shows_chat = false;
         // Shows the colour of one camera as it is, without depth and renderer.
         bool draws_flat = false;
         // Takes pictures directly from their publishers, and sends its own directly, where the host
@@ -244,6 +248,28 @@ public:
     // False if the host is too old to know of such an agreement: then nobody records the voice.
     bool asks_voice_consent() const;
 
+    // Messages of people to all others, from any thread; empty without Options::shows_chat.
+    struct Chat {
+        std::vector<wire::ChatMessage> messages;  // the oldest first
+        std::set<std::uint64_t> own;              // those of this program, by WriteChat::id
+        std::vector<std::string> unsent;          // of this person, that the host may not have yet
+        std::uint64_t version = 0;                // grows with each change
+    };
+    Chat chat() const;
+    std::uint64_t chat_version() const;
+    // The host has a chat and raised hands; and this person may write there.
+    bool has_chat() const;
+    bool may_write() const;
+    // False: it is empty, the person may not write, or too many messages wait for the host. Where
+    // the connection is lost, the message is sent once there is another one.
+    bool write_chat(const std::string& text);
+    // Raises this person's hand, or takes it down. False: not joined, or the host is of an earlier
+    // version. The room says whether the hand is up.
+    bool raise_hand(bool raised);
+    bool hand_raised() const;
+    // All hands that are up, the first that was raised first.
+    std::vector<session::RaisedHands::Hand> raised_hands() const;
+
     // The room, from any thread. A request or a move changes room() at once; a refusal of the host
     // takes that back. People are objects of kind `person` (session/room_bytes.h).
     struct Room {
@@ -344,6 +370,10 @@ private:
     void on_own_face(ParticipantId person, ByteView body);
     void tell_voice();
     void tell_voice_consent();
+    void on_chat();
+    void tell_chat();
+    void give_up_chat();
+    void follow_hands();
     void on_room_message();
     void tell_content();
     void request_content();

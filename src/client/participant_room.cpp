@@ -13,6 +13,7 @@ void Participant::on_room_message() {
         shared_->room.on_message(session_.room());
     }
     tell_room();
+    follow_hands();
     if (cases_) {
         session::RoomObjects organs;
         {

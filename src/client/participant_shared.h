@@ -65,6 +65,9 @@ struct Participant::Shared {
     std::deque<Bytes> voice;  // packets not yet sent
     bool voice_may_record = false;
     bool asks_voice_consent = false;  // the host does, on this connection
+    session::MemberChat chat;
+    bool has_chat = false;       // the host has one, on this connection
+    session::RaisedHands hands;  // of the room's people
     session::MemberRoom room;
     bool is_telling_room = false;    // tell_room() has been posted
     bool is_asking_content = false;  // request_content() has been posted

@@ -24,8 +24,8 @@ std::string quoted(const fs::path& path) {
 [[noreturn]] void refuse(const char* what, const fs::path& path) {
     const int reason = errno;
     const char* const advice = reason == ENOSPC || reason == EDQUOT
-                                   ? "; delete files there or name another folder with --state."
-                                   : "; make its folder writable or name another with --state.";
+                                   ? "; delete files there, or name another place."
+                                   : "; make its folder writable, or name another place.";
     throw Error(std::string("Cannot ") + what + " " + quoted(path) + ": " + std::strerror(reason) +
                 advice);
 }

@@ -27,6 +27,9 @@ PersonCard card_of(const PersonNow& person) {
     if (person.pose_age_ms.value_or(0) > silent_person_ms && !person.speaks) {
         card.state = say(Phrase::screen_no_sign, viewer::age_text(*person.pose_age_ms));
         card.warns = true;
+    } else if (person.hand_raised) {
+        card.state = say(Phrase::hand_is_up);
+        card.warns = true;
     } else if (person.points && person.points_at_images) {
         card.state = say(Phrase::screen_points_at_images);
     } else if (person.points && person.pointed == Sight::hidden) {
@@ -51,7 +54,9 @@ PersonCard card_of(const PersonNow& person) {
 
 std::vector<PersonCard> cards_of(const std::vector<PersonNow>& people, std::size_t most) {
     std::vector<PersonNow> shown = people;
-    const auto is_active = [](const PersonNow& person) { return person.speaks || person.points; };
+    const auto is_active = [](const PersonNow& person) {
+        return person.speaks || person.points || person.hand_raised;
+    };
     const auto by_number = [](const PersonNow& a, const PersonNow& b) { return a.id < b.id; };
     std::sort(shown.begin(), shown.end(), by_number);
     if (shown.size() > most) {
@@ -83,6 +88,13 @@ ScreenMessage message_of(const Participant::Status& status) {
             return {say(Phrase::session_is_over), say(Phrase::screen_joins_next, status.problem)};
     }
     return {};
+}
+
+std::string written_text(const client::Participant::Chat& chat, TimePoint now) {
+    if (chat.messages.empty() || now - chat.messages.back().at > written_for)
+        return "";
+    const wire::ChatMessage& newest = chat.messages.back();
+    return say(Phrase::person_writes, newest.name, newest.text);
 }
 
 void describe_picture(const client::CameraFigures& camera, double age_ms, Content& content) {

@@ -21,7 +21,7 @@ struct PersonNow {
     ParticipantId id{};
     std::string name;
     wire::Role role{};
-    bool muted = false, speaks = false;
+    bool muted = false, speaks = false, hand_raised = false;
     std::optional<double> pose_age_ms;  // none: no pose has come, as from people without a window
     bool points = false;
     bool points_at_images = false;  // at the slice on the monitor
@@ -80,7 +80,8 @@ struct Content {
     bool age_warns = false;
     std::string warning;  // over the picture: it is not what happens now
     std::string
-        playback;  // over the picture: "RECORDING 0:12 / 1:02"; empty: it is of no recording
+        playback;         // over the picture: "RECORDING 0:12 / 1:02"; empty: it is of no recording
+    std::string written;  // the newest message for some time, "Anna: Please move the camera"
     std::string recorded;  // "recorded by Anna, 12 s"; empty: by nobody
     std::vector<PersonCard> people;
     std::size_t people_left_out = 0;
@@ -98,6 +99,10 @@ struct ScreenMessage {
     std::string text, detail;
 };
 ScreenMessage message_of(const client::Participant::Status& status);
+
+// The newest message while it is not older than `written_for`; else empty.
+inline constexpr Duration written_for = std::chrono::seconds(30);
+std::string written_text(const client::Participant::Chat& chat, TimePoint now);
 
 // Sets `camera`, `age`, `age_warns` and `warning` for the shown picture, which is so old. The age
 // of a picture of a recording (`playback` is set) is not told: it is the time since it was played.

@@ -221,6 +221,7 @@ void OrScreen::describe(client::Participant& participant, const std::set<Partici
     for (const client::Participant::Recording& one : participant.recordings())
         recorded.recordings.push_back({one.name, participant.now() - one.since});
     content_.recorded = client::recorded_text(recorded);
+    content_.written = written_text(participant.chat(), participant.now());
     describe_people(participant, speaking);
     describe_marks();
     for (HeadMark& head : content_.heads)
@@ -243,6 +244,7 @@ void OrScreen::describe_people(client::Participant& participant,
             person.name = facts->name;
             person.role = facts->role;
             person.muted = facts->muted;
+            person.hand_raised = facts->hand_raised && !person.is_recorded;
         }
         person.speaks = speaking.contains(person.id);
         if (const auto pose = poses.find(person.id); pose != poses.end()) {

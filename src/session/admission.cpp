@@ -278,7 +278,7 @@ std::vector<wire::Feature> Admission::features_of(const wire::Join& hello, Role 
           wire::Feature::playback, wire::Feature::screens, wire::Feature::look_back,
           wire::Feature::webcam, wire::Feature::patient, wire::Feature::direct,
           wire::Feature::asks_patient, wire::Feature::shows_screen, wire::Feature::study,
-          wire::Feature::draws_flat}) {
+          wire::Feature::draws_flat, wire::Feature::chat}) {
         if (asks_for(hello, known) &&
             (known != wire::Feature::publish || may(role, Right::publish)))
             features.push_back(known);

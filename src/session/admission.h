@@ -75,7 +75,8 @@ public:
         bool takes_part() const { return joined && !closing; }
         bool waits() const { return asked && !closing; }
         bool may(Right right) const {
-            return takes_part() && session::may(role, right) && !(muted && right == Right::speak);
+            return takes_part() && session::may(role, right) &&
+                   !(muted && (right == Right::speak || right == Right::write));
         }
         bool has(wire::Feature feature) const;
         bool is_there() const { return takes_part() || waits(); }
@@ -92,7 +93,8 @@ public:
         std::vector<wire::Feature> features;  // those of Join that hold here
         Role of_link = Role::expert, role = Role::expert;
         bool muted = false;
-        bool voice_recorded = false;         // it agrees that others record its voice
+        bool voice_recorded = false;  // it agrees that others record its voice
+        bool hand_raised = false;
         std::string link, token;             // by which it came
         std::optional<wire::Join> asked;     // while it waits for admission
         bool asks_to_publish = false;        // as in wire::Join

@@ -33,8 +33,10 @@ void FaceUpload::on_answer(ByteView body, TimePoint now) {
     const auto answer = wire::decode_own_face(body);
     if (!answer || !face_ || offers_ == 0)
         return;
-    if (answer->kind == FaceKind::none)
+    if (answer->kind == FaceKind::none) {
         state_ = State::refused;
+        refused_ = now;
+    }
     if (answer->kind != FaceKind::received || answer->hash != hash_ ||
         answer->bytes > face_->size())
         return;
@@ -53,6 +55,11 @@ std::vector<FaceUpload::Piece> FaceUpload::take(TimePoint now) {
         if (!std::exchange(knows_none_, true))
             pieces.push_back({wire::StateTopic::own_face, 0, wire::encode_own_face({})});
         return pieces;
+    }
+    if (state_ == State::refused && now - refused_ >= refused_for) {
+        state_ = State::sending;
+        offers_ = 0;
+        may_send_ = false;
     }
     if (state_ != State::sending)
         return pieces;

@@ -23,12 +23,14 @@ public:
     // Without an answer for this time the face is offered again, a few times.
     static constexpr Duration offer_patience = std::chrono::seconds(5);
     static constexpr int most_offers = 4;
+    // A face that the host does not take is offered again after this time.
+    static constexpr Duration refused_for = std::chrono::seconds(15);
 
     enum class State {
         none,        // no face is shown
         sending,     // also while there is no connection
         there,       // the host has all of it
-        refused,     // the host does not take it
+        refused,     // the host does not take it now
         unanswered,  // the host is of an earlier version
     };
     State state() const { return state_; }
@@ -59,6 +61,7 @@ private:
     std::size_t taken_ = 0;   // bytes that the host has
     bool may_send_ = false;   // it has answered
     TimePoint sent_, next_;   // the last group, and the earliest time of another
+    TimePoint refused_;
 };
 
 }  // namespace theatron::session

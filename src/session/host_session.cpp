@@ -29,7 +29,8 @@ HostSession::HostSession(Config config)
       renderers_(admission_, actions_),
       cases_(config_.patient_for, admission_, room_, actions_),
       faces_(config_.make_digest, admission_, actions_),
-      studies_(admission_, actions_) {
+      studies_(admission_, actions_),
+      chat_(admission_, actions_) {
     std::vector<wire::Camera> own = config_.cameras;
     int number = 0;
     for (wire::Camera& camera : own) {
@@ -147,6 +148,18 @@ void HostSession::carry_out(ParticipantId id, const wire::VoiceConsent& consent,
     room_.set_person(id, facts_of(person));
 }
 
+void HostSession::carry_out(ParticipantId id, const wire::WriteChat& written, TimePoint now) {
+    chat_.write(id, written, now);
+}
+
+void HostSession::carry_out(ParticipantId id, const wire::RaiseHand& message, TimePoint) {
+    Participant& person = *admission_.find(id);
+    if (!person.has(wire::Feature::chat) || person.hand_raised == message.raised)
+        return;
+    person.hand_raised = message.raised;
+    room_.set_person(id, facts_of(person));
+}
+
 std::vector<ObjectPose> HostSession::replay_room(const RoomObjects& recorded, TimePoint now) {
     const std::uint64_t before = room_.replayed_changes();
     std::vector<ObjectPose> moved = room_.replay(recorded, now);
@@ -236,6 +249,7 @@ void HostSession::resynchronise(ParticipantId id) {
     tell_playback(id);
     cases_.tell_again(id);
     studies_.tell_again(id);
+    chat_.join(id);
     if (participant->may(Right::manage))
         tell_operators();
 }

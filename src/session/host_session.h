@@ -17,6 +17,7 @@
 #include "session/camera_adjusting.h"
 #include "session/direct_paths.h"
 #include "session/host_actions.h"
+#include "session/host_chat.h"
 #include "session/host_room.h"
 #include "session/link_budgets.h"
 #include "session/look_backs.h"
@@ -233,6 +234,8 @@ private:
     void carry_out(ParticipantId id, const wire::ShowStudy& message, TimePoint now);
     void carry_out(ParticipantId id, const wire::StudyReply& message, TimePoint now);
     void carry_out(ParticipantId id, const wire::SetCondition& message, TimePoint now);
+    void carry_out(ParticipantId id, const wire::WriteChat& message, TimePoint now);
+    void carry_out(ParticipantId id, const wire::RaiseHand& message, TimePoint now);
     wire::ManageRefusal set_condition(ParticipantId by, const wire::SetCondition& condition);
     void end_condition(ParticipantId id);
     void end_leading(ParticipantId leader);
@@ -278,6 +281,7 @@ private:
     OfferedCases cases_;
     OwnFaces faces_;
     Studies studies_;
+    HostChat chat_;
     bool has_ended_ = false;
     std::optional<wire::Playback> playback_;
 };

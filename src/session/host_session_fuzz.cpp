@@ -91,7 +91,8 @@ Bytes hello(std::uint8_t choice) {
     wishes.records = choice >= 200;
     wishes.features = {wire::Feature::publish, wire::Feature::room,         wire::Feature::cases,
                        wire::Feature::screens, wire::Feature::look_back,    wire::Feature::patient,
-                       wire::Feature::direct,  wire::Feature::asks_patient, wire::Feature::study};
+                       wire::Feature::direct,  wire::Feature::asks_patient, wire::Feature::study,
+                       wire::Feature::chat};
     if (choice % 5 != 0)
         wishes.person = Bytes(wire::person_id_size, std::byte(choice % 7));
     wishes.run = choice % 3;
@@ -301,7 +302,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             case 13:
                 host.on_control(
                     id,
-                    wire::encode(wire::Manage{choice, wire::ManageAction(1 + choice % 8),
+                    wire::encode(wire::Manage{choice, wire::ManageAction(1 + choice % 10),
                                               ParticipantId{1 + choice / 8 % participants},
                                               wire::Role(choice / 64)}),
                     now);
@@ -346,6 +347,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                 host.on_control(id, wire::encode(wire::RequestContent{Bytes(32), choice, choice}),
                                 now);
                 host.on_control(id, wire::encode(wire::VoiceConsent{choice % 3 == 0}), now);
+                host.on_control(id, wire::encode(wire::RaiseHand{choice % 2 == 0}), now);
+                host.on_control(
+                    id, wire::encode(wire::WriteChat{choice / 8u, std::string(choice % 5, 'a')}),
+                    now);
                 break;
             }
             case 18: {

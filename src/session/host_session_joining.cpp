@@ -112,6 +112,7 @@ void HostSession::enter(ParticipantId id, const wire::Join& hello) {
     tell_playback(id);
     cases_.tell_changes();
     faces_.tell_all(id);
+    chat_.join(id);
     if (participant.may(Right::manage))
         tell_operators();
 }

@@ -21,7 +21,8 @@ constexpr ParticipantId the_host{};
 // True for decisions that hold for a person, on all its connections and when it comes again.
 bool is_on_person(ManageAction action) {
     return action == ManageAction::mute || action == ManageAction::unmute ||
-           action == ManageAction::set_role || action == ManageAction::remove;
+           action == ManageAction::set_role || action == ManageAction::remove ||
+           action == ManageAction::lower_hand;
 }
 
 // The refusal of an offer of cameras that needs this right.
@@ -168,6 +169,13 @@ ManageRefusal HostSession::manage(const wire::Manage& decision, ParticipantId by
                 return ManageRefusal::yourself;
             revoke_link(std::string(person.link), by_name);
             break;
+        case ManageAction::lower_hand:
+            for (const ParticipantId own : concerned) {
+                Participant& here = *admission_.find(own);
+                if (std::exchange(here.hand_raised, false))
+                    room_.set_person(own, facts_of(here));
+            }
+            break;
         case ManageAction::end_session:
             break;
     }
@@ -205,6 +213,7 @@ void HostSession::begin_again(const std::string& by) {
     room_.clear();
     cases_.tell_changes();
     look_back_.clear();
+    chat_.clear();
     actions_.push_back(action::Audit{event_of_session(What::began, by, config_.name)});
 }
 
@@ -282,7 +291,8 @@ void HostSession::remove_without_link(const std::string& by) {
 }
 
 PersonFacts HostSession::facts_of(const Participant& person) {
-    return {person.role, person.records, person.name, person.muted, person.voice_recorded};
+    return {person.role,  person.records,        person.name,
+            person.muted, person.voice_recorded, person.hand_raised};
 }
 
 // To the participant, and to all as a fact about its person in the room.

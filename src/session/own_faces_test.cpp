@@ -260,6 +260,22 @@ TEST(FaceUpload, AHostThatDoesNotAnswerIsAskedAFewTimes) {
     EXPECT_EQ(from.state(), FaceUpload::State::none);
 }
 
+TEST(FaceUpload, AFaceThatIsRefusedIsOfferedAgainLater) {
+    const Bytes face = some_face(100);
+    FaceUpload from;
+    from.show(std::make_shared<const Bytes>(face), sum_of(face));
+    from.on_joined();
+    const TimePoint now = from_us(1'000'000);
+    ASSERT_EQ(from.take(now).size(), 1u);
+    from.on_answer(wire::encode_own_face({}), now);
+    EXPECT_EQ(from.state(), FaceUpload::State::refused);
+    EXPECT_TRUE(from.take(now + std::chrono::seconds(14)).empty());
+    ASSERT_EQ(from.take(now + std::chrono::seconds(16)).size(), 1u);
+    from.on_answer(wire::encode_own_face({OwnFace::Kind::received, 100, sum_of(face)}),
+                   now + std::chrono::seconds(16));
+    EXPECT_EQ(from.state(), FaceUpload::State::there);
+}
+
 TEST(OwnFaceState, HasOneSpelling) {
     const OwnFace offered{OwnFace::Kind::offered, 1000, sum_of(some_face(1000))};
     const Bytes bytes = wire::encode_own_face(offered);

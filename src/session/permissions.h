@@ -22,12 +22,13 @@ enum class Right : std::uint8_t {
     play,         // pause and seek the recording that the host plays
     be_seen,      // send the picture of the own face, or its expression
     show_screen,  // send the pictures of a screen (wire::CameraKind::screen)
+    write,        // to all others; taken away by muting
 };
 
 constexpr bool may(Role role, Right right) {
     switch (role) {
         case Role::observer:
-            return right == Right::see;
+            return right == Right::see || right == Right::write;
         case Role::expert:
             return right != Right::publish && right != Right::manage && right != Right::adjust;
         case Role::publisher:

@@ -49,8 +49,9 @@ public:
         manage,   // a decision of an operator
         other,    // unknown and unexpected messages
         content,  // a part of a case
+        chat,     // a text to all others
     };
-    static constexpr std::size_t kinds = 11;
+    static constexpr std::size_t kinds = 12;
 
     struct Limit {
         double per_second = 0;
@@ -68,7 +69,8 @@ public:
                                                       {40, 200},
                                                       {10, 40},
                                                       {5, 20},
-                                                      {200, 400}}};
+                                                      {200, 400},
+                                                      {1, 10}}};
     // Requests beyond the limits, of all kinds together, before the connection is ended.
     static constexpr Limit patience{50, 1000};
 

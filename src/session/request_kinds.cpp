@@ -32,6 +32,8 @@ struct KindOf {
     Kind operator()(const wire::ShowStudy&) const { return Kind::manage; }
     Kind operator()(const wire::StudyReply&) const { return Kind::room; }
     Kind operator()(const wire::SetCondition&) const { return Kind::manage; }
+    Kind operator()(const wire::WriteChat&) const { return Kind::chat; }
+    Kind operator()(const wire::RaiseHand&) const { return Kind::other; }
 };
 
 // One for each kind of message and no default: a forgotten one does not compile.
@@ -62,6 +64,9 @@ struct RightOf {
     // An observer may be the participant of a study.
     Right operator()(const wire::StudyReply&) const { return Right::see; }
     Right operator()(const wire::SetCondition&) const { return Right::manage; }
+    Right operator()(const wire::WriteChat&) const { return Right::write; }
+    // A muted person may ask to be heard.
+    Right operator()(const wire::RaiseHand&) const { return Right::see; }
 };
 
 template <class Message>

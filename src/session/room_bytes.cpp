@@ -12,7 +12,7 @@ namespace theatron::session {
 namespace {
 
 // Bits of a person's second byte.
-constexpr std::uint8_t records_bit = 1, muted_bit = 2, voice_recorded_bit = 4;
+constexpr std::uint8_t records_bit = 1, muted_bit = 2, voice_recorded_bit = 4, hand_raised_bit = 8;
 
 enum class RequestKind : std::uint8_t {
     create = 1,
@@ -223,7 +223,8 @@ Bytes encode_person(const PersonFacts& facts) {
     ByteWriter out(bytes);
     out.put(std::uint8_t(facts.role));
     out.put(std::uint8_t((facts.records ? records_bit : 0) | (facts.muted ? muted_bit : 0) |
-                         (facts.voice_recorded ? voice_recorded_bit : 0)));
+                         (facts.voice_recorded ? voice_recorded_bit : 0) |
+                         (facts.hand_raised ? hand_raised_bit : 0)));
     out.put_bytes(as_bytes(facts.name));
     return bytes;
 }
@@ -238,6 +239,7 @@ Result<PersonFacts> decode_person(ByteView properties) {
     facts.records = (flags & records_bit) != 0;
     facts.muted = (flags & muted_bit) != 0;
     facts.voice_recorded = (flags & voice_recorded_bit) != 0;
+    facts.hand_raised = (flags & hand_raised_bit) != 0;
     if (!in.ok())
         return Status::malformed;
     const auto* text = reinterpret_cast<const char*>(in.rest().data());

@@ -33,6 +33,7 @@ struct PersonFacts {
     std::string name;
     bool muted = false;
     bool voice_recorded = false;  // the person agrees that others record its voice
+    bool hand_raised = false;
     bool operator==(const PersonFacts&) const = default;
 };
 Bytes encode_person(const PersonFacts& facts);

@@ -82,6 +82,10 @@ TEST_F(RoomMessages, EverybodyIsInItByName) {
     deliver();
     const auto changed = decode_person(members[anna].objects().rbegin()->second.properties);
     EXPECT_TRUE(changed->voice_recorded && changed->muted);
+    EXPECT_FALSE(changed->hand_raised);
+    host.set_person(ben, {Role::expert, false, "Ben", false, false, true});
+    deliver();
+    EXPECT_TRUE(decode_person(members[anna].objects().rbegin()->second.properties)->hand_raised);
     expect_the_same();
 }
 

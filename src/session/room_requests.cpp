@@ -102,8 +102,12 @@ Refusal RoomState::apply(ParticipantId from, std::uint32_t number,
     RoomObject& object = *held;
     if (participants_.count(request.to) == 0)
         return Refusal::no_such_participant;
-    object.grip = {request.to, number | given_grip};
-    object.moved_at = {};
+    // Somebody who gives an object to themselves may do so under the number by which another one
+    // gave it to them: then the grip is the same, and so is its newest pose.
+    const Grip given{request.to, number | given_grip};
+    if (object.grip != given)
+        object.moved_at = {};
+    object.grip = given;
     touched_ = request.object;
     return Refusal::none;
 }

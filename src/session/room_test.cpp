@@ -92,6 +92,17 @@ TEST(RoomState, HandsOverOnlyToSomebodyWhoIsThere) {
               Refusal::not_held_by_you);
 }
 
+TEST(RoomState, AGripThatComesAgainByGivingToOneselfKeepsItsNewestPose) {
+    OneBrick room;
+    room.request(anna, 2, request::Grab{room.brick});
+    room.request(anna, 4, request::HandOver{room.brick, 2, ben});
+    const Grip given{ben, 4 | given_grip};
+    EXPECT_TRUE(room.host.on_pose(ben, {room.brick, given, TimePoint(50ms), at(3), 1}));
+    room.request(ben, 4, request::HandOver{room.brick, given.number, ben});
+    EXPECT_EQ(room.object().grip, given);
+    EXPECT_EQ(room.object().moved_at, TimePoint(50ms));
+}
+
 TEST(RoomState, LetsGoWhatAParticipantHeldWhoLeaves) {
     OneBrick room;
     room.request(ben, 2, request::Grab{room.brick});

@@ -209,6 +209,10 @@ ViewerSession::Change ViewerSession::on_people(wire::ToParticipant message) {
         study_reply_ = *reply;
         return Change::study_reply;
     }
+    if (auto* chat = std::get_if<wire::ChatMessages>(&message)) {
+        chat_ = std::move(*chat);
+        return Change::chat;
+    }
     if (auto* content = std::get_if<wire::Content>(&message)) {
         content_ = std::move(*content);
         return Change::content;

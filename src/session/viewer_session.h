@@ -60,6 +60,7 @@ public:
         asked_patient,     // asked_patient(): the answer to wire::AskPatient
         study,             // study_step(): what this participant of a study is to be shown
         study_reply,       // study_reply(): of a participant whom this program leads
+        chat,              // chat(): what people have written
         direct,            // direct_grants(): the publishers that this participant may connect to
         direct_receivers,  // direct_receivers(): who may connect to this participant
         goodbye,           // goodbye() says why: the session is over, the connection will end
@@ -123,6 +124,7 @@ public:
     const wire::DirectReceivers& direct_receivers() const { return direct_receivers_; }
     const wire::StudyStep& study_step() const { return study_step_; }
     const wire::StudyReplied& study_reply() const { return study_reply_; }
+    const wire::ChatMessages& chat() const { return chat_; }
     const Wishes& wishes() const { return wishes_; }
 
 private:
@@ -163,6 +165,7 @@ private:
     wire::DirectReceivers direct_receivers_;
     wire::StudyStep study_step_;
     wire::StudyReplied study_reply_;
+    wire::ChatMessages chat_;
 };
 
 }  // namespace theatron::session

@@ -67,14 +67,16 @@ std::vector<BarItem> bar_items(const BarFacts& facts) {
             add(ToolIcon::draw, Phrase::draw, Phrase::bar_draw_hint, facts.draws);
         add(ToolIcon::patient_case, Phrase::case_, Phrase::bar_case_hint, facts.shows_case);
         add(ToolIcon::people, Phrase::people, Phrase::bar_people_hint, facts.shows_people);
-        if (session::may(facts.role, Right::manage))
-            items.back().badge = facts.visitors;
+        items.back().badge =
+            facts.hands + (session::may(facts.role, Right::manage) ? facts.visitors : 0);
     }
     add(ToolIcon::leave, facts.asks_leave ? Phrase::bar_leave_sure : Phrase::bar_leave,
         facts.joined ? Phrase::bar_leave_hint : Phrase::bar_leave_at_once, false);
     items.back().alarm = facts.asks_leave;
-    if (facts.joined)
+    if (facts.joined) {
         add(ToolIcon::more, Phrase::bar_more, Phrase::bar_more_hint, facts.shows_more);
+        items.back().badge = facts.unseen;
+    }
     return items;
 }
 

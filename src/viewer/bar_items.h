@@ -27,6 +27,8 @@ struct BarFacts {
          shows_more = false;
     bool is_past = false;      // of what is seen: nothing can be drawn or pointed at there
     std::size_t visitors = 0;  // who wait for this operator
+    std::size_t hands = 0;     // that others have raised
+    std::size_t unseen = 0;    // messages of others
     bool asks_leave = false;   // the next press leaves
 };
 

@@ -30,6 +30,8 @@ std::string doing(const RoomPanelFacts& facts, const room::RoomPerson& person) {
     std::string text;
     if (const auto known = facts_of(facts.room, person.id)) {
         add(text, wire::spoken(known->role));
+        if (known->hand_raised)
+            add(text, say(Phrase::hand_is_up));
         if (known->muted)
             add(text, say(Phrase::muted));
         if (known->records)
@@ -91,6 +93,11 @@ RoomPanel room_panel(const RoomPanelFacts& facts) {
         const auto known = facts_of(facts.room, person.id);
         if (!facts.is_operator || !known || session::is_recorded(person.id))
             continue;
+        if (known->hand_raised)
+            who.rows.push_back(
+                {"",
+                 "",
+                 {button(Phrase::lower_hand_of, Decide{Action::lower_hand, person.id, {}})}});
         const bool observes = known->role == wire::Role::observer;
         who.rows.push_back(
             {"",
@@ -110,6 +117,11 @@ RoomPanel room_panel(const RoomPanelFacts& facts) {
                                               : button(Phrase::call_all, Call{true})}});
     if (who.rows.empty())
         who.rows.push_back({say(Phrase::nobody_here), "", {}});
+    if (facts.hand_raised)
+        who.rows.push_back({"",
+                            *facts.hand_raised ? say(Phrase::your_hand_is_up) : "",
+                            {*facts.hand_raised ? button(Phrase::lower_hand, RaiseHand{false})
+                                                : button(Phrase::raise_hand, RaiseHand{true})}});
     if (facts.own_face == OwnFace::off)
         who.rows.push_back({"", "", {button(Phrase::show_face, ShowFace{true})}});
     else if (facts.own_face != OwnFace::none)

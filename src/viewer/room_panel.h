@@ -108,16 +108,24 @@ struct StudyPress {  // in the panel of a study
     int value = 0;
     bool operator==(const StudyPress&) const = default;
 };
+struct WriteText {};  // to all others: the keyboard writes from now on
+struct SendText {     // to all others
+    std::string text;
+};
+struct RaiseHand {  // false: it is taken down
+    bool raised = false;
+};
 struct PressKey {  // as its key does
     window::Action action{};
 };
 struct ShowSheet {
     Sheet sheet{};
 };
-using RoomCommand = std::variant<GoToPerson, LookThrough, GoToPlace, Decide, AskToOpen, OpenOffered,
-                                 LeaveClosed, ChangeCase, ChooseTool, ChangeMarks, Call, AnswerCall,
-                                 ShowLarge, AdjustStep, PlayStep, ChangeScreen, ShowFace,
-                                 LookBackTo, UseSound, StudyPress, PressKey, ShowSheet>;
+using RoomCommand =
+    std::variant<GoToPerson, LookThrough, GoToPlace, Decide, AskToOpen, OpenOffered, LeaveClosed,
+                 ChangeCase, ChooseTool, ChangeMarks, Call, AnswerCall, ShowLarge, AdjustStep,
+                 PlayStep, ChangeScreen, ShowFace, LookBackTo, UseSound, StudyPress, WriteText,
+                 SendText, RaiseHand, PressKey, ShowSheet>;
 
 struct RoomPanel {
     std::vector<window::Panel> panels;
@@ -147,6 +155,8 @@ struct RoomPanelFacts {
     std::optional<Decide> asked = {};
     // The user can be brought to another place, and look through other eyes.
     bool may_go = true, may_look_through = true;
+    // Nullopt: the host knows no raised hands.
+    std::optional<bool> hand_raised = {};
 };
 RoomPanel room_panel(const RoomPanelFacts& facts);
 

@@ -16,6 +16,7 @@ enum class Sheet {
     places,
     screens,
     look_back,
+    chat,
     study,  // beside the others in a window; a plate of a headset
 };
 

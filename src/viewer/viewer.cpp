@@ -145,6 +145,18 @@ void Viewer::carry_out(const window::KeyPress& key, Size picture, TimePoint now)
         case window::Action::more:
             toggle_sheet(sheet_ == Sheet::none || sheet_ == Sheet::details ? Sheet::more : sheet_);
             break;
+        case window::Action::chat:
+            if (!participant_.may_write() && participant_.chat().messages.empty()) {
+                note(say(Phrase::may_not_write), now);
+                break;
+            }
+            toggle_sheet(Sheet::chat);
+            if (sheet() == Sheet::chat && participant_.may_write())
+                chat_.begin();
+            break;
+        case window::Action::raise_hand:
+            on(RaiseHand{!participant_.hand_raised()}, now);
+            break;
         case window::Action::next_renderer:
             choose_next_renderer(now);
             break;
@@ -533,6 +545,8 @@ RoomPanelFacts Viewer::people_facts(const Facts& facts, TimePoint now) const {
     people.asked = removal_.asked(now);
     people.may_go = !scene_.has_real_room();
     people.may_look_through = !headset_;
+    if (participant_.has_chat())
+        people.hand_raised = participant_.hand_raised();
     return people;
 }
 

@@ -28,6 +28,7 @@
 #include "viewer/live_scene.h"
 #include "viewer/looking_back.h"
 #include "viewer/notice.h"
+#include "viewer/panels/chat_panel.h"
 #include "viewer/playing.h"
 #include "viewer/removal_question.h"
 #include "viewer/renderer_text.h"
@@ -66,6 +67,9 @@ public:
                   TimePoint now);
     // A button of the panels that facts() gave last.
     void press(int command, TimePoint now);
+    // The keyboard writes a message: its letters come to type() in place of on_input().
+    bool takes_text() const { return chat_.is_writing(); }
+    void type(const window::FormKeyPress& press, TimePoint now);
     // The keys that pressed buttons stand for, since the last call: the program acts as if they
     // came from the keyboard, and gives those of the viewer back to on_input().
     std::vector<window::KeyPress> take_pressed() { return std::exchange(pressed_, {}); }
@@ -209,6 +213,9 @@ private:
     // Commands of the panels' buttons.
     void carry_out(const RoomCommand& command, TimePoint now);
     void on(const StudyPress& press, TimePoint now);
+    void on(const WriteText& text, TimePoint now);
+    void on(const SendText& message, TimePoint now);
+    void on(const RaiseHand& hand, TimePoint now);
     void on(const PressKey& key, TimePoint now);
     void on(const ShowSheet& opened, TimePoint now);
     void on(const Decide& decision, TimePoint now);
@@ -258,6 +265,8 @@ private:
     void add_tools(Facts& facts, RoomPanel& panel, TimePoint now) const;
     void add_offers(Facts& facts, RoomPanel& panel, TimePoint now) const;
     void add_more_panel(RoomPanel& panel) const;
+    void add_chat(RoomPanel& panel);
+    std::size_t raised_hands_of_others() const;
     // Without places, visitors and the person's own face.
     RoomPanelFacts people_facts(const Facts& facts, TimePoint now) const;
     void add_screens(const Facts& facts, RoomPanel& panel) const;
@@ -290,6 +299,7 @@ private:
     Playing playing_;
     LookingBack looking_back_;
     StudyPanel study_;
+    ChatPanel chat_;
     bool slides_playback_ = false;                   // the slider that was pressed last
     std::optional<room::Pointer> pointer_;           // while this person points
     std::optional<Vec2> mouse_;                      // over the scene

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The bar of buttons of the window, the panel that one of them opens, and notices with buttons.
+#include <algorithm>
 #include <utility>
 
 #include "phrases/phrase.h"
@@ -59,6 +60,8 @@ void Viewer::open_sheet(Sheet sheet) {
     }
     if (sheet != Sheet::adjust)
         adjusting_.show(false);
+    if (sheet != Sheet::chat)
+        chat_.end();
     sheet_ = sheet > Sheet::adjust ? sheet : Sheet::none;
 }
 
@@ -106,6 +109,8 @@ void Viewer::add_tools(Facts& facts, RoomPanel& panel, TimePoint now) const {
     bar.shows_more = sheet_ != Sheet::none && sheet_ != Sheet::details;
     bar.is_past = !facts.past.empty();
     bar.visitors = facts.visitors.size();
+    bar.hands = raised_hands_of_others();
+    bar.unseen = sheet() == Sheet::chat ? 0 : chat_.unseen(participant_.chat());
     bar.asks_leave = now < leave_asked_until_;
     window::ToolBar tools;
     const auto command = [&](window::Action action) { return panel.add(PressKey{action}); };
@@ -157,6 +162,15 @@ void Viewer::add_more_panel(RoomPanel& panel) const {
             row(text, PressKey{key});
     };
     row_of_window(Phrase::more_help, window::Action::help);
+    if (participant_.has_chat()) {
+        row(Phrase::messages, headset_ ? RoomCommand(ShowSheet{Sheet::chat})
+                                       : RoomCommand(PressKey{window::Action::chat}));
+        const bool raised = participant_.hand_raised();
+        more.rows.push_back({say(raised ? Phrase::your_hand_is_up : Phrase::your_hand),
+                             "",
+                             {panel.button(say(raised ? Phrase::lower_hand : Phrase::raise_hand),
+                                           RaiseHand{!raised})}});
+    }
     row(Phrase::sound, ShowSheet{Sheet::sound});
     row_of_window(Phrase::more_pictures, window::Action::camera_pictures);
     row(Phrase::places, ShowSheet{Sheet::places});
@@ -229,10 +243,27 @@ void Viewer::add_sheet(Sheet sheet, const Facts& facts, RoomPanel& panel, TimePo
         case Sheet::look_back:
             add_look_back(facts, panel, now);
             break;
+        case Sheet::chat:
+            add_chat(panel);
+            break;
         case Sheet::study:
             study_.add_panel(panel, now);
             break;
     }
+}
+
+void Viewer::add_chat(RoomPanel& panel) {
+    ChatPanelFacts facts{participant_.chat(), participant_.now(), participant_.may_write(),
+                         !headset_};
+    chat_.note_seen(facts.chat);
+    chat_.add_panel(facts, panel);
+}
+
+std::size_t Viewer::raised_hands_of_others() const {
+    const auto hands = participant_.raised_hands();
+    return std::size_t(std::count_if(hands.begin(), hands.end(), [&](const auto& hand) {
+        return hand.person != participant_.room_self();
+    }));
 }
 
 }  // namespace theatron::viewer

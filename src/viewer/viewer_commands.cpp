@@ -9,9 +9,11 @@
 namespace theatron::viewer {
 
 void Viewer::carry_out(const RoomCommand& command, TimePoint now) {
-    const bool needs_picture = !std::holds_alternative<PressKey>(command) &&
-                               !std::holds_alternative<ShowSheet>(command) &&
-                               !std::holds_alternative<StudyPress>(command);
+    const bool needs_picture =
+        !std::holds_alternative<PressKey>(command) && !std::holds_alternative<ShowSheet>(command) &&
+        !std::holds_alternative<StudyPress>(command) &&
+        !std::holds_alternative<WriteText>(command) && !std::holds_alternative<SendText>(command) &&
+        !std::holds_alternative<RaiseHand>(command);
     if (eye_.is_placed() || !needs_picture)
         std::visit([&](const auto& one) { on(one, now); }, command);
 }
@@ -21,6 +23,26 @@ void Viewer::on(const StudyPress& press, TimePoint now) {
         participant_.reply_to_study(*reply);
     if (headset_ && study_.is_aside() && plate_ == Sheet::study)
         open_plate(Sheet::none);
+}
+
+void Viewer::on(const WriteText&, TimePoint) {
+    chat_.begin();
+}
+
+void Viewer::on(const SendText& message, TimePoint now) {
+    if (!participant_.write_chat(message.text))
+        note(say(Phrase::message_not_sent, message.text), now);
+}
+
+void Viewer::type(const window::FormKeyPress& press, TimePoint now) {
+    if (const std::string text = chat_.type(press); !text.empty())
+        on(SendText{text}, now);
+}
+
+void Viewer::on(const RaiseHand& hand, TimePoint now) {
+    if (!participant_.raise_hand(hand.raised))
+        return note(say(Phrase::no_raised_hands), now);
+    note(say(hand.raised ? Phrase::your_hand_is_up : Phrase::your_hand_is_down), now);
 }
 
 void Viewer::on(const PressKey& key, TimePoint) {

@@ -142,6 +142,8 @@ std::string face_passphrase(const std::string& file, bool is_new) {
         if (is_new && line.ask("The same once more: ") != passphrase)
             throw Error("The two passphrases differ; nothing was written.");
     }
+    if (passphrase.empty())
+        throw Error("The passphrase is empty; nothing was done.");
     if (is_new && passphrase.size() < least_passphrase)
         throw Error("The passphrase is shorter than eight characters; choose a longer one.");
     return passphrase;

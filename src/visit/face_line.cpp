@@ -71,9 +71,11 @@ std::string name_of(session::FaceUpload::State state) {
 std::string sentence_of(session::FaceUpload::State state) {
     switch (state) {
         case session::FaceUpload::State::there:
-            return "The others see your own face.";
+            return "The host has your own face and gives it to the others; they see it while your "
+                   "tracker is heard.";
         case session::FaceUpload::State::refused:
-            return "The host takes no face of your own now; the others see the usual head.";
+            return "The host takes no face of your own at present, and is asked again; the others "
+                   "see the usual head.";
         case session::FaceUpload::State::unanswered:
             return "The host does not know faces of one's own; it is of an earlier version. The "
                    "others see the usual head.";
@@ -146,6 +148,7 @@ void FaceLine::send(client::Participant& participant, const std::stop_token& sto
     bool is_calibrated = !tracked_;  // the actor is at rest where its channels are 0
     wire::FaceExpression sent;       // the last one; at first as if it said that there is none
     TimePoint sent_at;
+    bool could_show = true;
     while (!stop.stop_requested()) {
         due = std::max(due + face_step, steady_now());
         const face::FaceNow face = next(due);
@@ -159,7 +162,10 @@ void FaceLine::send(client::Participant& participant, const std::stop_token& sto
             if (const std::string sentence = sentence_of(face.tracking);
                 tracked_ && !sentence.empty())
                 log::say(sentence);
-        const bool shown = shown_ && may_be_seen(participant);
+        const bool may_show = may_be_seen(participant);
+        if (shown_ && std::exchange(could_show, may_show) && !may_show)
+            log::say("Your role lets nobody see your face.");
+        const bool shown = shown_ && may_show;
         note(shown ? std::string(to_text(face.tracking)) : "off",
              shown ? std::string(to_text(told.told)) : "");
         follow_own_face(participant, shown);
@@ -189,8 +195,9 @@ void FaceLine::follow_own_face(client::Participant& participant, bool shown) {
     const session::FaceUpload::State state = participant.own_face_state();
     if (std::exchange(told_, state) == state)
         return;
-    if (const std::string sentence = sentence_of(state); !sentence.empty())
-        log::say(sentence);
+    // A host that refuses again and again is told once.
+    if (const std::string sentence = sentence_of(state); !sentence.empty() && sentence != said_)
+        log::say(said_ = sentence);
     const std::lock_guard lock(mutex_);
     own_state_ = name_of(state);
 }

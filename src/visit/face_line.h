@@ -72,6 +72,7 @@ private:
     const bool all_channels_;
     const std::shared_ptr<const Bytes> own_face_;
     session::FaceUpload::State told_ = session::FaceUpload::State::none;  // of own_face_
+    std::string said_;  // of it, the last sentence
     std::optional<face::Network> network_;
     std::unique_ptr<TrackedFace> tracked_;  // null: the actor
     TimePoint began_;                       // of the actor's script

@@ -88,6 +88,10 @@ std::optional<KeyPress> pressed(const SDL_Keysym& key) {
             return KeyPress{Action::freeze};
         case SDLK_F7:
             return KeyPress{Action::push_to_talk};
+        case SDLK_F3:
+            return KeyPress{Action::chat};
+        case SDLK_F12:
+            return KeyPress{Action::raise_hand};
         case SDLK_F4:
             return KeyPress{Action::own_face};
         case SDLK_F8:
@@ -245,6 +249,7 @@ struct DesktopWindow::Parts {
     Uint32 wake_event = 0;
     std::atomic<bool> woken = false;
     InputQueue inputs;
+    bool takes_text = false;
     render::GlErrors errors;
 
     ~Parts() {
@@ -322,11 +327,16 @@ WindowInput DesktopWindow::poll() {
         parts_->take(event);
     WindowInput input = parts_->inputs.take();
     input.pointer.reset();
-    read_held_keys(input.steering);
+    if (!parts_->takes_text)
+        read_held_keys(input.steering);
     if (SDL_GetMouseFocus() == parts_->window) {
         int x = 0, y = 0;
         SDL_GetMouseState(&x, &y);
         input.pointer = parts_->shares_of(x, y);
+    }
+    if (parts_->takes_text) {
+        input.aims_teleport = input.points = input.talks = false;
+        return input;
     }
     const Uint8* held = SDL_GetKeyboardState(nullptr);
     input.aims_teleport = held[SDL_SCANCODE_T] != 0;
@@ -368,6 +378,10 @@ FormInput DesktopWindow::poll_form() {
     return input;
 }
 
+void DesktopWindow::take_text(bool takes) {
+    parts_->takes_text = takes;
+}
+
 std::string DesktopWindow::clipboard() const {
     char* const text = SDL_GetClipboardText();
     const std::string copy = text ? text : "";
@@ -392,9 +406,19 @@ void DesktopWindow::Parts::take(const SDL_Event& event) {
                 event.window.event == SDL_WINDOWEVENT_SIZE_CHANGED)
                 input.redraw = true;
             break;
+        case SDL_TEXTINPUT:
+            if (takes_text)
+                inputs.type({FormKey::letters, false, false, event.text.text});
+            break;
         case SDL_KEYDOWN:
-            if (const auto key = pressed(event.key.keysym);
-                key && (event.key.repeat == 0 || key->action == Action::nudge))
+            if (takes_text) {
+                if (const auto key = form_key(event.key.keysym))
+                    inputs.type({*key,
+                                 (event.key.keysym.mod & KMOD_CTRL) != 0,
+                                 (event.key.keysym.mod & KMOD_SHIFT) != 0,
+                                 {}});
+            } else if (const auto key = pressed(event.key.keysym);
+                       key && (event.key.repeat == 0 || key->action == Action::nudge))
                 inputs.press(*key);
             break;
         case SDL_MOUSEMOTION: {

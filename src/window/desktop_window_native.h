@@ -34,6 +34,8 @@ public:
     WindowInput poll();
     // The same as input into a form.
     FormInput poll_form();
+    // While it takes text, keys are letters: they are in WindowInput::typed.
+    void take_text(bool takes);
     // The text of the desktop's clipboard; empty where there is none.
     std::string clipboard() const;
     void set_clipboard(const std::string& text);

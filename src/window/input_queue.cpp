@@ -39,6 +39,11 @@ void InputQueue::press(const KeyPress& key) {
         newest().keys.push_back(key);
 }
 
+void InputQueue::type(const FormKeyPress& key) {
+    if (newest().typed.size() < max_waiting)
+        newest().typed.push_back(key);
+}
+
 void InputQueue::grab(Vec2 place, bool left) {
     if ((has_button(newest()) || !newest().keys.empty()) && !begin_next())
         return;
@@ -56,8 +61,8 @@ bool InputQueue::has_more() const {
     const WindowInput& oldest = waiting_.front();
     const Steering& way = oldest.steering;
     const bool moves = way.turn != Vec2{} || way.slide != Vec2{} || way.approach != 0;
-    return waiting_.size() > 1 || has_button(oldest) || !oldest.keys.empty() || moves ||
-           oldest.redraw || oldest.close;
+    return waiting_.size() > 1 || has_button(oldest) || !oldest.keys.empty() ||
+           !oldest.typed.empty() || moves || oldest.redraw || oldest.close;
 }
 
 WindowInput InputQueue::take() {

@@ -18,6 +18,7 @@ public:
     static constexpr std::size_t max_waiting = 64;
 
     void press(const KeyPress& key);
+    void type(const FormKeyPress& key);
     void grab(Vec2 place, bool left);
     void release();
     // For all that adds up or is a state: movements, the pointer, keys that are held.

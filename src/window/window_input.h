@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "phrases/language.h"
+#include "window/form_input.h"
 #include "window/navigation.h"
 
 namespace theatron::window {
@@ -55,6 +56,8 @@ enum class Action {
     view_camera,     // `camera` of the key press
     point,           // begins or ends pointing with the mouse, without a key that is held
     leave_session,   // leaves it, also from full screen
+    chat,            // shows or hides the panel of messages, and begins one
+    raise_hand,      // or takes it down
     more,            // shows or hides the panel of all that has no button of its own
     next_control,    // the keyboard goes on to the next button
     previous_control,
@@ -74,6 +77,7 @@ struct WindowInput {
     bool close = false;   // the window's own button, or the system asks the program to end
     bool redraw = false;  // the window was uncovered or has another size
     std::vector<KeyPress> keys;
+    std::vector<FormKeyPress> typed;  // in place of `keys`, while the window takes text
     // The place where a turn or a slide began, if one did: shares of the window's width and
     // height from its top left corner.
     std::optional<Vec2> grabbed;

@@ -163,7 +163,7 @@ bool is_sound(const Camera& camera) {
     return camera.kind <= CameraKind::face;
 }
 bool is_sound(const Manage& decision) {
-    return decision.action >= ManageAction::admit && decision.action <= clear_objects &&
+    return decision.action >= ManageAction::admit && decision.action <= ManageAction::lower_hand &&
            is_known(decision.role);
 }
 bool is_sound(const Play& play) {

@@ -50,6 +50,7 @@ enum class Feature : std::uint16_t {
     shows_screen = 14,  // may offer a screen as JPEG pictures: CameraKind::screen
     study = 15,         // shows steps of a study: StudyStep, StudyReply
     draws_flat = 16,  // shows the colour of one camera as it is: it has neither depth nor renderer
+    chat = 17,        // shows what people write, and hands that they raise: WriteChat, ChatMessages
 };
 inline constexpr std::size_t max_features = 32;
 inline constexpr std::size_t person_id_size = 16;
@@ -61,6 +62,8 @@ inline constexpr std::size_t content_hash_size = 32;    // base/content_hash.h
 inline constexpr std::size_t max_study_texts = 41;      // paragraphs of one step of a study
 inline constexpr std::size_t max_study_text = 1000;   // one of them, a choice, a meaning of a point
 inline constexpr std::size_t max_study_choices = 20;  // of one step
+inline constexpr std::size_t max_chat_text = 500;     // of one message
+inline constexpr std::size_t max_chat_messages = 16;  // in one message of the protocol
 inline constexpr Duration max_added_latency = std::chrono::seconds(5);
 inline constexpr std::size_t max_content_piece = 16 * 1024;      // bytes of content in one message
 inline constexpr std::size_t max_content_request = 1024 * 1024;  // bytes that one request asks for

@@ -197,6 +197,8 @@ enum class ManageAction : std::uint8_t {
     remove = 6,       // until the session ends
     revoke_link = 7,  // the link of this participant: all who came by it are removed
     end_session = 8,  // for all; without a participant
+    // 9: clear_objects.h
+    lower_hand = 10,  // takes down the hand that the participant has raised
 };
 
 // A decision of an operator on a participant. The host answers with Managed.
@@ -406,6 +408,27 @@ struct SetCondition {
         field(m.latency);
         field(m.locked);
     }
+};
+
+// The participant writes to all others. The host sends it back to all, its sender included, with
+// ChatMessages. The sender repeats it until then: `id` is random, and the host takes it once.
+struct WriteChat {
+    std::uint64_t id = 0;
+    std::string text;
+    bool operator==(const WriteChat&) const = default;
+
+    static void fields(auto& m, auto&& field) {
+        field(m.id);
+        field(m.text, max_chat_text);
+    }
+};
+
+// The participant raises a hand, or takes it down. The others see it as a fact about its person
+// (session/room_bytes.h). It ends with the connection.
+struct RaiseHand {
+    bool raised = false;
+
+    static void fields(auto& m, auto&& field) { field(m.raised); }
 };
 
 enum class CameraCondition : std::uint8_t { live = 0, stale = 1, ended = 2, failed = 3 };

@@ -436,6 +436,31 @@ struct StudyReplied {
     }
 };
 
+// A message that somebody has written to all.
+struct ChatMessage {
+    std::uint64_t id = 0;  // as in WriteChat
+    ParticipantId participant{};
+    std::string name;  // as it was then
+    std::string text;
+    TimePoint at;  // when the host had it
+    bool operator==(const ChatMessage&) const = default;
+
+    static void fields(auto& m, auto&& field) {
+        field(m.id);
+        field(m.participant);
+        field(m.name, max_name);
+        field(m.text, max_chat_text);
+        field(m.at);
+    }
+};
+
+// New messages, the oldest first; after Welcome those that this run of the program may have missed.
+struct ChatMessages {
+    std::vector<ChatMessage> messages;
+
+    static void fields(auto& m, auto&& field) { field(m.messages, max_chat_messages); }
+};
+
 // To a receiver: the permission to connect to this publisher for the pictures of its cameras.
 struct DirectGrant {
     ParticipantId publisher{};

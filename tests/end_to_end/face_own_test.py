@@ -94,6 +94,7 @@ class OwnFace(unittest.TestCase):
         code, _, errors = run("face", "show", self.own, "--out", picture, "--passphrase-file", self.passphrase)
         self.assertEqual(code, 0, errors)
         self.assertGreater(picture.stat().st_size, 50_000)
+        self.assertEqual(picture.stat().st_mode & 0o777, 0o600)
         gone = self.folder / "gone.face"
         shutil.copy(self.own, gone)
         code, output, errors = run("face", "delete", gone)
@@ -146,6 +147,14 @@ class OwnFace(unittest.TestCase):
         code, _, errors = self.enrol(new, neutral="unmarked")
         self.assertIn("outside of their photo", errors)
         self.assertFalse(new.exists())
+        link = self.folder / "link.face"
+        link.symlink_to(self.own)
+        self.assertIn("is a link to", self.refused("delete", link))
+        self.assertIn("is a link to", self.enrol(link, "--overwrite")[2])
+        photo = (self.photos / "neutral.jpg").read_bytes()
+        self.assertIn("is not a face", self.enrol(self.photos / "neutral.jpg", "--overwrite")[2])
+        self.assertEqual((self.photos / "neutral.jpg").read_bytes(), photo)
+        self.assertEqual(self.own.read_bytes(), before)
         self.assertIn("is no face of", self.refused("delete", garbage))
         self.assertTrue(garbage.exists())
         self.assertIn("is no face of", self.refused("show", garbage, "--out", self.folder / "x.png",

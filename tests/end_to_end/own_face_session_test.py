@@ -73,7 +73,7 @@ class OwnFaceInASession(unittest.TestCase):
         ada = self.with_own_face()
         bob.wait_for(lambda f: (face_of(f, "Ada") or {}).get("own"))
         self.assertEqual(ada.wait_for(lambda f: f["face"]["own"] == "there")["phase"], "joined")
-        ada.wait_for_error("The others see your own face.")
+        ada.wait_for_error("The host has your own face")
         late = self.member("Late")
         late.wait_for(lambda f: (face_of(f, "Ada") or {}).get("own"))
         ada.say("face off")
@@ -88,6 +88,13 @@ class OwnFaceInASession(unittest.TestCase):
         plain = self.ada()
         bob.wait_for(lambda f: (face_of(f, "Ada") or {}).get("own") is False)
         self.assertNotIn("own", plain.wait_for(lambda f: f["face"]["state"] == "tracked")["face"])
+
+    def test_no_crash_dump_has_it(self):
+        ada = self.with_own_face()
+        ada.wait_for(lambda f: f["face"]["own"] == "there")
+        limit = [line for line in pathlib.Path(f"/proc/{ada.process.pid}/limits").read_text().splitlines() if "core file" in line]
+        # One byte: no dump is written, and none is given to a program that keeps dumps (core(5)); 0 where the hard limit is 0.
+        self.assertIn(limit[0].split()[4], ("0", "1"), limit)
 
     def test_it_is_drawn_in_place_of_the_usual_head(self):
         ada = self.ada()

@@ -2,6 +2,7 @@
 #include "world/crowd.h"
 
 #include <algorithm>
+#include <set>
 
 #include "base/fault.h"
 #include "wire/person_pose.h"
@@ -108,6 +109,12 @@ void Crowd::act(Member& member) {
             pose.head = wire::PartPose{{float(number(3)), 1.6f, 0}};
             return person->send_pose(pose);
         }
+        case 8:
+            (void)person->write_chat("message " + std::to_string(++messages_));
+            return;
+        case 9:
+            (void)person->raise_hand(number(2) == 0);
+            return;
         default:
             return act_in_room(person);
     }
@@ -205,6 +212,18 @@ std::string Crowd::quiet() {
     return agreement();
 }
 
+// Empty: each message that the person knows is there once, and none of theirs waits.
+std::string Crowd::chat_fault(const Person& person) {
+    const client::Participant::Chat chat = person.participant().chat();
+    if (!chat.unsent.empty())
+        return person.name() + " has written '" + chat.unsent.front() + "', which the host lacks";
+    std::set<std::string> texts;
+    for (const wire::ChatMessage& message : chat.messages)
+        if (!texts.insert(message.text).second)
+            return person.name() + " reads '" + message.text + "' twice";
+    return "";
+}
+
 std::string Crowd::agreement() {
     // The room as the host tells it to somebody who comes now.
     Person& witness = world_.person("Witness");
@@ -228,6 +247,8 @@ std::string Crowd::agreement() {
             continue;
         ++in;
         names.push_back(person.name());
+        if (std::string fault = chat_fault(person); !fault.empty())
+            return fault;
         there[person.number()] = person.name();
     }
     for (const Member& member : members_)

@@ -40,6 +40,7 @@ private:
     // Lets everything come to its end, and looks.
     std::string quiet();
     std::string agreement();
+    static std::string chat_fault(const Person& person);
     std::string end();
 
     int number(int below) { return int(random_() % unsigned(below)); }
@@ -48,6 +49,7 @@ private:
     World world_;
     std::mt19937 random_;
     std::vector<Member> members_;
+    int messages_ = 0;  // that people have written
     const std::uint64_t faults_before_;
     Seen seen_;
 };

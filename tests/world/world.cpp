@@ -13,6 +13,7 @@ namespace theatron::world {
 Person::Person(World& world, std::string name)
     : world_(world), name_(std::move(name)), path_(Network::instance().path(name_)) {
     options.keeps_room = true;
+    options.shows_chat = true;
 }
 
 void Person::join(wire::Role role) {

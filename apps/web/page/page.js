@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page: the join form, the loop of pictures, and the panels beside them.
+import { Chat } from "./chat.js";
 import make_client from "./client.mjs";
 import { join_workers, start_workers } from "./decoding.js";
 import { use_loudspeaker } from "./device_choice.js";
@@ -82,6 +83,9 @@ async function load_client() {
         reset_figures: [null, []],
         speak: [null, [...numbers(4), "array", "number"]],
         allow_voice_recording: [null, numbers(1)],
+        chat: ["string", []],
+        write_chat: ["number", ["string"]],
+        raise_hand: [null, numbers(1)],
         show_face: [null, numbers(3)],
         send_face: [null, numbers(1)],
         note_face: [null, numbers(1)],
@@ -138,6 +142,7 @@ function run({ client, voice, face, screen, module, flat }) {
         $("help_text").scrollTop = 0;
     };
     const sheet = page.sheet = new Sheet(name => text(titles[name]), () => next_texts = 0);
+    const chat = page.chat = new Chat(client, sheet);
     const tour = page.tour = new Tour(() => $(page.way === "flat" ? "flat" : "view"));
     $("show_tour").addEventListener("click", () => {
         sheet.close();
@@ -185,7 +190,7 @@ function run({ client, voice, face, screen, module, flat }) {
     $("voice_recording").addEventListener("click", change_voice_recording);
     hold_to_talk($("talk"), voice);
     // After a click on a button the keys go on to act in the room; a button reached by Tab keeps the focus.
-    $("panels").addEventListener("click", event => event.detail > 0 && event.target.closest("button") && !event.target.closest("dialog") &&
+    $("panels").addEventListener("click", event => event.detail > 0 && event.target.closest("button") && !event.target.closest("dialog, #chat_form") &&
         $(page.way === "flat" ? "flat" : "view").focus({ preventScroll: true }));
     document.addEventListener("keydown", event => {
         if (event.key !== "Escape" || page.state.phase === "left" || document.querySelector("dialog[open]"))
@@ -281,6 +286,7 @@ function run({ client, voice, face, screen, module, flat }) {
         tour.show(page.state, page.way);
         still.show(page.state);
         picture_panel.show(page.state);
+        chat.show(page.state, page.visit);
         place_voices(voice, page.state);
         show_voices(voice, page.state);
         document.title = `${page.state.host || host} - Theatron`;
@@ -439,7 +445,7 @@ function place_voices(voice, { ear, people }) {
 
 // The panels that keys open, and the titles of all.
 const sheets = { p: "people", o: "case", b: "details" };
-const titles = { people: "people", case: "case", draw: "draw", more: "more", details: "details", picture: "picture_settings" };
+const titles = { people: "people", chat: "chat", case: "case", draw: "draw", more: "more", details: "details", picture: "picture_settings" };
 
 // Returns the sentence on what is drawn; "": nothing is to be said.
 function show_way({ has_picture, flat_camera, cameras }) {

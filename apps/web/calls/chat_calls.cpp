@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// The functions that page/chat.js calls: what people write, and hands that they raise.
+#include <emscripten/emscripten.h>
+
+#include <nlohmann/json.hpp>
+
+#include "visit.h"
+
+using namespace theatron;
+using theatron::web::page;
+
+extern "C" {
+
+// {"messages":[{"name":,"text":,"is_own":,"age_s":}],"unsent":[]}
+EMSCRIPTEN_KEEPALIVE const char* theatron_chat() {
+    nlohmann::json messages = nlohmann::json::array(), unsent = nlohmann::json::array();
+    if (const client::Participant* participant = page().participant()) {
+        const client::Participant::Chat chat = participant->chat();
+        for (const wire::ChatMessage& message : chat.messages)
+            messages.push_back({{"name", message.name},
+                                {"text", message.text},
+                                {"is_own", chat.own.contains(message.id)},
+                                {"age_s", to_seconds(participant->now() - message.at)}});
+        unsent = chat.unsent;
+    }
+    page().text = nlohmann::json{{"messages", messages}, {"unsent", unsent}}.dump();
+    return page().text.c_str();
+}
+
+// Writes to all others; 0: the person may not, or too many messages wait for the host.
+EMSCRIPTEN_KEEPALIVE int theatron_write_chat(const char* text) {
+    return page().participant() && page().participant()->write_chat(text);
+}
+
+// Raises the person's hand (1), or takes it down (0).
+EMSCRIPTEN_KEEPALIVE void theatron_raise_hand(int raised) {
+    if (page().participant())
+        page().participant()->raise_hand(raised != 0);
+}
+
+}  // extern "C"

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+// Messages of people to all others, and raised hands. Texts of others are only ever text.
+import { text } from "./texts.js";
+import { by_touch } from "./touch_mode.js";
+
+const $ = id => document.getElementById(id);
+
+function set_text(place, content) {
+    if (place.textContent !== content)
+        place.textContent = content;
+}
+
+// The messages behind the newest one that the person has seen, without their own.
+export function unseen_of(messages, seen) {
+    return messages.slice(seen).filter(({ is_own }) => !is_own).length;
+}
+
+export class Chat {
+    version = "";   // of the messages that are shown, and the visit
+    visit = 0;
+    messages = [];
+    seen = 0;       // messages that the person has seen; those that come are behind them
+
+    constructor(client, sheet) {
+        Object.assign(this, { client, sheet });
+        $("chat_form").addEventListener("submit", event => {
+            event.preventDefault();
+            this.write();
+        });
+        for (const button of document.querySelectorAll("[data-quick]"))
+            button.addEventListener("click", () => this.send(text(button.dataset.quick)));
+        $("raise_hand").addEventListener("click", () => client.raise_hand(this.is_raised ? 0 : 1));
+        $("hands").addEventListener("click", event => sheet.open("people", event.detail === 0 ? $("hands") : null));
+        for (const id of ["unseen", "show_chat"])
+            $(id).addEventListener("click", event => {
+                if (id === "unseen")
+                    sheet.open("chat", event.detail === 0 ? $(id) : null);
+                // Behind the click, which gives the focus to the room. By touch a keyboard would cover the messages.
+                if (sheet.name === "chat" && !by_touch())
+                    setTimeout(() => $("chat_text").focus());
+            });
+    }
+
+    write() {
+        if (this.send($("chat_text").value))
+            $("chat_text").value = "";
+        $("chat_text").focus();
+    }
+
+    send(words) {
+        const is_taken = words.trim() !== "" && this.client.write_chat(words) !== 0;
+        set_text($("chat_hint"), is_taken || words.trim() === "" ? "" : text("not_sent"));
+        return is_taken;
+    }
+
+    // `state`: the client's; `visit`: a number of the person's stay.
+    show({ chat, hands = [] }, visit) {
+        const { has_chat = false, may_write = false, version = 0, hand_raised = false } = chat ?? {};
+        this.is_raised = hand_raised;
+        if (visit !== this.visit) {
+            this.visit = visit;
+            this.seen = 0;
+        }
+        if (this.version !== `${visit} ${version}`) {
+            this.version = `${visit} ${version}`;
+            const { messages, unsent } = JSON.parse(this.client.chat());
+            this.fill(messages, unsent);
+        }
+        if (this.sheet.name === "chat")
+            this.seen = this.messages.length;
+        const unseen = unseen_of(this.messages, this.seen);
+        $("show_chat").hidden = $("raise_hand").hidden = !has_chat;
+        set_text($("show_chat"), unseen ? text("labelled", { label: text("chat"), value: String(unseen) }) : text("chat"));
+        $("raise_hand").setAttribute("aria-pressed", String(hand_raised));
+        set_text($("raise_hand"), text(hand_raised ? "lower_hand" : "raise_hand"));
+        set_text($("unseen"), unseen ? text("unseen", { count: unseen }) : "");
+        $("unseen").hidden = !unseen;
+        const names = [...(hand_raised ? [text("you")] : []), ...hands];
+        set_text($("hands"), names.length ? text("hands", { names: names.join(", ") }) : "");
+        $("hands").hidden = !names.length;
+        for (const part of [$("chat_text"), $("send"), ...document.querySelectorAll("[data-quick]")])
+            part.disabled = !may_write;
+        if (!may_write)
+            set_text($("chat_hint"), text("may_not_write"));
+        else if ($("chat_hint").textContent === text("may_not_write"))
+            set_text($("chat_hint"), "");
+    }
+
+    fill(messages, unsent) {
+        this.messages = messages;
+        const written_ms = Date.now();
+        const clock = new Intl.DateTimeFormat(document.documentElement.lang, { hour: "2-digit", minute: "2-digit" });
+        const item = (name, words, when, kind) => {
+            const row = document.createElement("li");
+            row.className = kind;
+            const head = document.createElement("span");
+            head.className = "detail";
+            head.textContent = when ? `${name} · ${when}` : name;
+            const body = document.createElement("p");
+            body.textContent = words;
+            row.append(head, body);
+            return row;
+        };
+        const list = $("chat_list"), at_end = list.scrollHeight - list.scrollTop - list.clientHeight < 40;
+        list.replaceChildren(
+            ...messages.map(({ name, text: words, is_own, age_s }) => item(
+                is_own ? text("you") : name, words, clock.format(new Date(written_ms - 1000 * age_s)), is_own ? "own" : "")),
+            ...unsent.map(words => item(text("not_yet_sent"), words, "", "own unsent")));
+        $("no_messages").hidden = messages.length + unsent.length > 0;
+        if (at_end)
+            list.scrollTop = list.scrollHeight;
+    }
+}

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// Messages of people to all others, and raised hands.
+#include <random>
+#include <utility>
+
+#include "base/steady_clock.h"
+#include "client/participant_shared.h"
+#include "phrases/phrase.h"
+#include "session/permissions.h"
+#include "session/room_bytes.h"
+
+namespace theatron::client {
+namespace {
+
+std::uint64_t random_id() {
+    std::random_device random;
+    return std::uint64_t(random()) << 32 | random();
+}
+
+}  // namespace
+
+void Participant::on_chat() {
+    std::vector<std::string> remarks;
+    {
+        const std::lock_guard lock(shared_->mutex);
+        for (const wire::ChatMessage& message : shared_->chat.take(session_.chat()))
+            if (!shared_->chat.is_own(message.id))
+                shared_->add_remark(remarks, message.name,
+                                    say(Phrase::person_writes, message.name, message.text));
+    }
+    announce();
+    for (const std::string& text : remarks)
+        remark(text);
+    tell_chat();
+}
+
+void Participant::tell_chat() {
+    std::optional<wire::WriteChat> due;
+    {
+        const std::lock_guard lock(shared_->mutex);
+        shared_->has_chat = session_.joined() && session_.has(wire::Feature::chat);
+        if (shared_->has_chat)
+            due = shared_->chat.due(steady_now());
+    }
+    if (due)
+        shared_->client->send_control(wire::encode(*due));
+}
+
+void Participant::give_up_chat() {
+    std::vector<std::string> texts;
+    {
+        const std::lock_guard lock(shared_->mutex);
+        texts = shared_->chat.give_up();
+    }
+    for (const std::string& text : texts)
+        remark(say(Phrase::message_not_sent, text));
+}
+
+void Participant::follow_hands() {
+    std::vector<std::string> remarks;
+    {
+        const std::lock_guard lock(shared_->mutex);
+        if (!options_.shows_chat || !shared_->room.known())
+            return;
+        for (const auto& [person, name] : shared_->hands.take(shared_->room.confirmed()))
+            if (person != shared_->room.self())
+                shared_->add_remark(remarks, name, say(Phrase::person_raises_hand, name));
+    }
+    for (const std::string& text : remarks)
+        remark(text);
+}
+
+Participant::Chat Participant::chat() const {
+    const std::lock_guard lock(shared_->mutex);
+    const session::MemberChat& chat = shared_->chat;
+    Chat result{{chat.messages().begin(), chat.messages().end()}, {}, {}, chat.version()};
+    for (const wire::ChatMessage& message : chat.messages())
+        if (chat.is_own(message.id))
+            result.own.insert(message.id);
+    for (const wire::WriteChat& written : chat.unsent())
+        result.unsent.push_back(written.text);
+    return result;
+}
+
+std::uint64_t Participant::chat_version() const {
+    const std::lock_guard lock(shared_->mutex);
+    return shared_->chat.version();
+}
+
+bool Participant::has_chat() const {
+    const std::lock_guard lock(shared_->mutex);
+    return shared_->has_chat;
+}
+
+bool Participant::may_write() const {
+    const std::lock_guard lock(shared_->mutex);
+    return shared_->has_chat && !shared_->status.standing.muted;
+}
+
+bool Participant::write_chat(const std::string& text) {
+    const std::lock_guard lock(shared_->mutex);
+    if (!shared_->has_chat || shared_->status.standing.muted ||
+        !shared_->chat.write(text, random_id()))
+        return false;
+    if (shared_->client)
+        shared_->client->post([this] { tell_chat(); });
+    return true;
+}
+
+bool Participant::raise_hand(bool raised) {
+    const std::lock_guard lock(shared_->mutex);
+    if (!shared_->client || !shared_->has_chat || shared_->status.phase != Phase::joined)
+        return false;
+    shared_->client->post(
+        [this, raised] { shared_->client->send_control(wire::encode(wire::RaiseHand{raised})); });
+    return true;
+}
+
+bool Participant::hand_raised() const {
+    const std::lock_guard lock(shared_->mutex);
+    for (const auto& [person, name] : shared_->hands.raised())
+        if (person == shared_->room.self())
+            return true;
+    return false;
+}
+
+std::vector<session::RaisedHands::Hand> Participant::raised_hands() const {
+    const std::lock_guard lock(shared_->mutex);
+    return shared_->hands.raised();
+}
+
+}  // namespace theatron::client

@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Messages and raised hands in the page, beside a program without one."""
+import os
+import pathlib
+import unittest
+
+from page_case import PageCase
+from theatron_process import Process
+from web_access_test import AXE, CONTRAST, FINDINGS
+
+PICTURES = os.environ.get("THEATRON_PICTURES")  # a folder where pictures of the page stay
+SIZES = ((1280, 720), (390, 844))
+LIST = "[...document.querySelectorAll('#chat_list li p')].map(p => p.textContent)"
+
+
+class WebChat(PageCase):
+    cameras = ("synthetic:seconds=2,fps=5,quality=quick,loop=1",)
+
+    def enter(self, size=SIZES[0], role="expert", name="Ada", language="en"):
+        page = self.browser.open("about:blank", size)
+        page.call("Page.addScriptToEvaluateOnNewDocument",
+                  source=f"Object.defineProperty(navigator, 'language', {{ get: () => '{language}' }})")
+        page.call("Page.navigate", url=self.links[role])
+        page.enter(name, way="room")
+        page.wait_for("theatron.state.phase === 'joined' && theatron.state.chat.may_write")
+        return page
+
+    def other(self, name, role="expert"):
+        return Process("join", self.links[role], "--name", name, "--every", "0.1",
+                       env={**os.environ, "XDG_STATE_HOME": str(self.folder / f"home of {name}")})
+
+    def press(self, page, element):
+        page.evaluate(f"document.querySelector('{element}').click()")
+
+    def write(self, page, text):
+        page.evaluate(f"document.getElementById('chat_text').value = {text!r}")
+        page.evaluate("document.getElementById('chat_form').requestSubmit()")
+
+    def test_messages_of_others_are_announced_counted_read_and_answered(self):
+        with self.other("Ben", "operator") as ben:
+            ben.wait_for(lambda f: f["chat"]["may_write"])
+            page = self.enter()
+            ben.say("chat <b>Please</b> look here")
+            page.wait_for("document.getElementById('notice').textContent.includes('Ben: <b>Please</b> look here')")
+            page.wait_for("document.getElementById('unseen').textContent === 'New messages: 1'")
+            self.press(page, "#unseen")
+            page.wait_for(f"{LIST}.join() === '<b>Please</b> look here' && document.getElementById('unseen').hidden")
+            self.write(page, "Yes, I see")
+            ben.wait_for(lambda f: [m["text"] for m in f["chat"]["messages"]] == ["<b>Please</b> look here", "Yes, I see"])
+            page.wait_for(f"{LIST}.length === 2 && document.getElementById('chat_text').value === ''")
+            page.wait_for("document.querySelector('#chat_list .own .detail').textContent.startsWith('You')")
+            self.press(page, "[data-quick=one_moment]")
+            ben.wait_for(lambda f: f["chat"]["messages"][-1]["text"] == "One moment")
+            with self.subTest("letters written there are no commands of the room"):
+                page.evaluate("document.getElementById('chat_text').focus()")
+                page.press("n", "KeyN", 78, "n")
+                page.wait_for("document.getElementById('chat_text').value === 'n'")
+                self.assertEqual(page.evaluate("theatron.state.bricks"), 0)
+            with self.subTest("who is muted sees that nothing can be written"):
+                ben.say("mute Ada")
+                page.wait_for("document.getElementById('chat_text').disabled"
+                              " && document.getElementById('chat_hint').textContent === 'You cannot write at present.'")
+                ben.say("unmute Ada")
+                page.wait_for("!document.getElementById('chat_text').disabled && !document.getElementById('chat_hint').textContent")
+            self.assertEqual(page.problems, [])
+            self.leave(page)
+
+    def test_a_hand_goes_up_for_all_also_of_an_observer(self):
+        hands = lambda f: [p["name"] for p in f["room"]["people"] if p["hand_raised"]]
+        with self.other("Ben", "operator") as ben:
+            ben.wait_for(lambda f: f["chat"]["may_write"])
+            page = self.enter(role="observer")
+            self.press(page, "#raise_hand")
+            ben.wait_for(lambda f: hands(f) == ["Ada"])
+            page.wait_for("document.getElementById('hands').textContent === 'Hand raised: You'")
+            ben.say("hand up")
+            page.wait_for("document.getElementById('hands').textContent === 'Hand raised: You, Ben'")
+            ben.say("lower Ada")
+            page.wait_for("document.getElementById('hands').textContent === 'Hand raised: Ben'"
+                          " && document.getElementById('raise_hand').getAttribute('aria-pressed') === 'false'")
+            ben.say("hand down")
+            page.wait_for("document.getElementById('hands').hidden")
+            self.leave(page)
+
+    def test_it_is_readable_in_each_size_scheme_and_language(self):
+        with self.other("Dr. Benedikta Langenscheidt", "operator") as ben:
+            ben.wait_for(lambda f: f["chat"]["may_write"])
+            for language, size in (("en", SIZES[0]), ("de", SIZES[1]), ("fr", SIZES[0])):
+                page = self.enter(size, language=language)
+                for i in range(4):
+                    ben.say(f"chat Message {i} with some more words than fit into one line of a narrow page")
+                page.wait_for("document.getElementById('unseen').textContent.includes('4')")
+                self.press(page, "#show_chat")
+                self.write(page, "Ja")
+                page.wait_for(f"{LIST}.length === 5")
+                with self.subTest(language=language, size=size):
+                    self.assertLessEqual(page.evaluate("document.documentElement.scrollWidth"), size[0], "wider than the page")
+                    for scheme in ("light", "dark"):
+                        page.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
+                        self.assertEqual(page.evaluate(CONTRAST), [], scheme)
+                        if AXE.exists():
+                            if page.evaluate("globalThis.axe === undefined"):
+                                page.evaluate(AXE.read_text() + ";0")
+                            self.assertEqual(page.evaluate(FINDINGS), [], scheme)
+                        if PICTURES:
+                            page.screenshot(pathlib.Path(PICTURES) / f"chat_{language}_{size[0]}_{scheme}.png")
+                self.leave(page)
+                page.close()
+
+
+if __name__ == "__main__":
+    unittest.main()
