@@ -93,6 +93,7 @@ class WebChat(PageCase):
                 self.press(page, "#show_chat")
                 self.write(page, "Ja")
                 page.wait_for(f"{LIST}.length === 5")
+                page.wait_for("(l => l.scrollTop + l.clientHeight > l.scrollHeight - 3)(document.getElementById('chat_list'))")
                 with self.subTest(language=language, size=size):
                     self.assertLessEqual(page.evaluate("document.documentElement.scrollWidth"), size[0], "wider than the page")
                     for scheme in ("light", "dark"):

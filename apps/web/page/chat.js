@@ -18,6 +18,7 @@ export function unseen_of(messages, seen) {
 export class Chat {
     version = "";   // of the messages that are shown, and the visit
     visit = 0;
+    was_open = false;
     messages = [];
     seen = 0;       // messages that the person has seen; those that come are behind them
 
@@ -66,8 +67,13 @@ export class Chat {
             const { messages, unsent } = JSON.parse(this.client.chat());
             this.fill(messages, unsent);
         }
-        if (this.sheet.name === "chat")
+        const is_open = this.sheet.name === "chat";
+        if (is_open) {
             this.seen = this.messages.length;
+            if (!this.was_open)
+                $("chat_list").scrollTop = $("chat_list").scrollHeight;
+        }
+        this.was_open = is_open;
         const unseen = unseen_of(this.messages, this.seen);
         $("show_chat").hidden = $("raise_hand").hidden = !has_chat;
         set_text($("show_chat"), unseen ? text("labelled", { label: text("chat"), value: String(unseen) }) : text("chat"));
