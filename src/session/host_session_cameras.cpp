@@ -9,7 +9,6 @@
 
 namespace theatron::session {
 using wire::ManageRefusal;
-using Kind = RequestBudget::Kind;
 
 HostSession::CheckedCodec HostSession::checked(const CheckCodec& check, const std::string& codec) {
     return codec == wire::no_codec ? CheckedCodec{codec, ""} : check(codec);
@@ -42,11 +41,11 @@ void HostSession::carry_out(ParticipantId id, const wire::ChooseDelivery& goal, 
 
 void HostSession::carry_out_late(ParticipantId id, Participant& participant, TimePoint now) {
     RequestBudget& budget = participant.budget;
-    if (!participant.late_codecs.empty() && budget.grant_later(Kind::codecs, now))
+    if (!participant.late_codecs.empty() && budget.grant_later(RequestBudget::Kind::codecs, now))
         for (const auto& [camera, wish] : std::exchange(participant.late_codecs, {}))
             if (!wish.depth_codec.empty() || !wish.color_codec.empty())
                 carry_out(id, wish, now);
-    if (participant.late_goal && budget.grant_later(Kind::delivery, now))
+    if (participant.late_goal && budget.grant_later(RequestBudget::Kind::delivery, now))
         carry_out(id, *std::exchange(participant.late_goal, std::nullopt), now);
 }
 
