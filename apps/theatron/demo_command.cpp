@@ -59,6 +59,7 @@ client::Participant::Options viewer_options(const net::Link& link) {
     join.keeps_room = true;
     join.takes_faces = true;
     join.takes_own_faces = true;
+    join.shows_chat = true;
     return join;
 }
 

@@ -158,6 +158,9 @@ bool obey_people_line(client::Participant& participant, const std::string& line)
             if (const auto facts = session::decode_person(object.properties))
                 people.push_back({object.creator, facts->name, false, {}, facts->records});
     return obey(line, people, [&](const PersonDecision& decision) {
+        // It would take the decision for a damaged message.
+        if (decision.action == ManageAction::lower_hand && !participant.has_chat())
+            throw Error("This host knows no raised hands.");
         if (participant.manage(decision.action, decision.person, decision.role) == 0)
             throw Error("You have not joined yet.");
     });

@@ -124,6 +124,10 @@ private:
             remarks_.add(text);
             window_.wake();
         };
+        options.join.written = [this](const std::string& text) {
+            remarks_.add(text);
+            window_.wake();
+        };
         options.viewer.depth_codec = options.join.depth_codec;
         options.viewer.color_codec = options.join.color_codec;
         options.viewer.one_panel = true;

@@ -220,7 +220,8 @@ json state_of(const viewer::Facts& facts, const client::Participant& participant
             {"chat",
              {{"has_chat", participant.has_chat()},
               {"may_write", participant.may_write()},
-              {"version", participant.chat_version()},
+              // The ages of messages are known once the clock is.
+              {"version", 2 * participant.chat_version() + status.clock_known},
               {"hand_raised", participant.hand_raised()}}},
             {"hands", hands_json(participant)},
             {"bricks", bricks},

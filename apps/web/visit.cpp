@@ -66,6 +66,11 @@ client::Participant::Options with_faces(client::Participant::Options join,
     return join;
 }
 
+std::uint64_t random_run() {
+    std::random_device random;
+    return (std::uint64_t(random()) << 32 | random()) | 1;
+}
+
 // For the next picture, a little before it may begin.
 void want_frames(Visit& visit, TimePoint now) {
     constexpr Duration longest_way = 20ms;
@@ -126,6 +131,15 @@ client::Participant::Options join_options(const net::Link& link, const char* nam
     options.person = bytes_of_hex(person).value_or(Bytes());
     options.voice = [](ParticipantId speaker, ByteView packet) {
         theatron_give_voice(unsigned(speaker), packet.data(), int(packet.size()));
+    };
+    if (page().run == 0)
+        page().run = random_run();
+    options.run = page().run;
+    options.written = [](const std::string& text) {
+        if (page().visit)
+            page().visit->viewer.note(text, steady_now());
+        if (page().flat)
+            page().flat->view.note(text, steady_now());
     };
     options.remark = [](const std::string& text) {
         std::puts(text.c_str());

@@ -59,6 +59,7 @@ struct Page {
     std::unique_ptr<FlatVisit> flat;   // or this, or none
     window::InputQueue input;          // since the last picture
     client::PictureSender screen;      // that the person shows; outlives a visit
+    std::uint64_t run = 0;             // as in wire::Join: both ways of seeing are one stay
     std::string problem;               // why the visit ended; a sentence
     std::string text;                  // that the last function returned
     Bytes bytes;                       // that the script writes for the next function

@@ -47,6 +47,12 @@ bool is_comma(char32_t c) {
            is_within(c, 0xfe50, 0xfe51) || c == 0xff0c || c == 0xff1b || c == 0xff64;
 }
 
+// Messages stand behind the names of their authors and a colon.
+bool is_colon(char32_t c) {
+    return c == ':' || c == 0x2d0 || c == 0x589 || c == 0x5c3 || c == 0x703 || c == 0x2236 ||
+           c == 0xa789 || c == 0xfe13 || c == 0xfe55 || c == 0xff1a;
+}
+
 // Lines of operators name people by number, as in "#58".
 bool is_number_sign(char32_t c) {
     return c == '#' || c == 0xfe5f || c == 0xff03;
@@ -169,7 +175,7 @@ std::string person_name(std::string_view text, const std::vector<std::string>& f
     std::string_view rest = clean, bytes;
     while (!rest.empty()) {
         const char32_t letter = take_letter(rest, bytes);
-        const bool is_separator = is_comma(letter) || is_number_sign(letter);
+        const bool is_separator = is_comma(letter) || is_colon(letter) || is_number_sign(letter);
         if (!is_separator)
             name += bytes;
         else if (!name.ends_with(' ') && !rest.starts_with(' '))

@@ -14,8 +14,9 @@ namespace theatron {
 std::string clean_name(std::string_view text, std::size_t max_characters);
 
 // As clean_name(), for names of people, behind which lists put facts in brackets, and commas
-// between them, and whom lines of operators name by number ("#58"). A name imitates none of these:
-// it has spaces in place of commas and number signs, and no brackets with one of `facts` among
+// between them, whom lines of operators name by number ("#58"), and behind whose names and a colon
+// their messages stand. A name imitates none of these: it has spaces in place of commas, colons and
+// number signs, and no brackets with one of `facts` among
 // their words, in any letters that look_of() takes for the same.
 std::string person_name(std::string_view text, const std::vector<std::string>& facts,
                         std::size_t max_characters);

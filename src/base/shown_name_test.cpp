@@ -44,6 +44,8 @@ TEST(PersonName, HasNoBracketsWithAFactInThem) {
 
 TEST(PersonName, HasNoCommasAndIsOnePersonInAList) {
     EXPECT_EQ(person_name("Bee, Ada", roles, enough), "Bee Ada");
+    EXPECT_EQ(person_name("Ada: cut there. Ben", roles, enough), "Ada cut there. Ben");
+    EXPECT_EQ(person_name("Ada\uff1a yes", roles, enough), "Ada yes");
     EXPECT_EQ(person_name("Bee,Ada;,\uff0cMD,", roles, enough), "Bee Ada MD");
     EXPECT_EQ(person_name(",", roles, enough), "");
     EXPECT_EQ(person_name("#58", roles, enough), "58");

@@ -59,7 +59,8 @@ Participant::Participant(Options options)
     : options_(std::move(options)),
       session_({options_.link.token, options_.name, options_.depth_codec, options_.color_codec,
                 options_.delivery, options_.records, features_of(options_),
-                person_for_host(options_.person, options_.link), random_run()}),
+                person_for_host(options_.person, options_.link),
+                options_.run ? options_.run : random_run()}),
       shared_(std::make_unique<Shared>()),
       direct_reception_(options_.direct ? std::make_unique<DirectReception>(direct_events())
                                         : nullptr),
@@ -163,6 +164,12 @@ bool Participant::begin_connection(net::Client& client) {
         shared_->study.reset();
         shared_->study_replies.clear();
         shared_->chat.on_connected();
+        // A hand that was up is raised again.
+        for (const auto& [person, name] : shared_->hands.raised())
+            if (person == shared_->room.self())
+                shared_->hand_wish = true;
+        shared_->hand_told.reset();
+        shared_->muted_since.reset();
         shared_->has_standing = false;
         shared_->status.standing = {};
         shared_->camera_wishes.clear();  // numbers of cameras may be others
@@ -203,7 +210,10 @@ std::optional<Duration> Participant::end_connection(const net::Client::End& end)
         shared_->newest.clear();
         ++shared_->generation;
     }
+    shared_->has_chat = shared_->has_chat && again;
     lock.unlock();
+    if (!again)
+        give_up_chat();
     end_direct();
     for (const Offer offer : all_offers)
         forget_numbers(offer);

@@ -62,12 +62,16 @@ public:
         std::string color_codec = "jpeg:quality=85";
         wire::ChooseDelivery delivery{150, 0};
         bool is_page = false;     // as in Attempts
+        std::uint64_t run = 0;    // as in wire::Join; 0: a number of this participant's own
         bool records = false;     // as in wire::Join
         bool sends_only = false;  // as in wire::Join: gets no cameras of others
         Bytes person;             // the secret of client/person_id.h
         // Messages for the user: reconnecting, refused, a camera ended. Called
         // from the participant's thread with one line of clean text.
         std::function<void(const std::string&)> remark;
+        // Messages of others as one line with their author, and own ones that are not sent: to be
+        // shown to the person and kept nowhere, so not for a log. From the participant's thread.
+        std::function<void(const std::string&)> written;
         // If set, media is not decoded but passed to this function. Called from
         // the participant's thread; the message is valid during the call.
         std::function<void(const wire::MediaHeader&, ByteView message)> media;
@@ -260,8 +264,8 @@ public:
     // The host has a chat and raised hands; and this person may write there.
     bool has_chat() const;
     bool may_write() const;
-    // False: it is empty, the person may not write, or too many messages wait for the host. Where
-    // the connection is lost, the message is sent once there is another one.
+    // False: nothing of it is visible, the person may not write, or too many messages wait for the
+    // host. Where the connection is lost, the message is sent once there is another one.
     bool write_chat(const std::string& text);
     // Raises this person's hand, or takes it down. False: not joined, or the host is of an earlier
     // version. The room says whether the hand is up.
@@ -373,6 +377,8 @@ private:
     void on_chat();
     void tell_chat();
     void give_up_chat();
+    void tell_written(const std::string& text) const;
+    void tell_hand(TimePoint now);
     void follow_hands();
     void on_room_message();
     void tell_content();

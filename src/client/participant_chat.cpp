@@ -12,6 +12,11 @@
 namespace theatron::client {
 namespace {
 
+// The host sends what this program has missed, perhaps its own messages, some moments after the
+// person's standing; and a hand that is not up after this time is raised again.
+constexpr Duration mute_patience = std::chrono::seconds(2);
+constexpr Duration hand_patience = std::chrono::seconds(3);
+
 std::uint64_t random_id() {
     std::random_device random;
     return std::uint64_t(random()) << 32 | random();
@@ -30,20 +35,62 @@ void Participant::on_chat() {
     }
     announce();
     for (const std::string& text : remarks)
-        remark(text);
+        tell_written(text);
     tell_chat();
 }
 
+void Participant::tell_written(const std::string& text) const {
+    if (options_.written)
+        options_.written(text);
+}
+
 void Participant::tell_chat() {
+    if (!session_.joined())
+        return;
+    const TimePoint now = steady_now();
     std::optional<wire::WriteChat> due;
+    bool is_given_up = false;
     {
         const std::lock_guard lock(shared_->mutex);
-        shared_->has_chat = session_.joined() && session_.has(wire::Feature::chat);
-        if (shared_->has_chat)
-            due = shared_->chat.due(steady_now());
+        shared_->has_chat = session_.has(wire::Feature::chat);
+        if (!shared_->status.standing.muted)
+            shared_->muted_since.reset();
+        else if (!shared_->muted_since)
+            shared_->muted_since = now;
+        is_given_up = shared_->muted_since && now - *shared_->muted_since >= mute_patience;
+        if (shared_->has_chat && !shared_->muted_since)
+            due = shared_->chat.due(now);
     }
     if (due)
         shared_->client->send_control(wire::encode(*due));
+    if (is_given_up)
+        give_up_chat();
+    tell_hand(now);
+}
+
+// Again until the room shows it: a host takes few such wishes a second.
+void Participant::tell_hand(TimePoint now) {
+    std::optional<bool> told;
+    {
+        const std::lock_guard lock(shared_->mutex);
+        std::optional<bool>& wish = shared_->hand_wish;
+        if (!wish || !shared_->has_chat || !shared_->room.known())
+            return;
+        bool is_up = false;
+        for (const auto& [person, name] : shared_->hands.raised())
+            is_up = is_up || person == shared_->room.self();
+        // The room may still show what was before this wish, so each is told once.
+        std::optional<TimePoint>& told_at = shared_->hand_told;
+        if (told_at && now - *told_at < hand_patience)
+            return;
+        if (told_at && is_up == *wish) {
+            wish.reset();
+            return;
+        }
+        shared_->hand_told = now;
+        told = wish;
+    }
+    shared_->client->send_control(wire::encode(wire::RaiseHand{*told}));
 }
 
 void Participant::give_up_chat() {
@@ -53,7 +100,7 @@ void Participant::give_up_chat() {
         texts = shared_->chat.give_up();
     }
     for (const std::string& text : texts)
-        remark(say(Phrase::message_not_sent, text));
+        tell_written(say(Phrase::message_not_sent, text));
 }
 
 void Participant::follow_hands() {
@@ -111,8 +158,9 @@ bool Participant::raise_hand(bool raised) {
     const std::lock_guard lock(shared_->mutex);
     if (!shared_->client || !shared_->has_chat || shared_->status.phase != Phase::joined)
         return false;
-    shared_->client->post(
-        [this, raised] { shared_->client->send_control(wire::encode(wire::RaiseHand{raised})); });
+    shared_->hand_wish = raised;
+    shared_->hand_told.reset();
+    shared_->client->post([this] { tell_hand(steady_now()); });
     return true;
 }
 

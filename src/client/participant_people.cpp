@@ -45,8 +45,6 @@ void Participant::on_standing() {
         remark(say(Phrase::role_is_now, wire::spoken_with_article(now.role)));
     if (now.muted != before.muted && (now.muted || !is_first))
         remark(say(now.muted ? Phrase::you_are_muted : Phrase::no_longer_muted));
-    if (now.muted)
-        give_up_chat();
 }
 
 // The host withdraws face and screen of a person whose new role does not show them.

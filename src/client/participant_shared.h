@@ -66,8 +66,11 @@ struct Participant::Shared {
     bool voice_may_record = false;
     bool asks_voice_consent = false;  // the host does, on this connection
     session::MemberChat chat;
-    bool has_chat = false;       // the host has one, on this connection
-    session::RaisedHands hands;  // of the room's people
+    bool has_chat = false;                 // the host has one, on the newest connection
+    std::optional<TimePoint> muted_since;  // on this connection
+    std::optional<bool> hand_wish;         // that the room does not show yet
+    std::optional<TimePoint> hand_told;    // when the host was told of it
+    session::RaisedHands hands;            // of the room's people
     session::MemberRoom room;
     bool is_telling_room = false;    // tell_room() has been posted
     bool is_asking_content = false;  // request_content() has been posted

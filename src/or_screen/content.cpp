@@ -90,11 +90,17 @@ ScreenMessage message_of(const Participant::Status& status) {
     return {};
 }
 
-std::string written_text(const client::Participant::Chat& chat, TimePoint now) {
-    if (chat.messages.empty() || now - chat.messages.back().at > written_for)
-        return "";
-    const wire::ChatMessage& newest = chat.messages.back();
-    return say(Phrase::person_writes, newest.name, newest.text);
+std::vector<std::string> written_texts(const client::Participant::Chat& chat, TimePoint now) {
+    // A host that has started anew may count its time anew: what is written in its future is old.
+    const auto is_shown = [&](const wire::ChatMessage& message) {
+        return now - message.at <= written_for && message.at - now <= written_for;
+    };
+    std::vector<std::string> texts;
+    const std::size_t newest = chat.messages.size() - std::min(chat.messages.size(), most_written);
+    for (std::size_t i = newest; i < chat.messages.size(); ++i)
+        if (const wire::ChatMessage& message = chat.messages[i]; is_shown(message))
+            texts.push_back(say(Phrase::person_writes, message.name, message.text));
+    return texts;
 }
 
 void describe_picture(const client::CameraFigures& camera, double age_ms, Content& content) {

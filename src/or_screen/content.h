@@ -80,9 +80,9 @@ struct Content {
     bool age_warns = false;
     std::string warning;  // over the picture: it is not what happens now
     std::string
-        playback;         // over the picture: "RECORDING 0:12 / 1:02"; empty: it is of no recording
-    std::string written;  // the newest message for some time, "Anna: Please move the camera"
-    std::string recorded;  // "recorded by Anna, 12 s"; empty: by nobody
+        playback;  // over the picture: "RECORDING 0:12 / 1:02"; empty: it is of no recording
+    std::vector<std::string> written;  // "Anna: Please move the camera", the newest last
+    std::string recorded;              // "recorded by Anna, 12 s"; empty: by nobody
     std::vector<PersonCard> people;
     std::size_t people_left_out = 0;
     bool is_alone = false;
@@ -100,9 +100,10 @@ struct ScreenMessage {
 };
 ScreenMessage message_of(const client::Participant::Status& status);
 
-// The newest message while it is not older than `written_for`; else empty.
+// The newest messages, at most this number, that are not older than `written_for`.
 inline constexpr Duration written_for = std::chrono::seconds(30);
-std::string written_text(const client::Participant::Chat& chat, TimePoint now);
+inline constexpr std::size_t most_written = 3;
+std::vector<std::string> written_texts(const client::Participant::Chat& chat, TimePoint now);
 
 // Sets `camera`, `age`, `age_warns` and `warning` for the shown picture, which is so old. The age
 // of a picture of a recording (`playback` is set) is not told: it is the time since it was played.

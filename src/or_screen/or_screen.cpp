@@ -221,7 +221,7 @@ void OrScreen::describe(client::Participant& participant, const std::set<Partici
     for (const client::Participant::Recording& one : participant.recordings())
         recorded.recordings.push_back({one.name, participant.now() - one.since});
     content_.recorded = client::recorded_text(recorded);
-    content_.written = written_text(participant.chat(), participant.now());
+    content_.written = written_texts(participant.chat(), participant.now());
     describe_people(participant, speaking);
     describe_marks();
     for (HeadMark& head : content_.heads)

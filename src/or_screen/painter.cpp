@@ -206,7 +206,7 @@ void Painter::camera(const Content& content, const Rect& rect,
         list_.AddRectFilled(from(rect), to(rect), colors::card, rounding);
         if (content.message.empty())
             centred(fonts_.name, rect, colors::label, say(Phrase::screen_no_camera));
-        return;
+        return written(content.written, rect);
     }
     // An old picture must not be taken for the present.
     const bool is_old = !content.warning.empty();
@@ -230,23 +230,27 @@ void Painter::camera(const Content& content, const Rect& rect,
                             ImDrawFlags_RoundCornersTop);
         centred(fonts_.name, bar, IM_COL32(20, 14, 4, 255), words);
     }
-    if (!content.written.empty())
-        written(content.written, rect);
+    written(content.written, rect);
     list_.PopClipRect();
 }
 
-// In two lines at most, at the picture's lower edge.
-void Painter::written(const std::string& words, const Rect& rect) {
+// At the lower edge: a message alone has two lines, of several each has one.
+void Painter::written(const std::vector<std::string>& messages, const Rect& rect) {
+    if (messages.empty())
+        return;
     const float padding = 0.6f * letter_, wrap = float(rect.width) - 2 * padding;
     // Words that are broken leave some of both lines free.
-    const std::string shown = shortened(fonts_.small, words, 1.7f * wrap);
+    const float most = messages.size() == 1 ? 1.7f * wrap : wrap;
+    std::string words;
+    for (const std::string& message : messages)
+        words += (words.empty() ? "" : "\n") + shortened(fonts_.small, message, most);
     const float height =
-        fonts_.small->CalcTextSizeA(fonts_.small->FontSize, 1e9f, wrap, shown.c_str()).y;
+        fonts_.small->CalcTextSizeA(fonts_.small->FontSize, 1e9f, wrap, words.c_str()).y;
     const ImVec2 corner{float(rect.x), to(rect).y - height - 2 * padding};
     list_.AddRectFilled(corner, to(rect), colors::dense_veil, 0.25f * letter_,
                         ImDrawFlags_RoundCornersBottom);
     list_.AddText(fonts_.small, fonts_.small->FontSize, {corner.x + padding, corner.y + padding},
-                  colors::text, shown.c_str(), nullptr, wrap);
+                  colors::text, words.c_str(), nullptr, wrap);
 }
 
 // The camera at the left, recordings in the middle, the age at the right.

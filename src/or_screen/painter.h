@@ -26,7 +26,7 @@ public:
     void ground(Size screen);
     // The picture with pointers, marks and its warning; `picture` may be null.
     void camera(const Content& content, const Rect& rect, const render::PictureTexture* picture);
-    void written(const std::string& words, const Rect& rect);
+    void written(const std::vector<std::string>& messages, const Rect& rect);
     void caption(const Content& content, const Rect& rect);
     void room(const Content& content, const Rect& rect, const render::Texture* picture);
     void monitor(const Content& content, const Rect& rect, const render::PictureTexture* slice);

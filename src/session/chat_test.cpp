@@ -77,7 +77,7 @@ TEST_F(Chat, ARepeatedMessageIsTakenOnce) {
     const auto actions = host->take_actions();
     EXPECT_EQ(texts(alice, actions), Texts{"Hello"}) << "it has waited for that";
     EXPECT_EQ(texts(bob, actions), Texts{});
-    say(alice, wire::WriteChat{8, " \t "});
+    say(alice, wire::WriteChat{8, " \t\u200b "});
     EXPECT_EQ(texts(bob, host->take_actions()), Texts{});
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/shown_name.h"
 #include "base/trimmed.h"
 
 namespace theatron::session {
@@ -42,7 +43,7 @@ void HostChat::write(ParticipantId author, const wire::WriteChat& written, TimeP
     if (same != kept_.end())
         return send(author, {same->message});
     std::string text(trimmed(written.text));
-    if (text.empty())
+    if (clean_name(text, text.size()).empty())
         return;
     if (kept_.size() >= max_kept)
         kept_.pop_front();

@@ -27,7 +27,7 @@ public:
     // The participant has come, or may have missed messages: it is sent those that are kept from
     // the time since its run came first.
     void join(ParticipantId participant);
-    // The participant, who may write, has written. An empty text is ignored; a
+    // The participant, who may write, has written. A text without a visible character is ignored; a
     // repeated one goes to its author alone.
     void write(ParticipantId author, const wire::WriteChat& written, TimePoint now);
     // Another session begins.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/outside_text.h"
+#include "base/shown_name.h"
 #include "base/trimmed.h"
 
 namespace theatron::session {
@@ -38,7 +39,7 @@ std::vector<wire::ChatMessage> MemberChat::take(const wire::ChatMessages& messag
 
 bool MemberChat::write(const std::string& text, std::uint64_t id) {
     std::string clean(trimmed(clean_text(text, wire::max_chat_text)));
-    if (clean.empty() || unsent_.size() >= max_unsent)
+    if (clean_name(clean, clean.size()).empty() || unsent_.size() >= max_unsent)
         return false;
     unsent_.push_back({id, std::move(clean)});
     own_.insert(id);
@@ -55,10 +56,9 @@ std::optional<wire::WriteChat> MemberChat::due(TimePoint now) {
 
 std::vector<std::string> MemberChat::give_up() {
     std::vector<std::string> texts;
-    for (wire::WriteChat& written : std::exchange(unsent_, {})) {
-        own_.erase(written.id);
+    // They stay one's own: the host may have one of them all the same.
+    for (wire::WriteChat& written : std::exchange(unsent_, {}))
         texts.push_back(std::move(written.text));
-    }
     sent_.reset();
     version_ += !texts.empty();
     return texts;

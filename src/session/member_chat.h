@@ -27,7 +27,7 @@ public:
     // Returns those that are new. They come in the order in which the host had them.
     std::vector<wire::ChatMessage> take(const wire::ChatMessages& message);
 
-    // `id` is random. False: it is empty, or too many messages wait.
+    // `id` is random. False: nothing of it is visible, or too many messages wait.
     bool write(const std::string& text, std::uint64_t id);
     // The message that is to be sent now; one after the other, in their order.
     std::optional<wire::WriteChat> due(TimePoint now);
@@ -44,7 +44,7 @@ public:
 private:
     std::deque<wire::ChatMessage> messages_;
     std::deque<wire::WriteChat> unsent_;
-    std::set<std::uint64_t> own_;    // of both
+    std::set<std::uint64_t> own_;    // of both, and those that were given up
     std::optional<TimePoint> sent_;  // the first of them
     std::uint64_t version_ = 0;
 };

@@ -59,7 +59,9 @@ TEST(MemberChat, KeepsTheNewestMessagesAndFewThatAreNotSent) {
     for (std::uint64_t i = 0; i < MemberChat::max_unsent; ++i)
         EXPECT_TRUE(chat.write("text", 1000 + i));
     EXPECT_FALSE(chat.write("one more", 2000));
-    EXPECT_FALSE(MemberChat().write("  \r\n ", 1)) << "nothing to read";
+    for (const char* nothing : {"", "  \r\n ", "\u200b\u200b", "\u3164", "\u00a0"})
+        EXPECT_FALSE(MemberChat().write(nothing, 1)) << "nothing to read";
+    EXPECT_TRUE(MemberChat().write("\U0001f469\u200d\U0001f3ed", 1));
     EXPECT_EQ(chat.give_up().size(), MemberChat::max_unsent);
     EXPECT_FALSE(chat.due(TimePoint(1s)));
 }

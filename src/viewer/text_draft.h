@@ -19,7 +19,7 @@ public:
     Result take(const window::FormKeyPress& press);
     // Clean text (base/outside_text.h).
     const std::string& text() const { return text_; }
-    void clear() { text_.clear(); }
+    void set(const std::string& text) { text_ = text; }
 
 private:
     const std::size_t most_characters_;

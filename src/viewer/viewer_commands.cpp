@@ -35,8 +35,11 @@ void Viewer::on(const SendText& message, TimePoint now) {
 }
 
 void Viewer::type(const window::FormKeyPress& press, TimePoint now) {
-    if (const std::string text = chat_.type(press); !text.empty())
-        on(SendText{text}, now);
+    const std::string text = chat_.type(press);
+    if (text.empty() || participant_.write_chat(text))
+        return;
+    chat_.put_back(text);
+    note(say(Phrase::message_not_sent, text), now);
 }
 
 void Viewer::on(const RaiseHand& hand, TimePoint now) {

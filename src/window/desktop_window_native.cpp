@@ -411,7 +411,9 @@ void DesktopWindow::Parts::take(const SDL_Event& event) {
                 inputs.type({FormKey::letters, false, false, event.text.text});
             break;
         case SDL_KEYDOWN:
-            if (takes_text) {
+            if (takes_text && event.key.keysym.sym == SDLK_F3) {
+                inputs.press({Action::chat});
+            } else if (takes_text) {
                 if (const auto key = form_key(event.key.keysym))
                     inputs.type({*key,
                                  (event.key.keysym.mod & KMOD_CTRL) != 0,

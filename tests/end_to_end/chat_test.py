@@ -31,7 +31,7 @@ class Chat(unittest.TestCase):
             read = ben.wait_for(lambda f: f["chat"]["messages"])["chat"]["messages"]
             self.assertEqual([(m["name"], m["text"]) for m in read], [("Ada", SECRET)])
             shown = screen.wait_for(lambda f: f["or_screen"]["written"])["or_screen"]
-            self.assertEqual(shown["written"], f"Ada: {SECRET}")
+            self.assertEqual(shown["written"], [f"Ada: {SECRET}"])
             with self.subTest("an observer raises a hand, and the operator takes it down"):
                 ben.say("hand up")
                 hands = lambda f: [p["name"] for p in f["room"]["people"] if p["hand_raised"]]
@@ -44,6 +44,9 @@ class Chat(unittest.TestCase):
                 ben.wait_for(lambda f: f["muted"])
                 ben.say("chat hello")
                 ben.wait_for_error("You are muted; the message is not sent.")
+            # A service keeps what its programs print.
+            for program in (h, ben, screen, recorder):
+                self.assertEqual([line for line in program.errors if "xyzzy" in line], [])
             recorder.send(signal.SIGTERM)
             self.assertEqual(recorder.end(), 0)
         for file in self.folder.rglob("*"):

@@ -10,6 +10,7 @@ from web_access_test import AXE, CONTRAST, FINDINGS
 
 PICTURES = os.environ.get("THEATRON_PICTURES")  # a folder where pictures of the page stay
 SIZES = ((1280, 720), (390, 844))
+IMPORT = "import(performance.getEntriesByType('resource').find(({ name }) => name.includes('/chat.')).name)"
 LIST = "[...document.querySelectorAll('#chat_list li p')].map(p => p.textContent)"
 
 
@@ -64,6 +65,16 @@ class WebChat(PageCase):
                 page.wait_for("!document.getElementById('chat_text').disabled && !document.getElementById('chat_hint').textContent")
             self.assertEqual(page.problems, [])
             self.leave(page)
+
+    def test_messages_are_counted_and_names_are_few(self):
+        page = self.browser.open(self.links["expert"], SIZES[0])
+        page.wait_for("document.readyState === 'complete' && !document.getElementById('enter')?.disabled")
+        unseen = f"{IMPORT}.then(m => m.unseen_of(%s.map(([id, is_own]) => ({{ id, is_own: !!is_own }})), '%s'))"
+        for messages, seen, count in (([], "", 0), ([["a", 0], ["b", 1], ["c", 0]], "", 2), ([["a", 0], ["b", 1], ["c", 0]], "b", 1),
+                                      ([["a", 0], ["b", 1]], "b", 0), ([["y", 0], ["z", 0]], "gone", 2)):
+            self.assertEqual(page.evaluate(unseen % (messages, seen)), count, (messages, seen))
+        for names, told in ((["A"], "A"), (list("ABC"), "A, B, C"), (list("ABCDE"), "A, B, C, and 2 more")):
+            self.assertEqual(page.evaluate(f"{IMPORT}.then(m => m.names_text({names}))"), told)
 
     def test_a_hand_goes_up_for_all_also_of_an_observer(self):
         hands = lambda f: [p["name"] for p in f["room"]["people"] if p["hand_raised"]]

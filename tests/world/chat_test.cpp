@@ -90,13 +90,49 @@ TEST(WorldChat, AMutedPersonIsToldThatAMessageIsNotSent) {
     EXPECT_EQ(texts(chief).size(), 1u);
 }
 
+TEST(WorldChat, ANumberOfTheirOwnTellsAProgramThatComesAgainWhatItMissed) {
+    World world;
+    Person& anna = world.joined("Anna");
+    Person& ben = world.person("Ben");
+    ben.options.run = 77;
+    ben.join();
+    ASSERT_TRUE(world.until([&] { return ben.is_in() && anna->may_write(); }));
+    EXPECT_TRUE(anna->write_chat("first"));
+    EXPECT_TRUE(world.until([&] { return texts(ben).size() == 1; }));
+    ben.join();  // another participant of the same program, as a page that changes its view
+    EXPECT_TRUE(world.until([&] { return ben.is_in() && texts(ben).size() == 1; }));
+}
+
+TEST(WorldChat, AMessageThatWaitsForAnEndedSessionIsTold) {
+    World world;
+    Person& anna = world.joined("Anna");
+    ASSERT_TRUE(world.until([&] { return anna->may_write(); }));
+    anna.path().cut();
+    EXPECT_TRUE(anna->write_chat("never"));
+    EXPECT_NE(world.host().link(Role::expert), "");
+    world.end_host();
+    anna.path().mend();
+    EXPECT_TRUE(world.until([&] {
+        return anna->status().phase == client::Participant::Phase::ended ||
+               anna.was_told("Not sent: never");
+    }));
+    EXPECT_TRUE(anna.was_told("Not sent: never"));
+    EXPECT_FALSE(anna->may_write());
+}
+
 TEST(WorldChat, AHandIsSeenByAllAndAnOperatorTakesItDown) {
     World world;
     Person& chief = world.joined("Chief", Role::operator_);
     Person& otto = world.joined("Otto", Role::observer);
     ASSERT_TRUE(world.until([&] { return otto->may_write(); }));
-    EXPECT_TRUE(otto->raise_hand(true));
+    for (int i = 0; i < 60; ++i)  // more than a host takes at once
+        EXPECT_TRUE(otto->raise_hand(i % 2 != 0));
     EXPECT_TRUE(world.until([&] { return chief->raised_hands().size() == 1; }));
+    world.advance(10s);
+    EXPECT_EQ(chief->raised_hands().size(), 1u);
+    otto.path().reset();
+    EXPECT_TRUE(world.until([&] { return otto.is_in() && otto->status().joins == 2; }));
+    EXPECT_TRUE(world.until([&] { return chief->raised_hands().size() == 1; })) << "it is up again";
     EXPECT_EQ(chief->raised_hands()[0].name, "Otto");
     EXPECT_TRUE(chief.was_told("Otto has raised a hand"));
     EXPECT_TRUE(world.until([&] { return otto->hand_raised(); }));

@@ -26,7 +26,7 @@ void Person::join(const std::string& link) {
     own.link = net::parse_link(link);
     own.link.host = name_;  // the World's network knows the machine by it
     own.name = name_;
-    own.remark = [this](const std::string& text) { said_.push_back(text); };
+    own.remark = own.written = [this](const std::string& text) { said_.push_back(text); };
     participant_ = std::make_unique<client::Participant>(std::move(own));
 }
 

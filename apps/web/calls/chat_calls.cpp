@@ -11,13 +11,15 @@ using theatron::web::page;
 
 extern "C" {
 
-// {"messages":[{"name":,"text":,"is_own":,"age_s":}],"unsent":[]}
+// {"messages":[{"id":,"name":,"text":,"is_own":,"age_s":}],"unsent":[]}
 EMSCRIPTEN_KEEPALIVE const char* theatron_chat() {
     nlohmann::json messages = nlohmann::json::array(), unsent = nlohmann::json::array();
     if (const client::Participant* participant = page().participant()) {
         const client::Participant::Chat chat = participant->chat();
         for (const wire::ChatMessage& message : chat.messages)
-            messages.push_back({{"name", message.name},
+            // JavaScript's numbers have fewer digits.
+            messages.push_back({{"id", std::to_string(message.id)},
+                                {"name", message.name},
                                 {"text", message.text},
                                 {"is_own", chat.own.contains(message.id)},
                                 {"age_s", to_seconds(participant->now() - message.at)}});

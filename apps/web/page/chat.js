@@ -10,9 +10,16 @@ function set_text(place, content) {
         place.textContent = content;
 }
 
-// The messages behind the newest one that the person has seen, without their own.
+// The messages of others behind the newest one that the person has seen, by its id; all, if it is not there.
 export function unseen_of(messages, seen) {
-    return messages.slice(seen).filter(({ is_own }) => !is_own).length;
+    return messages.slice(messages.findIndex(({ id }) => id === seen) + 1).filter(({ is_own }) => !is_own).length;
+}
+
+// Many names would cover the picture.
+const most_names = 3;
+export function names_text(names) {
+    const more = names.length - most_names;
+    return names.slice(0, more > 0 ? most_names : names.length).join(", ") + (more > 0 ? `, ${text("and_more", { count: more })}` : "");
 }
 
 export class Chat {
@@ -20,7 +27,7 @@ export class Chat {
     visit = 0;
     was_open = false;
     messages = [];
-    seen = 0;       // messages that the person has seen; those that come are behind them
+    seen = "";      // id of the newest message that the person has seen
 
     constructor(client, sheet) {
         Object.assign(this, { client, sheet });
@@ -60,7 +67,7 @@ export class Chat {
         this.is_raised = hand_raised;
         if (visit !== this.visit) {
             this.visit = visit;
-            this.seen = 0;
+            this.seen = "";
         }
         if (this.version !== `${visit} ${version}`) {
             this.version = `${visit} ${version}`;
@@ -69,7 +76,7 @@ export class Chat {
         }
         const is_open = this.sheet.name === "chat";
         if (is_open) {
-            this.seen = this.messages.length;
+            this.seen = this.messages.at(-1)?.id ?? this.seen;
             if (!this.was_open)
                 $("chat_list").scrollTop = $("chat_list").scrollHeight;
         }
@@ -82,7 +89,7 @@ export class Chat {
         set_text($("unseen"), unseen ? text("unseen", { count: unseen }) : "");
         $("unseen").hidden = !unseen;
         const names = [...(hand_raised ? [text("you")] : []), ...hands];
-        set_text($("hands"), names.length ? text("hands", { names: names.join(", ") }) : "");
+        set_text($("hands"), names.length ? text("hands", { names: names_text(names) }) : "");
         $("hands").hidden = !names.length;
         for (const part of [$("chat_text"), $("send"), ...document.querySelectorAll("[data-quick]")])
             part.disabled = !may_write;

@@ -193,9 +193,9 @@ function run({ client, voice, face, screen, module, flat }) {
     $("panels").addEventListener("click", event => event.detail > 0 && event.target.closest("button") && !event.target.closest("dialog, #chat_form") &&
         $(page.way === "flat" ? "flat" : "view").focus({ preventScroll: true }));
     document.addEventListener("keydown", event => {
-        if (event.key !== "Escape" || page.state.phase === "left" || document.querySelector("dialog[open]"))
+        if (event.key !== "Escape" || event.isComposing || page.state.phase === "left" || document.querySelector("dialog[open]"))
             return;
-        if (page.state.phase !== "joined")
+        if (page.state.phase !== "joined" && !event.target.closest("input"))
             client.leave();
         else if (sheet.name)
             sheet.close();

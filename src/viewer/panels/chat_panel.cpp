@@ -17,6 +17,8 @@ std::string when_text(Duration ago) {
 }  // namespace
 
 std::string ChatPanel::type(const window::FormKeyPress& press) {
+    if (!is_writing_)
+        return "";
     switch (draft_.take(press)) {
         case TextDraft::Result::goes_on:
             return "";
@@ -27,8 +29,13 @@ std::string ChatPanel::type(const window::FormKeyPress& press) {
             break;
     }
     std::string text = draft_.text();
-    draft_.clear();
+    draft_.set("");
     return text;
+}
+
+void ChatPanel::put_back(const std::string& message) {
+    if (draft_.text().empty())
+        draft_.set(message);
 }
 
 void ChatPanel::note_seen(const client::Participant::Chat& chat) {
@@ -51,8 +58,11 @@ void ChatPanel::add_panel(const ChatPanelFacts& facts, RoomPanel& panel) const {
         return panel.button(say(label), std::move(command));
     };
     const auto quick = [&](Phrase answer) { return button(answer, SendText{say(answer)}); };
-    if (facts.may_write && is_writing_)
-        chat.rows.push_back({draft_.text() + "_", say(Phrase::enter_sends), {}});
+    // A person who is muted meanwhile still sees the letters that they type.
+    if (is_writing_)
+        chat.rows.push_back({draft_.text() + "_",
+                             say(facts.may_write ? Phrase::enter_sends : Phrase::may_not_write),
+                             {}});
     else if (facts.may_write && facts.has_keyboard)
         chat.rows.push_back({"", "", {button(Phrase::write, WriteText{})}});
     if (facts.may_write) {
@@ -62,7 +72,7 @@ void ChatPanel::add_panel(const ChatPanelFacts& facts, RoomPanel& panel) const {
              {quick(Phrase::quick_yes), quick(Phrase::quick_no), quick(Phrase::quick_wait)}});
         chat.rows.push_back(
             {"", "", {quick(Phrase::quick_not_heard), quick(Phrase::quick_not_seen)}});
-    } else {
+    } else if (!is_writing_) {
         chat.rows.push_back({say(Phrase::may_not_write), "", {}});
     }
     for (auto text = facts.chat.unsent.rbegin(); text != facts.chat.unsent.rend(); ++text)

@@ -21,7 +21,7 @@ struct ChatPanelFacts {
 class ChatPanel {
 public:
     // Messages in the panel, the newest first.
-    static constexpr std::size_t most_shown = 12;
+    static constexpr std::size_t most_shown = 60;
 
     // Until end() what the person types belongs to the message.
     void begin() { is_writing_ = true; }
@@ -29,6 +29,8 @@ public:
     bool is_writing() const { return is_writing_; }
     // Returns the message that the person has finished; empty: none.
     std::string type(const window::FormKeyPress& press);
+    // It could not be sent: it is there again, unless the person writes another one.
+    void put_back(const std::string& message);
 
     // The person has seen all of these messages.
     void note_seen(const client::Participant::Chat& chat);

@@ -28,12 +28,12 @@ window::Panel panel_of(const ChatPanel& chat, const ChatPanelFacts& facts) {
 
 TEST(ChatPanel, HasTheNewestMessagesFirstWithTheirAuthorsAndAges) {
     ChatPanelFacts facts;
-    facts.chat = chat_of(20);
-    facts.now = TimePoint(std::chrono::minutes(22));
+    facts.chat = chat_of(70);
+    facts.now = TimePoint(std::chrono::minutes(72));
     const auto rows = panel_of({}, facts).rows;
     ASSERT_EQ(rows.size(), 1 + ChatPanel::most_shown);
     EXPECT_EQ(rows[0].text, say(Phrase::may_not_write));
-    EXPECT_EQ(rows[1].text, "text 19");
+    EXPECT_EQ(rows[1].text, "text 69");
     EXPECT_EQ(rows[1].detail, "You, 3 min ago");
     EXPECT_EQ(rows[2].detail, "Anna, 4 min ago");
 }
@@ -48,8 +48,16 @@ TEST(ChatPanel, WhatIsTypedBecomesAMessage) {
     EXPECT_EQ(chat.type({FormKey::enter}), "Hello");
     EXPECT_TRUE(chat.is_writing()) << "the next message may follow";
     EXPECT_EQ(chat.type({FormKey::enter}), "");
+    (void)chat.type({FormKey::letters, false, false, "Once more"});
+    facts.may_write = false;
+    EXPECT_EQ(panel_of(chat, facts).rows.at(0).text, "Once more_")
+        << "the person is muted meanwhile";
+    EXPECT_EQ(chat.type({FormKey::enter}), "Once more");
+    chat.put_back("Once more");
+    EXPECT_EQ(panel_of(chat, facts).rows.at(0).text, "Once more_");
     (void)chat.type({FormKey::escape});
     EXPECT_FALSE(chat.is_writing());
+    EXPECT_EQ(chat.type({FormKey::enter}), "") << "nobody writes any more";
 }
 
 TEST(ChatPanel, CountsTheMessagesOfOthersThatWereNotSeen) {
