@@ -260,8 +260,13 @@ private:
         const bool scene = viewer_.step(window_.pixels(), now);
         shown_.place_voices();
         const bool texts = change_texts(input, now);
-        if ((!scene && !texts && !input.redraw) || !window_.is_visible())
+        if ((!scene && !texts && !input.redraw) || !window_.is_visible()) {
+            // Nothing is drawn while decoding needs the processor; then an animation asks for no
+            // turn at once.
+            if (viewer_.is_animated())
+                next_picture_ = now + window_.picture_time();
             return;
+        }
         next_picture_ = now + window_.picture_time();
         if (scene)
             viewer_.draw(window_.pixels(), picture_.begin(window_.pixels(), viewer_.way().scale),
