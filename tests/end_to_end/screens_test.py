@@ -191,7 +191,7 @@ class Screens(unittest.TestCase):
             buttons = lambda: x11.buttons(width, height)
             x11.do("mousemove", 700, 600, "key", "shift+Tab", "key", "Return")
             window.wait_until(lambda: len(buttons()) >= 6)
-            x11.do(*["key", "Tab"] * 5, "key", "Return", "key", "Escape")
+            x11.do(*["key", "Tab"] * 7, "key", "Return", "key", "Escape")
             # Show, Smaller, Larger, Pin in place, End share: the first row of five.
             five = lambda: wait_until(lambda: len(row := row_of(buttons(), 5)) == 5 and row)
             x11.click_until(lambda: five()[3], ben, lambda f: scope(f)["screen"]["pinned"])

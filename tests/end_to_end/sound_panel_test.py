@@ -30,10 +30,10 @@ class SoundPanel(unittest.TestCase):
                 wait_until(lambda: screen.has_bar(WIDTH, HEIGHT) and brightness(screen.pixels(100, 350, 200, 100)) > 20)
                 before = screen.buttons(WIDTH, HEIGHT)
                 self.assertEqual(before, [])
-                # The last button of the bar, and the second one of its panel, by the keyboard.
+                # The last button of the bar, and "Sound", the fourth one of its panel, by the keyboard.
                 screen.do("mousemove", 600, 700, "key", "shift+Tab", "key", "Return")
                 window.wait_until(lambda: len(screen.buttons(WIDTH, HEIGHT)) >= 6)
-                screen.do("key", "Tab", "key", "Tab", "key", "Return", "key", "Escape")
+                screen.do(*["key", "Tab"] * 4, "key", "Return", "key", "Escape")
                 window.wait_until(lambda: len(screen.buttons(WIDTH, HEIGHT)) < 6)
                 # Both kinds have two devices: the usual one and the dummy; none is in use yet.
                 screen.click_until(lambda: self.button(screen, -4), ada, lambda _: "speaks yes" in kept())
