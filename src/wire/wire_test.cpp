@@ -415,6 +415,16 @@ TEST(Control, EveryMessageRoundTrips) {
               (StudyReplied{ParticipantId{3}, skip}));
     const SetCondition late{9, ParticipantId{3}, "mesh", "rvl", "jpeg", 80ms, true};
     EXPECT_EQ(round_trip(late), late);
+    const WriteChat written{77, "Bitte, die Leuchte"};
+    EXPECT_EQ(round_trip(written), written);
+    EXPECT_EQ(round_trip(WriteChat{77, std::string(max_chat_text + 1, 'a')}).text.size(),
+              max_chat_text);
+    EXPECT_TRUE(round_trip(RaiseHand{true}).raised);
+    const ChatMessage message{77, ParticipantId{3}, "Ada", "Bitte", from_us(5)};
+    EXPECT_EQ(round_trip(ChatMessages{{message, message}}).messages,
+              (std::vector{message, message}));
+    EXPECT_FALSE(
+        decoded_again(ChatMessages{std::vector<ChatMessage>(max_chat_messages + 1, message)}));
     step.step_size = 0;
     EXPECT_EQ(decode_to_participant(encode(ToParticipant(step))).error(),
               theatron::Status::malformed);
@@ -461,7 +471,7 @@ TEST(Control, EveryMessageRoundTrips) {
           ToHost(AdjustCamera{1, {}, Bytes(max_adjustment_size + 1)})})
         EXPECT_EQ(decode_to_host(encode(wrong)).error(), theatron::Status::malformed);
     for (const ToHost& wrong :
-         {ToHost(Manage{1, ManageAction{0}, {}, {}}), ToHost(Manage{1, ManageAction{10}, {}, {}}),
+         {ToHost(Manage{1, ManageAction{0}, {}, {}}), ToHost(Manage{1, ManageAction{11}, {}, {}}),
           ToHost(Manage{1, ManageAction::mute, {}, Role{4}})})
         EXPECT_FALSE(decoded_again(wrong));
     const Settings settings =
