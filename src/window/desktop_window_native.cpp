@@ -250,6 +250,9 @@ struct DesktopWindow::Parts {
     std::atomic<bool> woken = false;
     InputQueue inputs;
     bool takes_text = false;
+    // A key came after which letters may mean something else: what follows it waits until the owner
+    // has taken the key and said so.
+    bool awaits_owner = false;
     render::GlErrors errors;
 
     ~Parts() {
@@ -323,7 +326,8 @@ void DesktopWindow::wake() {
 
 WindowInput DesktopWindow::poll() {
     SDL_Event event;
-    while (SDL_PollEvent(&event))
+    parts_->awaits_owner = parts_->awaits_owner && parts_->inputs.has_more();
+    while (!parts_->awaits_owner && SDL_PollEvent(&event))
         parts_->take(event);
     WindowInput input = parts_->inputs.take();
     input.pointer.reset();
@@ -411,6 +415,8 @@ void DesktopWindow::Parts::take(const SDL_Event& event) {
                 inputs.type({FormKey::letters, false, false, event.text.text});
             break;
         case SDL_KEYDOWN:
+            awaits_owner = event.key.keysym.sym == SDLK_F3 ||
+                           (takes_text && event.key.keysym.sym == SDLK_ESCAPE);
             if (takes_text && event.key.keysym.sym == SDLK_F3) {
                 inputs.press({Action::chat});
             } else if (takes_text) {

@@ -41,7 +41,8 @@ class WebLoss(unittest.TestCase):
             # On a busy machine the page asks its first unanswered question only after the first step.
             wait_until(lambda: page.evaluate("theatron.state.phase === 'lost' || (steady_ahead = wall_ahead += 31000, false)"),
                        "a page that notices the silence", every=3)
-            self.assertIn("silent", page.evaluate("theatron.state.problem"))
+            # A later attempt may have another reason already.
+            self.assertRegex(page.evaluate("theatron.state.problem"), "silent|No host answers")
             running.send(signal.SIGCONT)
             self.back(page, joins=2)
 

@@ -31,9 +31,8 @@ class WindowChat(unittest.TestCase):
                         env=environment):
             ada.wait_for(lambda f: any(p["name"] == "Wim" for p in f["room"]["people"]))
             wait_until(lambda: brightness(self.screen.pixels(500, 200, 200, 100)) > 20)
-            self.screen.do("key", "F3")
-            # N makes a brick where the keyboard is not a message's.
-            self.screen.do("type", "--delay", "60", "Nun nach links")
+            # N makes a brick where the keyboard is not a message's, also when it comes at once.
+            self.screen.do("key", "F3", "type", "--delay", "5", "Nun nach links")
             self.screen.do("key", "BackSpace", "key", "s", "key", "Return")
             read = ada.wait_for(lambda f: f["chat"]["messages"])
             self.assertEqual([(m["name"], m["text"]) for m in read["chat"]["messages"]], [("Wim", "Nun nach links")])
