@@ -23,9 +23,9 @@ def shown(condition):
     return f"document.getElementById('all')?.checkVisibility() && {condition}"
 
 
-def drawn(canvas, least_values=2):
-    """The size alone says nothing: a canvas is 300 pixels wide before anything is drawn on it."""
-    return (f"(c => c?.width > 100 && new Set(c.getContext('2d').getImageData(0, 0, c.width, c.height).data).size >= {least_values})"
+def drawn(canvas, beyond=1):
+    """More than `beyond` different values are drawn there. The size alone says nothing: an empty canvas is 300 pixels wide."""
+    return (f"(c => c?.width > 100 && new Set(c.getContext('2d').getImageData(0, 0, c.width, c.height).data).size > {beyond})"
             f"(document.querySelector('{canvas}'))")
 
 
