@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "join_flags.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstdlib>
 

@@ -5,7 +5,9 @@
 #include <GLES3/gl3.h>
 #include <emscripten/emscripten.h>
 
+#include <cstdint>
 #include <cstdio>
+#include <random>
 #include <utility>
 
 #include "base/error.h"

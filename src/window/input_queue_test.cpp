@@ -41,6 +41,29 @@ TEST(InputQueue, KeysAndButtonsComeInTheirOrder) {
     EXPECT_EQ(queue.take().keys.at(0).action, Action::leave);
 }
 
+TEST(InputQueue, LettersComeWithTheInputInWhichTheyWereTypedAndOnce) {
+    InputQueue queue;
+    queue.type({FormKey::letters, false, false, "H"});
+    queue.grab({0.5, 0.5}, true);
+    queue.release();
+    queue.type({FormKey::letters, false, false, "i"});
+    EXPECT_TRUE(queue.has_more());
+    const WindowInput first = queue.take(), second = queue.take();
+    ASSERT_EQ(first.typed.size(), 1u);
+    EXPECT_EQ(first.typed[0].text, "H");
+    ASSERT_EQ(second.typed.size(), 1u);
+    EXPECT_EQ(second.typed[0].text, "i");
+    EXPECT_FALSE(queue.has_more());
+    EXPECT_TRUE(queue.take().typed.empty());
+}
+
+TEST(InputQueue, TooManyLettersAreLeftOut) {
+    InputQueue queue;
+    for (std::size_t i = 0; i < 2 * InputQueue::max_waiting; ++i)
+        queue.type({FormKey::letters, false, false, "a"});
+    EXPECT_EQ(queue.take().typed.size(), InputQueue::max_waiting);
+}
+
 TEST(InputQueue, WhatIsHeldStaysAndMovementsCountOnce) {
     InputQueue queue;
     queue.newest().steering.fly = {1, 0, 0};

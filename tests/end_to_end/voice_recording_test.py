@@ -15,6 +15,7 @@ from theatron_process import Process, host, make_recording, run, stand, wait_unt
 from voice_test import RATE, chirps, read_wav, write_wav
 
 CLICKS_EVERY = 1  # seconds
+IN_STEP_S = 0.04
 
 
 def clicks(seconds):
@@ -44,7 +45,7 @@ def probe(file):
                                      check=True, capture_output=True).stdout)["streams"]
 
 
-class VoiceRecording(unittest.TestCase):
+class VoiceRecordingCase(unittest.TestCase):
     def setUp(self):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="theatron_voice_recording_"))
         self.addCleanup(shutil.rmtree, self.folder)
@@ -70,6 +71,17 @@ class VoiceRecording(unittest.TestCase):
                                 "frame=pts_time", "-read_intervals", "%+#1", str(file)], check=True, capture_output=True).stdout
         return read_wav(out), float(first.split()[0].strip(b","))
 
+    def click_errors(self, file, begun_us):
+        """Seconds by which each click in the first track is late. `begun_us`: when the microphone with the clicks began, in
+        session time, which is the machine's steady clock here."""
+        samples, first = self.track(file, 0)
+        zero = self.session_begin(file) / 1e6
+        heard = [zero + first + n / RATE for n in onsets(samples)]
+        self.assertGreaterEqual(len(heard), 3)
+        return [(t - begun_us / 1e6 + CLICKS_EVERY / 2) % CLICKS_EVERY - CLICKS_EVERY / 2 for t in heard]
+
+
+class VoiceRecording(VoiceRecordingCase):
     def test_voices_are_recorded_in_sync_of_those_who_agree_only(self):
         file = self.folder / "session.mkv"
         with host(self.folder / "state", f"folder:{self.camera},loop=1,preload=1") as a_host:
@@ -95,7 +107,9 @@ class VoiceRecording(unittest.TestCase):
                 ben.wait_for(lambda f: f["session_us"] > silent["session_us"] + 2e6)
                 recorder.process.terminate()
                 figures = recorder.read_json()
-                self.assertIn(recorder.end(), (0, 3))
+                # 3: a busy machine passes over pictures; then the file says so, too.
+                recorded = recorder.end()
+                self.assertIn(recorded, (0, 3))
         voices = {v["name"]: v for v in figures["voices"]}
         self.assertEqual(set(voices), {"Ada", "Ben"})
         self.assertEqual(figures["voices_not_agreed"], ["Ben"])
@@ -106,23 +120,19 @@ class VoiceRecording(unittest.TestCase):
         # One who agreed when it began, and eight spare ones.
         self.assertEqual([s["codec_name"] for s in audio], ["opus"] * 9)
         self.assertEqual([s["tags"]["title"] for s in audio[:2]], ["Ada", "voice 2"])
-        # Each click is heard in the file when it was spoken: session time is the machine's steady clock here.
-        samples, first = self.track(file, 0)
-        zero = self.session_begin(file) / 1e6
-        heard = [zero + first + n / RATE for n in onsets(samples)]
-        self.assertGreaterEqual(len(heard), 3)
-        errors = [(t - begun / 1e6 + CLICKS_EVERY / 2) % CLICKS_EVERY - CLICKS_EVERY / 2 for t in heard]
-        # One click may come late on a busy machine; a track that is out of step has all of them late.
-        self.assertLess(sorted(map(abs, errors))[len(errors) // 2], 0.04, errors)
+        # A track that is out of step has all clicks late. That each one is in time: voice_timing.py.
+        errors = self.click_errors(file, begun)
+        self.assertLess(sorted(map(abs, errors))[len(errors) // 2], IN_STEP_S, errors)
         print("clicks in the file, ms late:", [round(1000 * e, 1) for e in errors])
 
         # Ben's words are there only while he agreed.
+        zero = self.session_begin(file) / 1e6
         samples, first = self.track(file, 1)
         loud = [zero + first + i / RATE for i in range(0, len(samples), 480) if max(map(abs, samples[i:i + 480])) > 500]
         self.assertGreater(len(loud), 80)
         self.assertGreater(loud[0], spoken["session_us"] / 1e6 - 0.5)
         self.assertLess(loud[-1], silent["session_us"] / 1e6 + 0.5)
-        self.assert_kept(file, voices)
+        self.assert_kept(file, voices, recorded)
         self.assert_heard_again(file)
 
     def test_a_session_without_cameras_is_recorded_and_cameras_that_come_later_too(self):
@@ -144,7 +154,9 @@ class VoiceRecording(unittest.TestCase):
                     wait_until(lambda: second.exists() and second.stat().st_size > 20000)
                     recorder.process.terminate()
                     figures = recorder.read_json()
-                    self.assertIn(recorder.end(), (0, 3), "".join(recorder.errors))
+                    # 3: a busy machine passes over pictures; then the file says so, too.
+                    recorded = recorder.end()
+                    self.assertIn(recorded, (0, 3), "".join(recorder.errors))
         self.assertEqual([v["name"] for v in figures["voices"]], ["Ada"])
         self.assertEqual((figures["segments"], len(figures["cameras"])), (2, 1))
 
@@ -160,7 +172,8 @@ class VoiceRecording(unittest.TestCase):
         self.assertEqual(sorted(found["room"]["people"]), ["Ada", "recorder"])
         self.assertGreater(found["voices"]["people"][0]["packets"], 50)
         code, out, errors = run("inspect", file, "--json", "--verify")
-        self.assertEqual(code, 0, errors)
+        self.assertEqual(code, recorded, out + errors)
+        self.assertFalse(json.loads(out)["damaged"], out)
         self.assertEqual(len(json.loads(out)["cameras"]), 1)
         self.assertEqual(run("recover", alone, alone.parent / "saved.mkv")[0], 3)
         code, _, errors = run("export", alone.parent / "saved.mkv", "--voices", self.folder / "words", "--room", self.folder / "room.jsonl")
@@ -178,14 +191,14 @@ class VoiceRecording(unittest.TestCase):
             wait_until(lambda: (self.folder / "guest.wav").exists() and
                        max(map(abs, read_growing(self.folder / "guest.wav")), default=0) > 500)
 
-    def assert_kept(self, file, voices):
+    def assert_kept(self, file, voices, recorded):
         code, out, errors = run("inspect", file, "--json", "--verify")
-        self.assertEqual(code, 0, errors)
+        self.assertEqual(code, recorded, errors)
         found = json.loads(out)["voices"]
         self.assertEqual({p["name"]: p["packets"] for p in found["people"]}, {n: v["packets"] for n, v in voices.items()})
         self.assertEqual(found["damaged"], 0)
         code, _, errors = run("export", file, "--voices", self.folder / "said")
-        self.assertEqual(code, 0, errors)
+        self.assertEqual(code, recorded, errors)
         exported = self.folder / "said" / f"voice-{voices['Ada']['participant']}.wav"
         theirs, ours = onsets(self.track(file, 0)[0]), onsets(read_wav(exported))
         self.assertEqual(len(ours), len(theirs))

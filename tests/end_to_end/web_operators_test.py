@@ -24,9 +24,11 @@ def shown(condition):
 
 
 def drawn(canvas, beyond=1):
-    """More than `beyond` different values are drawn there. The size alone says nothing: an empty canvas is 300 pixels wide."""
-    return (f"(c => c?.width > 100 && new Set(c.getContext('2d').getImageData(0, 0, c.width, c.height).data).size > {beyond})"
-            f"(document.querySelector('{canvas}'))")
+    """More than `beyond` different values are drawn there. The size alone says nothing: an empty canvas is 300 pixels wide. The
+    values are read from a copy: a browser warns of a canvas of a page that is read often."""
+    return (f"(c => {{ if (!c) return false; const copy = new OffscreenCanvas(c.width, c.height).getContext('2d', {{ willReadFrequently: true }});"
+            "copy.drawImage(c, 0, 0);"
+            f"return new Set(copy.getImageData(0, 0, c.width, c.height).data).size > {beyond}; }})(document.querySelector('{canvas}'))")
 
 
 def recorders_of(file):

@@ -35,7 +35,8 @@ const still = new StillCover($("panels"));
 const texts_every_ms = 250;
 const poll_every_ms = 1;
 const longest_wait_ms = 500;
-const longest_save_ms = 2000;
+// A slow computer draws the picture that is to be saved later than that; then the page says that it waits.
+const patient_save_ms = 1000;
 
 // The link's part behind '#', which no request contains.
 const link = new URLSearchParams(location.hash.slice(1));
@@ -411,9 +412,10 @@ function run({ client, voice, face, screen, module, flat }) {
         prepare_room(now);
         const drawn = is_drawing ? 0 : client.draw(width, height);
         if (drawn & 2 && asked_to_save_ms) {
-            if (performance.now() < asked_to_save_ms + longest_save_ms)
-                save(canvas);
+            save(canvas);
             asked_to_save_ms = 0;
+        } else if (asked_to_save_ms && performance.now() > asked_to_save_ms + patient_save_ms) {
+            $("save_hint").textContent = text("save_waits");
         }
         if (drawn & 1)
             wait_for_picture();
