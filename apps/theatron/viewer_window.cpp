@@ -358,6 +358,7 @@ void use_kept_settings(ViewerWindow& window, const std::optional<std::string>& n
     window.viewer.sits = kept.sits;
     window.viewer.shows_people = kept.shows_people;
     window.viewer.shows_facts = kept.shows_facts;
+    window.viewer.tour_is_due = !kept.tour_seen;
     window.join.name = name.value_or(kept.name);
     client::Settings settings = kept;
     settings.name = window.join.name;

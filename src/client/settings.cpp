@@ -58,7 +58,8 @@ std::string settings_text(const Settings& settings) {
            "\ndetails " + text_of(settings.shows_facts) + "\nhears " + text_of(settings.hears) +
            "\nspeaks " + text_of(settings.speaks) + "\npush_to_talk " +
            text_of(settings.push_to_talk) + "\nvoice_recorded " +
-           text_of(settings.voice_may_record) + device_line("microphone", settings.microphone) +
+           text_of(settings.voice_may_record) + "\ntour_seen " + text_of(settings.tour_seen) +
+           device_line("microphone", settings.microphone) +
            device_line("loudspeaker", settings.loudspeaker) + "\nquality " + settings.quality +
            "\n";
 }
@@ -80,6 +81,7 @@ ParsedSettings parse_settings(const std::string& text) {
                               : name == "speaks"         ? read(value, settings.speaks)
                               : name == "push_to_talk"   ? read(value, settings.push_to_talk)
                               : name == "voice_recorded" ? read(value, settings.voice_may_record)
+                              : name == "tour_seen"      ? read(value, settings.tour_seen)
                               : name == "microphone"     ? read_device(value, settings.microphone)
                               : name == "loudspeaker"    ? read_device(value, settings.loudspeaker)
                               : name == "quality"        ? read_quality(value, settings.quality)

@@ -21,6 +21,7 @@ struct Settings {
     std::string loudspeaker = "default";  // as in sound::open_speaker()
     bool push_to_talk = false;            // the microphone is open only while a key is held
     bool voice_may_record = false;        // the person agrees that others record the voice
+    bool tour_seen = false;               // the tour of a first visit does not come by itself
     bool operator==(const Settings&) const = default;
 };
 

@@ -115,6 +115,10 @@ struct SendText {     // to all others
 struct RaiseHand {  // false: it is taken down
     bool raised = false;
 };
+struct TourPress {
+    enum class What : std::uint8_t { begin, next, skip };
+    What what{};
+};
 struct PressKey {  // as its key does
     window::Action action{};
 };
@@ -125,7 +129,7 @@ using RoomCommand =
     std::variant<GoToPerson, LookThrough, GoToPlace, Decide, AskToOpen, OpenOffered, LeaveClosed,
                  ChangeCase, ChooseTool, ChangeMarks, Call, AnswerCall, ShowLarge, AdjustStep,
                  PlayStep, ChangeScreen, ShowFace, LookBackTo, UseSound, StudyPress, WriteText,
-                 SendText, RaiseHand, PressKey, ShowSheet>;
+                 SendText, RaiseHand, TourPress, PressKey, ShowSheet>;
 
 struct RoomPanel {
     std::vector<window::Panel> panels;

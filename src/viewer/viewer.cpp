@@ -28,6 +28,7 @@ Viewer::Viewer(Options options, client::Participant& participant)
       participant_(participant),
       scene_(options_.room, options_.people),
       eye_(options_.view),
+      tour_(options_.tour_is_due),
       choice_(options_.renderer),
       pace_(pace::automatic_ways(1, options_.scale)),
       rest_(!options_.has_gpu),
@@ -42,6 +43,7 @@ client::Settings Viewer::settings(client::Settings before) const {
     before.sits = sits_;
     before.shows_people = shows_panels_;
     before.shows_facts = line_;
+    before.tour_seen = tour_.is_seen();
     return before;
 }
 
@@ -514,6 +516,8 @@ Facts Viewer::facts(TimePoint now) {
         asked_case_.reset();
     study_.add_panel(panel, now);
     if (options_.one_panel) {
+        tour_.follow(facts.received.status.phase == client::Participant::Phase::joined &&
+                     facts.has_picture && !headset_);
         add_tools(facts, panel, now);
         add_offers(facts, panel, now);
         add_sheet(sheet(), facts, panel, now);

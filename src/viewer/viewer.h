@@ -37,6 +37,7 @@
 #include "viewer/sound_panel.h"
 #include "viewer/study_panel.h"
 #include "viewer/tools/tool.h"
+#include "viewer/tour.h"
 #include "window/window_input.h"
 
 namespace theatron::viewer {
@@ -53,8 +54,9 @@ public:
         // A window with a bar of buttons, which shows one panel at a time; else facts() has all
         // panels that are open, and no bar.
         bool one_panel = false;
-        bool has_gpu = true;  // false: begins with what a processor draws
-        double scale = 0;     // of the target's pixels to draw; 0: chosen by drawing time
+        bool tour_is_due = false;  // of a window with a bar
+        bool has_gpu = true;       // false: begins with what a processor draws
+        double scale = 0;          // of the target's pixels to draw; 0: chosen by drawing time
         std::string depth_codec, color_codec;  // that the participant requested
     };
 
@@ -216,6 +218,7 @@ private:
     void on(const WriteText& text, TimePoint now);
     void on(const SendText& message, TimePoint now);
     void on(const RaiseHand& hand, TimePoint now);
+    void on(const TourPress& press, TimePoint now);
     void on(const PressKey& key, TimePoint now);
     void on(const ShowSheet& opened, TimePoint now);
     void on(const Decide& decision, TimePoint now);
@@ -264,6 +267,7 @@ private:
     void keep_one_panel(Sheet before);
     void add_tools(Facts& facts, RoomPanel& panel, TimePoint now) const;
     void add_offers(Facts& facts, RoomPanel& panel, TimePoint now) const;
+    void add_tour(Facts& facts, RoomPanel& panel) const;
     void add_more_panel(RoomPanel& panel) const;
     void add_chat(RoomPanel& panel);
     std::size_t raised_hands_of_others() const;
@@ -300,6 +304,7 @@ private:
     LookingBack looking_back_;
     StudyPanel study_;
     ChatPanel chat_;
+    Tour tour_;
     bool slides_playback_ = false;                   // the slider that was pressed last
     std::optional<room::Pointer> pointer_;           // while this person points
     std::optional<Vec2> mouse_;                      // over the scene

@@ -149,6 +149,23 @@ void Viewer::add_offers(Facts& facts, RoomPanel& panel, TimePoint now) const {
              "",
              {panel.button(say(Phrase::go_there), AnswerCall{person.id, true}),
               panel.button(say(Phrase::stay_here), AnswerCall{person.id, false})}});
+    add_tour(facts, panel);
+}
+
+void Viewer::add_tour(Facts& facts, RoomPanel& panel) const {
+    if (tour_.step() == 0)
+        return;
+    using What = TourPress::What;
+    window::PanelRow row{
+        say(tour_text(tour_.step(), facts.received.status.standing.role)),
+        say(Phrase::tour_count, std::to_string(tour_.step()), std::to_string(Tour::steps)),
+        {}};
+    if (tour_.step() < Tour::steps)
+        row.buttons = {panel.button(say(Phrase::tour_next), TourPress{What::next}),
+                       panel.button(say(Phrase::tour_skip), TourPress{What::skip})};
+    else
+        row.buttons = {panel.button(say(Phrase::tour_done), TourPress{What::next})};
+    facts.offers.push_back(std::move(row));
 }
 
 void Viewer::add_more_panel(RoomPanel& panel) const {
@@ -183,6 +200,8 @@ void Viewer::add_more_panel(RoomPanel& panel) const {
     row_of_window(Phrase::more_save, window::Action::save_picture);
     if (may(session::Right::adjust))
         row(Phrase::more_adjust, PressKey{window::Action::adjust_cameras});
+    if (!headset_)
+        row(Phrase::show_tour, TourPress{TourPress::What::begin});
     panel.panels.push_back(std::move(more));
 }
 

@@ -13,7 +13,7 @@ void Viewer::carry_out(const RoomCommand& command, TimePoint now) {
         !std::holds_alternative<PressKey>(command) && !std::holds_alternative<ShowSheet>(command) &&
         !std::holds_alternative<StudyPress>(command) &&
         !std::holds_alternative<WriteText>(command) && !std::holds_alternative<SendText>(command) &&
-        !std::holds_alternative<RaiseHand>(command);
+        !std::holds_alternative<RaiseHand>(command) && !std::holds_alternative<TourPress>(command);
     if (eye_.is_placed() || !needs_picture)
         std::visit([&](const auto& one) { on(one, now); }, command);
 }
@@ -46,6 +46,15 @@ void Viewer::on(const RaiseHand& hand, TimePoint now) {
     if (!participant_.raise_hand(hand.raised))
         return note(say(Phrase::no_raised_hands), now);
     note(say(hand.raised ? Phrase::your_hand_is_up : Phrase::your_hand_is_down), now);
+}
+
+void Viewer::on(const TourPress& press, TimePoint) {
+    if (press.what == TourPress::What::next)
+        return tour_.next();
+    if (press.what == TourPress::What::skip)
+        return tour_.skip();
+    tour_.begin();
+    open_sheet(Sheet::none);
 }
 
 void Viewer::on(const PressKey& key, TimePoint) {
