@@ -33,7 +33,7 @@ private:
     int step_ = 0;
 };
 
-// What a step says to a person of this role, without a button that the role does not have.
+// The words of a step for a person of this role. They name no button that the role does not have.
 Phrase tour_text(int step, wire::Role role);
 
 }  // namespace theatron::viewer
