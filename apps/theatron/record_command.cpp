@@ -92,7 +92,9 @@ std::unique_ptr<record::RecordSource> open_source(const RecordFlags& flags) {
                 "--camera SPEC FILE.mkv'.");
         return client::record_session(
             parse_link_argument(flags.names[0]), flags.name, file, codecs, options,
-            flags.wait > 0 ? std::optional(seconds_to_duration(flags.wait)) : std::nullopt);
+            flags.wait > 0 ? std::optional(seconds_to_duration(flags.wait)) : std::nullopt,
+            // One of the host's own recordings that was removed must not keep out the next one.
+            flags.with_parent ? std::filesystem::path() : files::state_folder());
     }
     if (flags.names.size() != 1)
         throw Error("With --camera, only the file to record into can be named.");

@@ -137,6 +137,8 @@ client::Participant::Options join_options(const net::Link& link, const char* nam
     if (page().run == 0)
         page().run = random_run();
     options.run = page().run;
+    options.chat = page().chat;
+    options.raises_hand = std::exchange(page().hand_raised, false);
     options.written = [](const std::string& text) {
         if (page().visit)
             page().visit->viewer.note(text, steady_now());

@@ -60,11 +60,17 @@ struct Page {
     window::InputQueue input;          // since the last picture
     client::PictureSender screen;      // that the person shows; outlives a visit
     std::uint64_t run = 0;             // as in wire::Join: both ways of seeing are one stay
+    session::MemberChat chat;          // of the ways of seeing so far
+    bool hand_raised = false;          // when the last one ended
     std::string problem;               // why the visit ended; a sentence
     std::string text;                  // that the last function returned
     Bytes bytes;                       // that the script writes for the next function
 
     void leave() {
+        if (const client::Participant* left = participant()) {
+            chat = left->chat_so_far();
+            hand_raised = left->hand_raised();
+        }
         visit.reset();
         flat.reset();
     }

@@ -70,6 +70,9 @@ Participant::Participant(Options options)
                                       : std::optional(return_patience)) {
     shared_->status.goal = options_.delivery;
     shared_->voice_may_record = options_.voice_may_record;
+    shared_->chat = options_.chat;
+    if (options_.raises_hand)
+        shared_->hand_wish = true;
     if (options_.keeps_cases)
         cases_ = std::make_unique<CaseKeeper>([this] { announce(); }, [this] { tell_content(); });
     if (options_.takes_own_faces)
@@ -165,14 +168,16 @@ bool Participant::begin_connection(net::Client& client) {
         shared_->study_replies.clear();
         shared_->chat.on_connected();
         // A hand that was up is raised again.
-        for (const auto& [person, name] : shared_->hands.raised())
-            if (person == shared_->room.self())
-                shared_->hand_wish = true;
+        if (shared_->own_hand_is_up())
+            shared_->hand_wish = true;
         shared_->hand_told.reset();
+        shared_->hand_shown = false;
         shared_->muted_since.reset();
         shared_->has_standing = false;
         shared_->status.standing = {};
         shared_->camera_wishes.clear();  // numbers of cameras may be others
+        if (shared_->clock.known())
+            shared_->last_offset = shared_->clock.offset();
         shared_->clock = {};
         shared_->status.round_trip = {};
         shared_->status.clock_known = false;

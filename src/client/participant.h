@@ -61,8 +61,11 @@ public:
         std::string depth_codec = "strata";
         std::string color_codec = "jpeg:quality=85";
         wire::ChooseDelivery delivery{150, 0};
-        bool is_page = false;     // as in Attempts
-        std::uint64_t run = 0;    // as in wire::Join; 0: a number of this participant's own
+        bool is_page = false;   // as in Attempts
+        std::uint64_t run = 0;  // as in wire::Join; 0: a number of this participant's own
+        // What this person wrote, read and raised on an earlier stay of the same run.
+        session::MemberChat chat = {};
+        bool raises_hand = false;
         bool records = false;     // as in wire::Join
         bool sends_only = false;  // as in wire::Join: gets no cameras of others
         Bytes person;             // the secret of client/person_id.h
@@ -260,6 +263,8 @@ public:
         std::uint64_t version = 0;                // grows with each change
     };
     Chat chat() const;
+    // For Options::chat of the next stay.
+    session::MemberChat chat_so_far() const;
     std::uint64_t chat_version() const;
     // The host has a chat and raised hands; and this person may write there.
     bool has_chat() const;

@@ -76,14 +76,11 @@ void Participant::tell_hand(TimePoint now) {
         std::optional<bool>& wish = shared_->hand_wish;
         if (!wish || !shared_->has_chat || !shared_->room.known())
             return;
-        bool is_up = false;
-        for (const auto& [person, name] : shared_->hands.raised())
-            is_up = is_up || person == shared_->room.self();
         // The room may still show what was before this wish, so each is told once.
         std::optional<TimePoint>& told_at = shared_->hand_told;
         if (told_at && now - *told_at < hand_patience)
             return;
-        if (told_at && is_up == *wish) {
+        if (told_at && shared_->own_hand_is_up() == *wish) {
             wish.reset();
             return;
         }
@@ -112,9 +109,19 @@ void Participant::follow_hands() {
         for (const auto& [person, name] : shared_->hands.take(shared_->room.confirmed()))
             if (person != shared_->room.self())
                 shared_->add_remark(remarks, name, say(Phrase::person_raises_hand, name));
+        // The host has carried out the wish: whoever changes the hand now has the last word.
+        const bool is_up = shared_->own_hand_is_up();
+        if (std::exchange(shared_->hand_shown, is_up) != is_up && shared_->hand_told &&
+            shared_->hand_wish == is_up)
+            shared_->hand_wish.reset();
     }
     for (const std::string& text : remarks)
         remark(text);
+}
+
+session::MemberChat Participant::chat_so_far() const {
+    const std::lock_guard lock(shared_->mutex);
+    return shared_->chat;
 }
 
 Participant::Chat Participant::chat() const {
@@ -166,10 +173,7 @@ bool Participant::raise_hand(bool raised) {
 
 bool Participant::hand_raised() const {
     const std::lock_guard lock(shared_->mutex);
-    for (const auto& [person, name] : shared_->hands.raised())
-        if (person == shared_->room.self())
-            return true;
-    return false;
+    return shared_->own_hand_is_up();
 }
 
 std::vector<session::RaisedHands::Hand> Participant::raised_hands() const {

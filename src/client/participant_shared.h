@@ -2,6 +2,7 @@
 // State of a participant that several threads use.
 #pragma once
 
+#include <algorithm>
 #include <condition_variable>
 #include <deque>
 #include <map>
@@ -50,6 +51,7 @@ struct Participant::Shared {
     MomentFigures moments;
     bool reset_wanted = false;
     net::ClockSync clock;
+    Duration last_offset{};         // that was known; of an earlier connection, perhaps
     net::Client* client = nullptr;  // while one runs
     bool stopping = false;
     std::string depth_wish, color_wish;  // codecs to ask for
@@ -70,6 +72,7 @@ struct Participant::Shared {
     std::optional<TimePoint> muted_since;  // on this connection
     std::optional<bool> hand_wish;         // that the room does not show yet
     std::optional<TimePoint> hand_told;    // when the host was told of it
+    bool hand_shown = false;               // by the newest room
     session::RaisedHands hands;            // of the room's people
     session::MemberRoom room;
     bool is_telling_room = false;    // tell_room() has been posted
@@ -100,6 +103,11 @@ struct Participant::Shared {
         if (const auto left_out = remarks_of_others.take(source, steady_now()))
             remarks.push_back(*left_out > 0 ? text + " (+" + std::to_string(*left_out) + ")"
                                             : text);
+    }
+    bool own_hand_is_up() const {
+        const auto& raised = hands.raised();
+        return std::any_of(raised.begin(), raised.end(),
+                           [&](const auto& hand) { return hand.person == room.self(); });
     }
     std::set<std::pair<StreamId, SettingId>> broken;  // frames of these were dropped
     std::set<StreamId> direct_streams;                // at the last tick

@@ -56,7 +56,7 @@ class SessionRecording final : public record::RecordSource {
 public:
     SessionRecording(const net::Link& link, const std::string& name, const std::string& file,
                      const record::RecordCodecs& codecs, const record::Recorder::Options& recorder,
-                     std::optional<Duration> patience)
+                     std::optional<Duration> patience, const std::filesystem::path& person_folder)
         : created_(steady_now()), patience_(patience), intake_(file, with_room(recorder)) {
         Participant::Options options;
         options.link = link;
@@ -65,7 +65,7 @@ public:
         options.color_codec = codecs.color;
         options.delivery.target_latency_ms = 0;  // a recording may be late, but not thinned
         options.records = true;
-        options.person = load_or_make_person_id(files::state_folder());
+        options.person = load_or_make_person_id(person_folder);
         options.remark = [](const std::string& text) { log::say(text); };
         options.media = [this](const wire::MediaHeader& header, ByteView message) {
             on_media(header, std::make_shared<Bytes>(message.begin(), message.end()));
@@ -542,8 +542,10 @@ std::unique_ptr<record::RecordSource> record_session(const net::Link& link, cons
                                                      const std::string& file,
                                                      const record::RecordCodecs& codecs,
                                                      const record::Recorder::Options& options,
-                                                     std::optional<Duration> patience) {
-    return std::make_unique<SessionRecording>(link, name, file, codecs, options, patience);
+                                                     std::optional<Duration> patience,
+                                                     const std::filesystem::path& person_folder) {
+    return std::make_unique<SessionRecording>(link, name, file, codecs, options, patience,
+                                              person_folder);
 }
 
 }  // namespace theatron::client

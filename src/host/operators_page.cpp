@@ -213,6 +213,12 @@ bool is_there(const HostFigures& figures, ParticipantId id) {
                                [&](const auto& visitor) { return visitor.participant == id; });
 }
 
+bool came_by(const HostFigures& figures, ParticipantId id, const std::string& link) {
+    return std::ranges::any_of(figures.participants, [&](const auto& person) {
+        return person.id == id && person.link == link;
+    });
+}
+
 HttpAnswer act_on_person(const HttpRequest& request, const PortSession& session,
                          const Operator& who) {
     using wire::ManageAction;
@@ -229,6 +235,12 @@ HttpAnswer act_on_person(const HttpRequest& request, const PortSession& session,
         return refusal(400, "Say whom this is about, and what is to be done.");
     if (!is_there(session.figures(), ParticipantId(*id)))
         return refusal(404, "That person has left.");
+    // The host shows nothing by the link of somebody who is kept out.
+    if (action->second == ManageAction::remove && &session == &who.own->second &&
+        came_by(session.figures(), ParticipantId(*id), who.link))
+        return refusal(409,
+                       "That person came by the link by which this page is open, which would be "
+                       "closed, too. Open it by another operator's link to remove them.");
     session.manage(action->second, ParticipantId(*id), who.by());
     return {.status = 204};
 }

@@ -41,6 +41,7 @@ protected:
             figures.cameras.resize(1);
             figures.cameras[0].lane.name = "box";
             figures.participants.push_back({ParticipantId{7}, "Ada"});
+            figures.participants.back().link = link_of_ada;
             figures.visitors.push_back(
                 {ParticipantId{8}, "Bob", Bytes(4), wire::Role::expert, false});
             figures.problems.room = "The room cannot be saved.";
@@ -91,7 +92,7 @@ protected:
     testing::TemporaryFolder folder;
     RecordingProgram recording{{folder.path() / "recordings", {"/bin/false"}}};
     bool is_expired = false, is_full = false;
-    std::string held_back;
+    std::string held_back, link_of_ada = "expert";
     std::vector<std::string> done, audited;
     std::vector<ClosedSession> closed;
     SessionSwitch::Sessions sessions{{SessionNumber{1}, session("OR 3", "3")},
@@ -202,7 +203,12 @@ TEST_F(Operators, DecideOnPeople) {
                               "person?id=x&do=mute", "person?id=8&do=end_session"})
         EXPECT_EQ(act(wrong).status, 400) << wrong;
     EXPECT_EQ(act("person?id=9&do=mute").status, 404) << "has left";
+    link_of_ada = "operator";
+    EXPECT_EQ(act("person?id=7&do=remove").status, 409) << "the page would be closed, too";
     EXPECT_EQ(done.size(), 5u);
+    EXPECT_EQ(act("person?id=7&do=mute").status, 204);
+    link_of_ada = "expert";
+    EXPECT_EQ(act("person?id=7&do=remove").status, 204);
 }
 
 TEST_F(Operators, MakeSessionsThatAHostKeeps) {

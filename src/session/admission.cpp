@@ -260,6 +260,9 @@ void Admission::note(Participant& participant, const wire::Join& hello,
     // The audit log names whoever sits at the host's machine so.
     std::vector<std::string> others = names_beside(participant);
     others.push_back(at_the_host);
+    // What programs call the reader in front of the reader's own messages and hand.
+    for (const char* reader : {"You", "Sie", "Du", "Vous", "Toi"})
+        others.emplace_back(reader);
     participant.name = told_apart(participant.given_name, others, wire::max_name);
     participant.asks_to_publish = asks_for(hello, wire::Feature::publish);
 }

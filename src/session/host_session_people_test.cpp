@@ -574,6 +574,8 @@ TEST_F(People, WhoseNamesLookEqualAreToldApartExceptForTheSameProgram) {
     EXPECT_EQ(name_of(dave, "ADA", 4), "ADA") << "nobody else is called so now";
     session_->on_closed(dave);
     EXPECT_EQ(name_of(dave, "host", 4), "host (2)") << "the audit log's name of the host's machine";
+    session_->on_closed(dave);
+    EXPECT_EQ(name_of(dave, "you", 4), "you (2)") << "what the page calls its reader";
 }
 
 TEST(Membership, ShowsTooLittleOfAnIdToPassForThePerson) {

@@ -238,6 +238,35 @@ class WebOperators(PageCase):
                                 page.screenshot(pathlib.Path(PICTURES) / f"operators_{language}_{size[0]}_{scheme}.png")
                     page.close()
 
+    def test_a_double_click_makes_one_link(self):
+        page = self.opened()
+        count = page.evaluate("document.querySelectorAll('#links > li').length")
+        page.evaluate("document.getElementById('link_for').value = 'Dbl'")
+        page.evaluate("(form => { form.requestSubmit(); form.requestSubmit(); })(document.getElementById('make_link'))")
+        page.wait_for("document.getElementById('shown_link').checkVisibility()")
+        page.wait_for(f"document.querySelectorAll('#links > li').length > {count}")
+        self.assertEqual(page.evaluate(f"{ROWS % 'links'}.filter(words => words.startsWith('Dbl')).length"), 1)
+
+    def test_a_recorder_that_was_removed_keeps_out_no_other_one(self):
+        page = self.opened()
+        for _ in range(2):
+            self.click(page, "document.getElementById('start_recording')")
+            page.wait_for("document.getElementById('recording').dataset.phase === 'running'")
+            page.wait_for(f"{ROWS % 'people'}.some(words => words.startsWith('recorder'))")
+            self.click(page, self.in_row("people", "recorder", "remove"), times=2)
+            page.wait_for("['whole', 'incomplete', 'failed'].includes(document.getElementById('recording').dataset.phase)")
+
+    def test_the_person_of_the_pages_own_link_is_not_removed_and_an_ended_session_is_told(self):
+        with self.member(self.links["operator"], "Olga") as olga:
+            olga.wait_for(lambda f: f["phase"] == "joined")
+            page = self.opened()
+            page.wait_for(f"{ROWS % 'people'}.some(words => words.startsWith('Olga'))")
+            self.click(page, self.in_row("people", "Olga", "remove"), times=2)
+            page.wait_for("document.getElementById('problem').textContent.startsWith('That person came by the link')")
+            olga.say("end session")
+            page.wait_for("document.getElementById('problems').textContent.includes('The session has ended')")
+            self.assertTrue(page.evaluate("document.getElementById('start_recording').hidden"))
+
     def test_a_silent_host_is_told_and_the_form_leads_here(self):
         page = self.browser.open(self.links["operator"], SIZES[0])
         page.wait_for("document.getElementById('for_operators')?.checkVisibility()")
@@ -245,8 +274,15 @@ class WebOperators(PageCase):
         page.wait_for("location.pathname === '/operators' && document.getElementById('all')?.checkVisibility()")
         page.call("Network.emulateNetworkConditions", offline=True, latency=0, downloadThroughput=-1, uploadThroughput=-1)
         page.wait_for("document.getElementById('problem')?.textContent.startsWith('The host does not answer')")
+        with self.subTest("nothing looks live, and the sentence is seen wherever the page is scrolled to"):
+            page.wait_for("document.querySelector('#cameras .state').textContent.startsWith('not live')")
+            self.assertIn("brightness", page.evaluate("getComputedStyle(document.querySelector('#cameras canvas')).filter"))
+            self.assertIn("Not known", page.evaluate("document.getElementById('recording_says').textContent"))
+            page.evaluate("scrollTo(0, document.documentElement.scrollHeight)")
+            self.assertGreaterEqual(page.evaluate("document.getElementById('problem').getBoundingClientRect().top"), 0)
         page.call("Network.emulateNetworkConditions", offline=False, latency=0, downloadThroughput=-1, uploadThroughput=-1)
         page.wait_for("document.getElementById('problem').textContent === ''")
+        page.wait_for("document.querySelector('#cameras .state').textContent.startsWith('live')")
         expert = self.browser.open(self.links["expert"], SIZES[0])
         expert.wait_for("document.getElementById('enter')?.disabled === false")
         self.assertFalse(expert.evaluate("document.getElementById('for_operators').checkVisibility()"))

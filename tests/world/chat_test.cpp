@@ -2,6 +2,8 @@
 // Messages of people to all others, and raised hands, over links that break.
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "world/acts.h"
 
 namespace theatron::world {
@@ -103,6 +105,46 @@ TEST(WorldChat, ANumberOfTheirOwnTellsAProgramThatComesAgainWhatItMissed) {
     EXPECT_TRUE(world.until([&] { return ben.is_in() && texts(ben).size() == 1; }));
 }
 
+TEST(WorldChat, WhatSomebodyWroteAndReadGoesOnWithTheNextStayOfTheirRun) {
+    World world;
+    Person& anna = world.joined("Anna");
+    Person& ben = world.person("Ben");
+    ben.options.run = 77;
+    ben.join();
+    ASSERT_TRUE(world.until([&] { return ben.is_in() && ben->may_write() && anna->may_write(); }));
+    EXPECT_TRUE(anna->write_chat("read"));
+    EXPECT_TRUE(ben->write_chat("mine"));
+    EXPECT_TRUE(ben->raise_hand(true));
+    EXPECT_TRUE(world.until(
+        [&] { return texts(ben).size() == 2 && texts(anna).size() == 2 && ben->hand_raised(); }));
+    ben.path().cut();
+    EXPECT_TRUE(ben->write_chat("on its way"));
+    world.advance(1s);
+    // As a page that changes its view.
+    ben.options.chat = ben->chat_so_far();
+    ben.options.raises_hand = ben->hand_raised();
+    ben.path().mend();
+    ben.join();
+    EXPECT_TRUE(world.until([&] { return texts(anna).size() == 3 && texts(ben).size() == 3; }));
+    EXPECT_EQ(texts(anna).back(), "Ben: on its way");
+    EXPECT_EQ(texts(ben), texts(anna));
+    EXPECT_EQ(ben->chat().own.size(), 2u);
+    EXPECT_TRUE(world.until([&] { return ben->hand_raised(); }));
+    world.advance(10s);
+    EXPECT_EQ(texts(anna).size(), 3u) << "nothing twice";
+}
+
+TEST(WorldChat, TheTimesOfMessagesStayWhileTheConnectionIsLost) {
+    World world;
+    Person& anna = world.joined("Anna");
+    ASSERT_TRUE(world.until([&] { return anna->may_write() && anna->status().clock_known; }));
+    const TimePoint before = anna->now(), world_before = world.now();
+    anna.path().cut();
+    ASSERT_TRUE(world.until([&] { return !anna->status().clock_known; }));
+    const Duration passed = world.now() - world_before, shown = anna->now() - before;
+    EXPECT_LT(std::max(passed, shown) - std::min(passed, shown), 1s);
+}
+
 TEST(WorldChat, AMessageThatWaitsForAnEndedSessionIsTold) {
     World world;
     Person& anna = world.joined("Anna");
@@ -142,6 +184,23 @@ TEST(WorldChat, AHandIsSeenByAllAndAnOperatorTakesItDown) {
     EXPECT_TRUE(world.until([&] { return ben->raised_hands().size() == 1; }));
     EXPECT_NE(chief->manage(ManageAction::lower_hand, otto.number()), 0u);
     EXPECT_TRUE(world.until([&] { return !otto->hand_raised() && ben->raised_hands().empty(); }));
+}
+
+TEST(WorldChat, AHandThatAnOperatorTakesDownStaysDown) {
+    World world;
+    Person& chief = world.joined("Chief", Role::operator_);
+    Person& otto = world.joined("Otto", Role::observer);
+    ASSERT_TRUE(world.until([&] { return otto->may_write(); }));
+    EXPECT_TRUE(otto->raise_hand(true));
+    EXPECT_TRUE(world.until([&] { return otto->hand_raised(); }));
+    EXPECT_NE(chief->manage(ManageAction::lower_hand, otto.number()), 0u);
+    EXPECT_TRUE(world.until([&] { return !otto->hand_raised(); }));
+    for (int i = 0; i < 100; ++i) {
+        world.advance(100ms);
+        ASSERT_FALSE(otto->hand_raised()) << i;
+    }
+    EXPECT_TRUE(otto->raise_hand(true));
+    EXPECT_TRUE(world.until([&] { return chief->raised_hands().size() == 1; }));
 }
 
 }  // namespace

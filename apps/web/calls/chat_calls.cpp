@@ -11,18 +11,22 @@ using theatron::web::page;
 
 extern "C" {
 
-// {"messages":[{"id":,"name":,"text":,"is_own":,"age_s":}],"unsent":[]}
+// {"messages":[{"id":,"name":,"text":,"is_own":,"age_s":}],"unsent":[]}. An age is null while the
+// session's time is not known.
 EMSCRIPTEN_KEEPALIVE const char* theatron_chat() {
     nlohmann::json messages = nlohmann::json::array(), unsent = nlohmann::json::array();
     if (const client::Participant* participant = page().participant()) {
         const client::Participant::Chat chat = participant->chat();
+        const bool knows_time = participant->status().clock_known;
         for (const wire::ChatMessage& message : chat.messages)
             // JavaScript's numbers have fewer digits.
-            messages.push_back({{"id", std::to_string(message.id)},
-                                {"name", message.name},
-                                {"text", message.text},
-                                {"is_own", chat.own.contains(message.id)},
-                                {"age_s", to_seconds(participant->now() - message.at)}});
+            messages.push_back(
+                {{"id", std::to_string(message.id)},
+                 {"name", message.name},
+                 {"text", message.text},
+                 {"is_own", chat.own.contains(message.id)},
+                 {"age_s", knows_time ? nlohmann::json(to_seconds(participant->now() - message.at))
+                                      : nlohmann::json()}});
         unsent = chat.unsent;
     }
     page().text = nlohmann::json{{"messages", messages}, {"unsent", unsent}}.dump();

@@ -24,9 +24,9 @@ export function names_text(names) {
 
 export class Chat {
     version = "";   // of the messages that are shown, and the visit
-    visit = 0;
     was_open = false;
     messages = [];
+    times = new Map();  // of messages by their ids, in ms since 1970
     seen = "";      // id of the newest message that the person has seen
 
     constructor(client, sheet) {
@@ -65,10 +65,6 @@ export class Chat {
     show({ chat, hands = [] }, visit) {
         const { has_chat = false, may_write = false, version = 0, hand_raised = false } = chat ?? {};
         this.is_raised = hand_raised;
-        if (visit !== this.visit) {
-            this.visit = visit;
-            this.seen = "";
-        }
         if (this.version !== `${visit} ${version}`) {
             this.version = `${visit} ${version}`;
             const { messages, unsent } = JSON.parse(this.client.chat());
@@ -101,7 +97,10 @@ export class Chat {
 
     fill(messages, unsent) {
         this.messages = messages;
-        const written_ms = Date.now();
+        // Once it is known, the time of a message stays, also while the session's time is not known again.
+        for (const { id, age_s } of messages)
+            if (age_s !== null && !this.times.has(id))
+                this.times.set(id, Date.now() - 1000 * age_s);
         const clock = new Intl.DateTimeFormat(document.documentElement.lang, { hour: "2-digit", minute: "2-digit" });
         const item = (name, words, when, kind) => {
             const row = document.createElement("li");
@@ -116,8 +115,8 @@ export class Chat {
         };
         const list = $("chat_list"), at_end = list.scrollHeight - list.scrollTop - list.clientHeight < 40;
         list.replaceChildren(
-            ...messages.map(({ name, text: words, is_own, age_s }) => item(
-                is_own ? text("you") : name, words, clock.format(new Date(written_ms - 1000 * age_s)), is_own ? "own" : "")),
+            ...messages.map(({ id, name, text: words, is_own }) => item(
+                is_own ? text("you") : name, words, this.times.has(id) ? clock.format(this.times.get(id)) : "", is_own ? "own" : "")),
             ...unsent.map(words => item(text("not_yet_sent"), words, "", "own unsent")));
         $("no_messages").hidden = messages.length + unsent.length > 0;
         if (at_end)

@@ -12,6 +12,7 @@ const every_ms = 2000, patience_ms = 5000;
 const late_ms = 1000;          // an older picture's age is told
 const little_bytes = 5e9;      // free, of which a warning is worth
 const least_rate_seconds = 5;  // of a recording that tells how fast the disk fills
+const double_click_ms = 600;   // the same request within this time is the second half of a double click
 
 const phase_texts = { none: "recording_none", running: "recording_running", ending: "recording_ending", whole: "recording_whole",
                       incomplete: "recording_incomplete", failed: "recording_failed" };
@@ -20,6 +21,7 @@ const token = new URLSearchParams(location.hash.slice(1)).get("join") ?? "";
 let session_number = null;  // that is shown; null: the one of the link
 let facts = null;           // the host's newest answer
 let asked = 0;              // an answer of an older one is late
+let newest = { path: "", at_ms: -double_click_ms };  // request to do something
 
 function ask(path, options = {}) {
     return ask_host(token, `/operators/${path}`, { signal: AbortSignal.timeout?.(patience_ms), ...options });
@@ -31,6 +33,10 @@ function with_session(path) {
 
 // Asks the host to do something. Resolves to its answer's JSON, {} without one, or null where it refused.
 async function act(path) {
+    const now_ms = performance.now();
+    if (path === newest.path && now_ms - newest.at_ms < double_click_ms)
+        return null;
+    newest = { path, at_ms: now_ms };
     tell("");
     try {
         const answer = await ask(with_session(path), { method: "POST" });
@@ -75,9 +81,10 @@ async function follow() {
         return false;
     }
     document.body.classList.toggle("silent", !answer?.ok);
-    if (!answer?.ok)
+    if (!answer?.ok) {
         tell(text("silent"));
-    else {
+        show_silence();
+    } else {
         if ($("problem").textContent === text("silent") || $("all").hidden)
             tell("");
         show();
@@ -105,9 +112,10 @@ function show() {
     $("session_title").textContent = session.name;
     document.title = `${session.name} · ${text("title")}`;
     show_sessions(session);
-    follow_rows($("problems"), session.problems.map(sentence => ({ sentence })), ({ sentence }) => sentence,
+    const problems = [...(session.ended ? [text("session_ended")] : []), ...session.problems];
+    follow_rows($("problems"), problems.map(sentence => ({ sentence })), ({ sentence }) => sentence,
                 (row, { sentence }) => row.textContent = sentence, () => {});
-    show_recording(session.recording);
+    show_recording(session);
     show_cameras(session.cameras);
     show_people(session);
     links.follow(session.links);
@@ -134,7 +142,7 @@ function show_sessions(session) {
 
 function size_text(bytes) {
     const digits = new Intl.NumberFormat(language, { maximumFractionDigits: 1 });
-    return `${digits.format(bytes / 1e9)} GB`;
+    return bytes < 1e9 ? `${digits.format(bytes / 1e6)} MB` : `${digits.format(bytes / 1e9)} GB`;
 }
 
 function time_text(seconds) {
@@ -142,7 +150,20 @@ function time_text(seconds) {
     return `${Math.floor(seconds / 3600)}:${two(seconds / 60 % 60)}:${two(seconds % 60)}`;
 }
 
-function show_recording({ phase, file, seconds, bytes, free_bytes, problem }) {
+// The host does not answer: nothing of its last answer looks like the present.
+function show_silence() {
+    if (!facts)
+        return;
+    for (const row of $("cameras").children) {
+        row.dataset.level = "bad";
+        row.querySelector(".state").textContent = text("camera_unknown");
+    }
+    $("recording").dataset.phase = "unknown";
+    $("recording_says").textContent = text("recording_unknown");
+    $("recording_space").textContent = "";
+}
+
+function show_recording({ recording: { phase, file, seconds, bytes, free_bytes, problem }, ended }) {
     const is_on = phase === "running", is_ending = phase === "ending";
     const says = text(phase_texts[phase], { time: time_text(seconds), size: size_text(bytes), problem });
     $("recording_says").textContent = says;
@@ -158,7 +179,7 @@ function show_recording({ phase, file, seconds, bytes, free_bytes, problem }) {
     $("recording_space").classList.toggle("warning", is_known && (free_bytes < little_bytes || (hours !== null && hours < 1)));
     $("recording_file").textContent = file;
     const had_focus = $("recording").contains(document.activeElement);
-    $("start_recording").hidden = is_on || is_ending;
+    $("start_recording").hidden = is_on || is_ending || ended;
     $("stop_recording").hidden = !is_on;
     if (had_focus && !is_ending)
         $(is_on ? "stop_recording" : "start_recording").focus();
