@@ -63,7 +63,7 @@ public:
         wire::ChooseDelivery delivery{150, 0};
         bool is_page = false;   // as in Attempts
         std::uint64_t run = 0;  // as in wire::Join; 0: a number of this participant's own
-        // What this person wrote, read and raised on an earlier stay of the same run.
+        // The messages and the hand of an earlier stay of the same run.
         session::MemberChat chat = {};
         bool raises_hand = false;
         bool records = false;     // as in wire::Join

@@ -260,7 +260,7 @@ void Admission::note(Participant& participant, const wire::Join& hello,
     // The audit log names whoever sits at the host's machine so.
     std::vector<std::string> others = names_beside(participant);
     others.push_back(at_the_host);
-    // What programs call the reader in front of the reader's own messages and hand.
+    // Programs put such a word in place of their own person's name.
     for (const char* reader : {"You", "Sie", "Du", "Vous", "Toi"})
         others.emplace_back(reader);
     participant.name = told_apart(participant.given_name, others, wire::max_name);
