@@ -159,7 +159,7 @@ class WebOperators(PageCase):
         self.assertEqual((code, json.loads(out)["complete"]), (0, True), err)
         self.assertEqual(file.parent, self.folder / "host/recordings")
         self.assertEqual(file.parent.stat().st_mode & 0o777, 0o700)
-        events = [e for e in self.audited() if e["event"].startswith("recording_")]
+        events = [e for e in self.audited() if e["event"].startswith("recording_") and file.name in e["detail"]]
         self.assertEqual([(e["event"], e["by"], e["detail"]) for e in events],
                          [("recording_begun", "page of operator", file.name), ("recording_ended", "host", f"{file.name}: whole")])
         page.wait_for(f"!{ROWS % 'links'}.some(words => words.includes('the recording'))")
