@@ -35,7 +35,7 @@ protected:
             return found;
         };
         s.is_held_back = [this](const std::string& secret) { return secret == held_back; };
-        s.figures = [name] {
+        s.figures = [this, name] {
             HostFigures figures;
             figures.name = name;
             figures.cameras.resize(1);
