@@ -204,8 +204,6 @@ void run_join(const JoinFlags& flags) {
     client::Participant::Options options = participant_options(flags);
     options.link = parse_link_argument(flags.link);
     options.name = flags.name.value_or("guest");
-    if (flags.or_screen)
-        options.written = nullptr;
     visit::VoiceLine voice({flags.microphone, flags.speaker, flags.voice_frame_ms,
                             flags.push_to_talk, parse_cleaning(flags.echo_cancellation),
                             parse_spatial(flags.spatial_voices)});

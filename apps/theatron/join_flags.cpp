@@ -123,11 +123,13 @@ client::Participant::Options participant_options(const JoinFlags& flags) {
     options.keeps_cases = true;
     options.knows_studies = !flags.or_screen;
     options.shows_chat = true;
-    // A service keeps what its programs print; messages are for a person at a terminal.
-    options.written = [](const std::string& text) {
-        if (isatty(STDERR_FILENO))
-            log::say(text);
-    };
+    // A service keeps what its programs print; messages are for a person at a terminal. The OR
+    // screen shows them.
+    if (!flags.or_screen)
+        options.written = [](const std::string& text) {
+            if (isatty(STDERR_FILENO))
+                log::say(text);
+        };
     options.voice_may_record = flags.voice_may_record;
     options.takes_faces = !flags.or_screen;
     options.takes_own_faces = true;

@@ -143,7 +143,6 @@ void join_as_or_screen(const JoinFlags& flags) {
     if (!waits)
         options.link = parse_link_argument(flags.link);
     options.name = flags.name.value_or(or_screen_name);
-    options.written = nullptr;  // the screen shows them
     visit::VoiceLine voice({flags.microphone, flags.speaker, flags.voice_frame_ms,
                             flags.push_to_talk, parse_cleaning(flags.echo_cancellation),
                             parse_spatial(flags.spatial_voices)});

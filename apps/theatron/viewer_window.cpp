@@ -119,14 +119,14 @@ public:
 private:
     ViewerWindow prepared(ViewerWindow options) {
         options.join.news = [this] { window_.wake(); };
-        options.join.remark = [this, also = options.join.remark](const std::string& text) {
-            also(text);
-            remarks_.add(text);
-            window_.wake();
-        };
         options.join.written = [this](const std::string& text) {
             remarks_.add(text);
             window_.wake();
+        };
+        options.join.remark = [also = options.join.remark,
+                               shown = options.join.written](const std::string& text) {
+            also(text);
+            shown(text);
         };
         options.viewer.depth_codec = options.join.depth_codec;
         options.viewer.color_codec = options.join.color_codec;

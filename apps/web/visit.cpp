@@ -5,13 +5,12 @@
 #include <GLES3/gl3.h>
 #include <emscripten/emscripten.h>
 
-#include <cstdint>
 #include <cstdio>
-#include <random>
 #include <utility>
 
 #include "base/error.h"
 #include "base/hex_text.h"
+#include "base/random_number.h"
 #include "base/steady_clock.h"
 #include "render/gl_driver.h"
 #include "video/depth_codecs.h"
@@ -66,11 +65,6 @@ client::Participant::Options with_faces(client::Participant::Options join,
     join.takes_own_faces = true;
     join.face = face.events();
     return join;
-}
-
-std::uint64_t random_run() {
-    std::random_device random;
-    return (std::uint64_t(random()) << 32 | random()) | 1;
 }
 
 // For the next picture, a little before it may begin.
@@ -135,7 +129,7 @@ client::Participant::Options join_options(const net::Link& link, const char* nam
         theatron_give_voice(unsigned(speaker), packet.data(), int(packet.size()));
     };
     if (page().run == 0)
-        page().run = random_run();
+        page().run = random_number();
     options.run = page().run;
     options.chat = page().chat;
     options.raises_hand = std::exchange(page().hand_raised, false);
@@ -145,12 +139,9 @@ client::Participant::Options join_options(const net::Link& link, const char* nam
         if (page().flat)
             page().flat->view.note(text, steady_now());
     };
-    options.remark = [](const std::string& text) {
+    options.remark = [shown = options.written](const std::string& text) {
         std::puts(text.c_str());
-        if (page().visit)
-            page().visit->viewer.note(text, steady_now());
-        if (page().flat)
-            page().flat->view.note(text, steady_now());
+        shown(text);
     };
     return options;
 }

@@ -30,4 +30,14 @@ Utf8Character first_character(std::string_view text) {
     return {code, length, true};
 }
 
+void drop_last_character(std::string& text) {
+    const auto is_continued = [](char byte) {
+        return (static_cast<unsigned char>(byte) & 0xc0) == 0x80;
+    };
+    while (!text.empty() && is_continued(text.back()))
+        text.pop_back();
+    if (!text.empty())
+        text.pop_back();
+}
+
 }  // namespace theatron

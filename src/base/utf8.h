@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <string_view>
 
 namespace theatron {
@@ -16,5 +17,8 @@ struct Utf8Character {
 // The first character of `text`, which is not empty. In an invalid sequence the longest part that
 // could begin a character counts as one, as Unicode recommends; its code is U+FFFD.
 Utf8Character first_character(std::string_view text);
+
+// With all of its bytes; a text without any stays empty.
+void drop_last_character(std::string& text);
 
 }  // namespace theatron

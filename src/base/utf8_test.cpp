@@ -35,6 +35,17 @@ TEST(Utf8, BytesThatAreNoCharacterAreOneTogetherAsFarAsTheyCouldBegin) {
     EXPECT_EQ(bytes("\xed\xa0\x80"), 1u) << "half of a pair of UTF-16";
 }
 
+TEST(Utf8, TheLastCharacterGoesWithAllOfItsBytes) {
+    std::string text = "aß山\U0001fa7a";
+    for (const char* left : {"aß山", "aß", "a", "", ""}) {
+        drop_last_character(text);
+        EXPECT_EQ(text, left);
+    }
+    text = "a\x80\x80";
+    drop_last_character(text);
+    EXPECT_EQ(text, "") << "bytes of no character go with what is before them";
+}
+
 TEST(SmallBasicLetter, LosesCapitalsAndAccents) {
     for (const auto& [letter, small] :
          {std::pair(U'Ώ', U'ω'), std::pair(U'ς', U'σ'), std::pair(U'Ж', U'ж'),

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <map>
-#include <random>
 
 #include "base/error.h"
 #include "base/fault.h"
 #include "base/outside_text.h"
+#include "base/random_number.h"
 #include "base/steady_clock.h"
 #include "client/host_person.h"
 #include "client/participant_figures.h"
@@ -17,12 +17,6 @@
 
 namespace theatron::client {
 namespace {
-
-// A participant's connections have one number, so that the host knows them as its own; never 0.
-std::uint64_t random_run() {
-    std::random_device random;
-    return (std::uint64_t(random()) << 32 | random()) | 1;
-}
 
 std::vector<wire::Feature> features_of(const Participant::Options& options) {
     std::vector<wire::Feature> features{wire::Feature::adjusting, wire::Feature::playback,
@@ -60,7 +54,8 @@ Participant::Participant(Options options)
       session_({options_.link.token, options_.name, options_.depth_codec, options_.color_codec,
                 options_.delivery, options_.records, features_of(options_),
                 person_for_host(options_.person, options_.link),
-                options_.run ? options_.run : random_run()}),
+                // Its connections have one number, so that the host knows them as its own.
+                options_.run ? options_.run : random_number()}),
       shared_(std::make_unique<Shared>()),
       direct_reception_(options_.direct ? std::make_unique<DirectReception>(direct_events())
                                         : nullptr),
@@ -176,9 +171,7 @@ bool Participant::begin_connection(net::Client& client) {
         shared_->has_standing = false;
         shared_->status.standing = {};
         shared_->camera_wishes.clear();  // numbers of cameras may be others
-        if (shared_->clock.known())
-            shared_->last_offset = shared_->clock.offset();
-        shared_->clock = {};
+        shared_->clock.forget();
         shared_->status.round_trip = {};
         shared_->status.clock_known = false;
     }

@@ -63,7 +63,7 @@ TimePoint Participant::now() const {
 
 TimePoint Participant::session_time(TimePoint steady) const {
     const std::lock_guard lock(shared_->mutex);
-    return steady + (shared_->clock.known() ? shared_->clock.offset() : shared_->last_offset);
+    return steady + shared_->clock.offset();
 }
 
 void Participant::choose_codecs(const std::string& depth, const std::string& color) {

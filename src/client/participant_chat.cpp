@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Messages of people to all others, and raised hands.
-#include <random>
 #include <utility>
 
+#include "base/random_number.h"
 #include "base/steady_clock.h"
 #include "client/participant_shared.h"
 #include "phrases/phrase.h"
-#include "session/permissions.h"
-#include "session/room_bytes.h"
 
 namespace theatron::client {
 namespace {
@@ -16,11 +14,6 @@ namespace {
 // person's standing; and a hand that is not up after this time is raised again.
 constexpr Duration mute_patience = std::chrono::seconds(2);
 constexpr Duration hand_patience = std::chrono::seconds(3);
-
-std::uint64_t random_id() {
-    std::random_device random;
-    return std::uint64_t(random()) << 32 | random();
-}
 
 }  // namespace
 
@@ -154,7 +147,7 @@ bool Participant::may_write() const {
 bool Participant::write_chat(const std::string& text) {
     const std::lock_guard lock(shared_->mutex);
     if (!shared_->has_chat || shared_->status.standing.muted ||
-        !shared_->chat.write(text, random_id()))
+        !shared_->chat.write(text, random_number()))
         return false;
     if (shared_->client)
         shared_->client->post([this] { tell_chat(); });

@@ -2,7 +2,6 @@
 // State of a participant that several threads use.
 #pragma once
 
-#include <algorithm>
 #include <condition_variable>
 #include <deque>
 #include <map>
@@ -51,7 +50,6 @@ struct Participant::Shared {
     MomentFigures moments;
     bool reset_wanted = false;
     net::ClockSync clock;
-    Duration last_offset{};         // that was known; of an earlier connection, perhaps
     net::Client* client = nullptr;  // while one runs
     bool stopping = false;
     std::string depth_wish, color_wish;  // codecs to ask for
@@ -104,11 +102,7 @@ struct Participant::Shared {
             remarks.push_back(*left_out > 0 ? text + " (+" + std::to_string(*left_out) + ")"
                                             : text);
     }
-    bool own_hand_is_up() const {
-        const auto& raised = hands.raised();
-        return std::any_of(raised.begin(), raised.end(),
-                           [&](const auto& hand) { return hand.person == room.self(); });
-    }
+    bool own_hand_is_up() const { return hands.has(room.self()); }
     std::set<std::pair<StreamId, SettingId>> broken;  // frames of these were dropped
     std::set<StreamId> direct_streams;                // at the last tick
 };

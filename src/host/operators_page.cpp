@@ -233,11 +233,12 @@ HttpAnswer act_on_person(const HttpRequest& request, const PortSession& session,
         std::ranges::find_if(actions, [&](const auto& known) { return asked == known.first; });
     if (!id || *id == 0 || action == std::end(actions))
         return refusal(400, "Say whom this is about, and what is to be done.");
-    if (!is_there(session.figures(), ParticipantId(*id)))
+    const HostFigures figures = session.figures();
+    if (!is_there(figures, ParticipantId(*id)))
         return refusal(404, "That person has left.");
     // The host shows nothing by the link of somebody who is kept out.
     if (action->second == ManageAction::remove && &session == &who.own->second &&
-        came_by(session.figures(), ParticipantId(*id), who.link))
+        came_by(figures, ParticipantId(*id), who.link))
         return refusal(409,
                        "That person came by the link by which this page is open, which would be "
                        "closed, too. Open it by another operator's link to remove them.");

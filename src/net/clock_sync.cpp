@@ -15,6 +15,11 @@ void ClockSync::add(TimePoint local_sent, TimePoint host_received, TimePoint hos
     exchanges_[count_++ % exchanges_.size()] = {offset, round_trip};
 }
 
+void ClockSync::forget() {
+    forgotten_ = offset();
+    count_ = 0;
+}
+
 const ClockSync::Exchange& ClockSync::best() const {
     const auto end = exchanges_.begin() + std::ptrdiff_t(std::min(count_, exchanges_.size()));
     return *std::min_element(exchanges_.begin(), end, [](const Exchange& a, const Exchange& b) {
@@ -23,7 +28,7 @@ const ClockSync::Exchange& ClockSync::best() const {
 }
 
 Duration ClockSync::offset() const {
-    return known() ? best().offset : Duration(0);
+    return known() ? best().offset : forgotten_;
 }
 
 Duration ClockSync::error_bound() const {

@@ -19,9 +19,13 @@ public:
     void add(TimePoint local_sent, TimePoint host_received, TimePoint host_sent,
              TimePoint local_received);
 
+    // For another connection: its session may have another clock.
+    void forget();
+
     bool known() const { return count_ > 0; }
 
-    // Session time minus local time. Zero if not known.
+    // Session time minus local time. Where it is not known, what it was before forget(); at first
+    // zero.
     Duration offset() const;
 
     // Largest difference between session time and local + offset(): half of the round trip of
@@ -39,6 +43,7 @@ private:
     // Clocks drift by some 50 us a second: only the recent exchanges count.
     std::array<Exchange, 16> exchanges_{};
     std::size_t count_ = 0;
+    Duration forgotten_{};  // the offset
 };
 
 }  // namespace theatron::net

@@ -83,6 +83,21 @@ TEST(ClockSync, FindsTheOffsetWithinItsBound) {
     EXPECT_LT(sync.error_bound(), 8ms);
 }
 
+TEST(ClockSync, KeepsTheOffsetOfAnEarlierConnectionUntilItKnowsAnother) {
+    ClockSync sync;
+    sync.forget();
+    EXPECT_EQ(sync.offset(), Duration(0));
+    sync.add(from_us(100), from_us(1100), from_us(1100), from_us(100));
+    for (int i = 0; i < 2; ++i) {
+        sync.forget();
+        EXPECT_FALSE(sync.known());
+        EXPECT_EQ(sync.offset(), 1000us) << i;
+        EXPECT_EQ(sync.error_bound(), Duration::max());
+    }
+    sync.add(from_us(100), from_us(600), from_us(600), from_us(200));
+    EXPECT_EQ(sync.offset(), 450us);
+}
+
 TEST(ClockSync, IgnoresImpossibleAnswers) {
     ClockSync sync;
     sync.add(from_us(100), from_us(50), from_us(50), from_us(90));

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/utf8.h"
 #include "phrases/phrase.h"
 #include "window/imgui_pass_native.h"
 #include "window/panel_colors_native.h"
@@ -54,13 +55,8 @@ std::string Painter::shortened(const ImFont* font, const std::string& words, flo
         return words;
     std::string part = words;
     const std::string dots = "\u2026";
-    while (!part.empty() && measure(font, part + dots).x > width) {
-        // Whole characters of UTF-8.
-        while (!part.empty() && (static_cast<unsigned char>(part.back()) & 0xc0) == 0x80)
-            part.pop_back();
-        if (!part.empty())
-            part.pop_back();
-    }
+    while (!part.empty() && measure(font, part + dots).x > width)
+        drop_last_character(part);
     while (!part.empty() && part.back() == ' ')
         part.pop_back();
     return part + dots;

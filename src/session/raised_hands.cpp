@@ -6,6 +6,18 @@
 #include "session/room_bytes.h"
 
 namespace theatron::session {
+namespace {
+
+bool is_among(const std::vector<RaisedHands::Hand>& hands, ParticipantId person) {
+    return std::any_of(hands.begin(), hands.end(),
+                       [&](const auto& hand) { return hand.person == person; });
+}
+
+}  // namespace
+
+bool RaisedHands::has(ParticipantId person) const {
+    return is_among(raised_, person);
+}
 
 std::vector<RaisedHands::Hand> RaisedHands::take(const RoomObjects& objects) {
     std::vector<Hand> now;
@@ -13,14 +25,10 @@ std::vector<RaisedHands::Hand> RaisedHands::take(const RoomObjects& objects) {
         if (object.kind == ObjectKind::person && !is_recorded(id))
             if (const auto facts = decode_person(object.properties); facts && facts->hand_raised)
                 now.push_back({object.creator, facts->name});
-    const auto has = [](const std::vector<Hand>& hands, ParticipantId person) {
-        return std::any_of(hands.begin(), hands.end(),
-                           [&](const Hand& hand) { return hand.person == person; });
-    };
-    std::erase_if(raised_, [&](const Hand& hand) { return !has(now, hand.person); });
+    std::erase_if(raised_, [&](const Hand& hand) { return !is_among(now, hand.person); });
     std::vector<Hand> news;
     for (const Hand& hand : now)
-        if (!has(raised_, hand.person))
+        if (!has(hand.person))
             news.push_back(hand);
     raised_.insert(raised_.end(), news.begin(), news.end());
     return news;

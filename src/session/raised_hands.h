@@ -23,6 +23,7 @@ public:
     // who have raised a hand since the last call.
     std::vector<Hand> take(const RoomObjects& objects);
     const std::vector<Hand>& raised() const { return raised_; }
+    bool has(ParticipantId person) const;
 
 private:
     std::vector<Hand> raised_;

@@ -2,21 +2,9 @@
 #include "viewer/text_draft.h"
 
 #include "base/outside_text.h"
+#include "base/utf8.h"
 
 namespace theatron::viewer {
-namespace {
-
-void erase_last_character(std::string& text) {
-    const auto is_continued = [](char byte) {
-        return (static_cast<unsigned char>(byte) & 0xC0) == 0x80;
-    };
-    while (!text.empty() && is_continued(text.back()))
-        text.pop_back();
-    if (!text.empty())
-        text.pop_back();
-}
-
-}  // namespace
 
 TextDraft::Result TextDraft::take(const window::FormKeyPress& press) {
     switch (press.key) {
@@ -24,7 +12,7 @@ TextDraft::Result TextDraft::take(const window::FormKeyPress& press) {
             text_ = clean_text(text_ + press.text, most_characters_);
             break;
         case window::FormKey::backspace:
-            erase_last_character(text_);
+            drop_last_character(text_);
             break;
         case window::FormKey::enter:
             return Result::finished;

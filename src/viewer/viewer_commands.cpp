@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The commands of the panels' buttons, carried out.
+#include <type_traits>
+
 #include "phrases/phrase.h"
 #include "viewer/case_actions.h"
 #include "viewer/screen_panel.h"
@@ -8,14 +10,24 @@
 
 namespace theatron::viewer {
 
+namespace {
+
+template <class Command, class... Others>
+constexpr bool is_one_of = (std::is_same_v<Command, Others> || ...);
+
+// Commands on panels and words alone are carried out also while there is no picture.
+template <class Command>
+constexpr bool needs_no_picture =
+    is_one_of<Command, PressKey, ShowSheet, StudyPress, WriteText, SendText, RaiseHand, TourPress>;
+
+}  // namespace
+
 void Viewer::carry_out(const RoomCommand& command, TimePoint now) {
-    const bool needs_picture =
-        !std::holds_alternative<PressKey>(command) && !std::holds_alternative<ShowSheet>(command) &&
-        !std::holds_alternative<StudyPress>(command) &&
-        !std::holds_alternative<WriteText>(command) && !std::holds_alternative<SendText>(command) &&
-        !std::holds_alternative<RaiseHand>(command) && !std::holds_alternative<TourPress>(command);
-    if (eye_.is_placed() || !needs_picture)
-        std::visit([&](const auto& one) { on(one, now); }, command);
+    const auto carry = [&]<class Command>(const Command& one) {
+        if (eye_.is_placed() || needs_no_picture<Command>)
+            on(one, now);
+    };
+    std::visit(carry, command);
 }
 
 void Viewer::on(const StudyPress& press, TimePoint now) {

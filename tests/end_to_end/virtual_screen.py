@@ -8,6 +8,7 @@ import subprocess
 import tempfile
 
 import patience
+from theatron_process import write_png
 
 
 class VirtualScreen:
@@ -65,6 +66,11 @@ class VirtualScreen:
             start = header_size + 12 * colors
             return [image[start + y * stride + 4 * left:start + y * stride + 4 * (left + width)]
                     for y in range(top, top + height)]
+
+    def save(self, path, width, height):
+        """A PNG file of this part of the screen, from its corner."""
+        rgb = [b"".join(row[x + 2:x - 1 if x else None:-1] for x in range(0, 4 * width, 4)) for row in self.pixels(0, 0, width, height)]
+        write_png(pathlib.Path(path), width, height, 8, 3, rgb)
 
     def has_bar(self, width, height):
         """The whole bar of a session is drawn in a window of less than 870 pixels: "More", its last button, has the last ninth

@@ -6,7 +6,7 @@ import shutil
 import tempfile
 import unittest
 
-from theatron_process import Process, host, make_recording, wait_until, write_png
+from theatron_process import Process, host, make_recording, wait_until
 from virtual_screen import VirtualScreen, brightness
 
 WIDTH, HEIGHT = 1280, 720
@@ -40,9 +40,7 @@ class WindowChat(unittest.TestCase):
             ada.say("chat Danke")
             ada.wait_for(lambda f: len(f["chat"]["messages"]) == 2)
             if PICTURES:
-                rows = self.screen.pixels(0, 0, WIDTH, HEIGHT)
-                rgb = [b"".join(row[x + 2:x - 1 if x else None:-1] for x in range(0, 4 * WIDTH, 4)) for row in rows]
-                write_png(pathlib.Path(PICTURES) / "window_chat.png", WIDTH, HEIGHT, 8, 3, rgb)
+                self.screen.save(pathlib.Path(PICTURES) / "window_chat.png", WIDTH, HEIGHT)
             self.screen.do("key", "Escape", "key", "n")
             ada.wait_for(bricks)
             with self.subTest("a hand"):

@@ -6,7 +6,7 @@ import shutil
 import tempfile
 import unittest
 
-from theatron_process import Process, host, make_recording, wait_until, write_png
+from theatron_process import Process, host, make_recording, wait_until
 from virtual_screen import VirtualScreen, brightness
 from window_bar_test import BUTTON
 
@@ -33,9 +33,7 @@ class WindowTour(unittest.TestCase):
 
     def picture(self, name):
         if PICTURES:
-            rows = self.screen.pixels(0, 0, WIDTH, HEIGHT)
-            rgb = [b"".join(row[x + 2:x - 1 if x else None:-1] for x in range(0, 4 * WIDTH, 4)) for row in rows]
-            write_png(pathlib.Path(PICTURES) / f"{name}.png", WIDTH, HEIGHT, 8, 3, rgb)
+            self.screen.save(pathlib.Path(PICTURES) / f"{name}.png", WIDTH, HEIGHT)
 
     def edge(self):
         """Where the orange frame of a notice with buttons begins, above the picture; nothing without one."""

@@ -1,26 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // Messages of people to all others, and raised hands. Texts of others are only ever text.
+import { listed } from "./listed.js";
+import { set_text } from "./set_text.js";
 import { text } from "./texts.js";
 import { by_touch } from "./touch_mode.js";
 
 const $ = id => document.getElementById(id);
-
-function set_text(place, content) {
-    if (place.textContent !== content)
-        place.textContent = content;
-}
 
 // The messages of others behind the newest one that the person has seen, by its id; all, if it is not there.
 export function unseen_of(messages, seen) {
     return messages.slice(messages.findIndex(({ id }) => id === seen) + 1).filter(({ is_own }) => !is_own).length;
 }
 
-// Many names would cover the picture.
 const most_names = 3;
-export function names_text(names) {
-    const more = names.length - most_names;
-    return names.slice(0, more > 0 ? most_names : names.length).join(", ") + (more > 0 ? `, ${text("and_more", { count: more })}` : "");
-}
+export const names_text = names => listed(names, most_names);
 
 export class Chat {
     version = "";   // of the messages that are shown, and the visit

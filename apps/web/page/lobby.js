@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The session as the form shows it before one enters: its people, cameras and picture, by the token in a header.
 import { ask_host, draw_answer } from "./host_request.js";
+import { listed } from "./listed.js";
 import { text, texts } from "./texts.js";
 
 const $ = id => document.getElementById(id);
@@ -126,8 +127,5 @@ function lines_of({ ended, held_back, asks, people, cameras, people_count }, rol
 }
 
 function named(all, line_of) {
-    const lines = all.slice(0, most_named).map(line_of);
-    if (all.length > most_named)
-        lines.push(text("and_more", { count: all.length - most_named }));
-    return lines.join(", ");
+    return listed(all.map(line_of), most_named);
 }

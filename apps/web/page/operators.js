@@ -3,7 +3,7 @@
 // of an operator's link in a header. The token stands behind '#' in the address, which no request and no referrer contains.
 import { ask_host, draw_answer } from "./host_request.js";
 import { Links } from "./operators_links.js";
-import { add_button, add_words, follow_rows, set_button } from "./operators_rows.js";
+import { add_button, add_words, double_click_ms, follow_rows, set_button } from "./operators_rows.js";
 import { text } from "./operators_texts.js";
 import { language, texts } from "./texts.js";
 
@@ -12,7 +12,6 @@ const every_ms = 2000, patience_ms = 5000;
 const late_ms = 1000;          // an older picture's age is told
 const little_bytes = 5e9;      // free, of which a warning is worth
 const least_rate_seconds = 5;  // of a recording that tells how fast the disk fills
-const double_click_ms = 600;   // the same request within this time is the second half of a double click
 
 const phase_texts = { none: "recording_none", running: "recording_running", ending: "recording_ending", whole: "recording_whole",
                       incomplete: "recording_incomplete", failed: "recording_failed" };
@@ -32,6 +31,7 @@ function with_session(path) {
 }
 
 // Asks the host to do something. Resolves to its answer's JSON, {} without one, or null where it refused.
+// The second half of a double click, which asks for the same, is not sent.
 async function act(path) {
     const now_ms = performance.now();
     if (path === newest.path && now_ms - newest.at_ms < double_click_ms)

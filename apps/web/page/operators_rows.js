@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lists of the operators' page that follow the host's facts, without taking the focus or a question from a row that stays.
 
-const sure_ms = 5000, double_click_ms = 500;
+const sure_ms = 5000;
+
+// A second click within this time is the second half of a double click.
+export const double_click_ms = 500;
 
 // Makes, moves and removes the children of `list`: one for each of `items`, by `key_of`. `make` fills a new `li`,
 // `update` sets what may change in it.

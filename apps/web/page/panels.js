@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The panels around the picture, from the client's state. Texts of others are only ever text.
 import { judge, seconds, show_dot } from "./dot.js";
+import { set_text } from "./set_text.js";
 import { text, texts } from "./texts.js";
 import { by_touch } from "./touch_mode.js";
 
@@ -97,11 +98,6 @@ function subject_of(panel, i) {
 
 function place_of(panel, i) {
     return `${panel.title}/${subject_of(panel, i)}`;
-}
-
-function set_text(place, content) {
-    if (place.textContent !== content)
-        place.textContent = content;
 }
 
 const age = ms => ms === null ? "–" : seconds(ms);  // the session's time may not be known yet

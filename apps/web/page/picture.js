@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The panel "Picture": the way of drawing, the codecs and the share of pixels, and what came of each choice.
+import { set_text } from "./set_text.js";
 import { text } from "./texts.js";
 
 const $ = id => document.getElementById(id);
@@ -38,17 +39,17 @@ export class PicturePanel {
             $(`${what}_row`).hidden = is_flat;
         this.select("color", color?.is_chosen ? color.asked : "auto");
         const now = came(cameras.map(c => c.color)), why = color?.is_chosen ? "" : color?.reason;
-        set($("color_now"), now && why ? text("also", { first: now, second: why }) : now || why || "");
+        set_text($("color_now"), now && why ? text("also", { first: now, second: why }) : now || why || "");
         if (is_flat)
             return;
         this.select("renderer", chosen.renderer);
         this.select("depth", chosen.depth);
         this.select("scale", String(chosen.scale));
         $("renderer_choice").disabled = chosen.renderer_locked;
-        set($("renderer_now"), chosen.renderer_locked ? text("forced_by_host", { name: state.renderer })
+        set_text($("renderer_now"), chosen.renderer_locked ? text("forced_by_host", { name: state.renderer })
             : chosen.renderer === "auto" ? text("now", { name: state.renderer }) : "");
-        set($("depth_now"), came(cameras.map(c => c.depth)));
-        set($("scale_now"), text("now", { name: percent(state.scale) }) + (state.depth_step > 1 ? `, ${text("fewer_points")}` : ""));
+        set_text($("depth_now"), came(cameras.map(c => c.depth)));
+        set_text($("scale_now"), text("now", { name: percent(state.scale) }) + (state.depth_step > 1 ? `, ${text("fewer_points")}` : ""));
     }
 
     // A value that came otherwise (by a key, or by the link) is among them, too.
@@ -80,9 +81,4 @@ function name_of(what, value) {
     if (what === "scale")
         return value === "0" ? text("automatic") : percent(Number(value));
     return value === "auto" ? text("automatic") : value;
-}
-
-function set(place, content) {
-    if (place.textContent !== content)
-        place.textContent = content;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Three steps for somebody who is here for the first time: how to look around, to point and speak, to leave. The card lies on
 // the picture, above the buttons that it names, and takes neither keys nor clicks but those on its own buttons.
+import { set_text } from "./set_text.js";
 import { store, stored } from "./storage.js";
 import { text } from "./texts.js";
 
@@ -71,9 +72,9 @@ export class Tour {
     // Buttons come and go with the role and the way of seeing.
     fill() {
         const [key, names] = content_of(this.step, this.way);
-        set_text("tour_title", text("tour_step", { step: this.step, steps }));
-        set_text("tour_text", text(key));
-        set_text("tour_next", text(this.step < steps ? "tour_next" : "tour_done"));
+        set_text($("tour_title"), text("tour_step", { step: this.step, steps }));
+        set_text($("tour_text"), text(key));
+        set_text($("tour_next"), text(this.step < steps ? "tour_next" : "tour_done"));
         $("tour_skip").hidden = this.step === steps;
         this.name(names);
     }
@@ -82,9 +83,4 @@ export class Tour {
         for (const button of document.querySelectorAll("#bar button"))
             button.classList.toggle("named", ids.includes(button.id));
     }
-}
-
-function set_text(id, content) {
-    if ($(id).textContent !== content)
-        $(id).textContent = content;
 }
