@@ -7,7 +7,6 @@
 
 #include <cstdint>
 #include <cstdio>
-#include <random>
 #include <utility>
 
 #include "base/error.h"
@@ -66,11 +65,6 @@ client::Participant::Options with_faces(client::Participant::Options join,
     join.takes_own_faces = true;
     join.face = face.events();
     return join;
-}
-
-std::uint64_t random_run() {
-    std::random_device random;
-    return (std::uint64_t(random()) << 32 | random()) | 1;
 }
 
 // For the next picture, a little before it may begin.
@@ -134,8 +128,6 @@ client::Participant::Options join_options(const net::Link& link, const char* nam
     options.voice = [](ParticipantId speaker, ByteView packet) {
         theatron_give_voice(unsigned(speaker), packet.data(), int(packet.size()));
     };
-    if (page().run == 0)
-        page().run = random_run();
     options.run = page().run;
     options.chat = page().chat;
     options.raises_hand = std::exchange(page().hand_raised, false);
