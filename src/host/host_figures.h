@@ -45,6 +45,7 @@ struct HostFigures {
         wire::Role role{};
         bool muted = false;
         std::string link = {};           // the name of the link by which it came
+        bool hand_raised = false;
         std::set<CameraId> direct = {};  // whose pictures come directly from their publisher
     };
     std::vector<Participant> participants;
