@@ -42,7 +42,7 @@ export class Run {
             this.begin();
     }
 
-    // Whoever enters next in this tab is somebody else.
+    // Another stay begins: the next person in this tab is somebody else.
     begin() {
         this.number = fresh();
         take(this.number);
