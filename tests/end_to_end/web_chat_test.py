@@ -77,7 +77,7 @@ class WebChat(PageCase):
             ben.say("chat theirs")
             page.wait_for(f"{LIST}.join() === 'mine,theirs'")
             page.call("Page.reload")
-            page.wait_for("document.readyState === 'complete' && theatron.state.phase === 'left'")
+            page.wait_for("document.readyState === 'complete' && globalThis.theatron?.state.phase === 'left'")
             ben.say("chat meanwhile")
             ben.wait_for(lambda f: len(f["chat"]["messages"]) == 3)
             page.enter("Ada", way="room")
@@ -96,7 +96,7 @@ class WebChat(PageCase):
             with self.subTest("a tab that was duplicated is another stay"):
                 run = page.evaluate("theatron.run.number")
                 copy = self.browser.open(self.links["expert"], SIZES[0])
-                copy.wait_for("!!theatron.run")
+                copy.wait_for("!!globalThis.theatron?.run")
                 copy.evaluate(f"sessionStorage.setItem(theatron.run.key, '{run}')")
                 self.assertNotEqual(copy.evaluate("theatron.run.find().then(() => theatron.run.number)"), run)
             self.assertEqual(page.problems, [])
