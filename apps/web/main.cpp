@@ -7,6 +7,7 @@
 // same program, of which they call the functions of calls/decoder_calls.cpp alone.
 #include <emscripten/emscripten.h>
 
+#include <cstdlib>
 #include <memory>
 #include <string>
 #include <utility>
@@ -90,8 +91,18 @@ EMSCRIPTEN_KEEPALIVE void theatron_flat_next() {
         page().flat->view.next_camera();
 }
 
+// The stay is over: nothing of it goes on with the next one.
 EMSCRIPTEN_KEEPALIVE void theatron_leave() {
-    web::guarded([] { page().leave(); });
+    web::guarded([] {
+        page().leave();
+        page().chat = {};
+        page().hand_raised = false;
+    });
+}
+
+// For the joins that follow: 16 hex digits, as in wire::Join::run. Another number is another stay.
+EMSCRIPTEN_KEEPALIVE void theatron_use_run(const char* hex) {
+    page().run = std::strtoull(hex, nullptr, 16);
 }
 
 // In the page's rhythm, with the pixels of the canvas: begins the next picture unless the GPU still

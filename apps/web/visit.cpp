@@ -10,7 +10,6 @@
 
 #include "base/error.h"
 #include "base/hex_text.h"
-#include "base/random_number.h"
 #include "base/steady_clock.h"
 #include "render/gl_driver.h"
 #include "video/depth_codecs.h"
@@ -128,8 +127,6 @@ client::Participant::Options join_options(const net::Link& link, const char* nam
     options.voice = [](ParticipantId speaker, ByteView packet) {
         theatron_give_voice(unsigned(speaker), packet.data(), int(packet.size()));
     };
-    if (page().run == 0)
-        page().run = random_number();
     options.run = page().run;
     options.chat = page().chat;
     options.raises_hand = std::exchange(page().hand_raised, false);

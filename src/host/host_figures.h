@@ -44,7 +44,8 @@ struct HostFigures {
         std::uint64_t refused_pictures = 0;       // of its face or screen, beyond their limits
         wire::Role role{};
         bool muted = false;
-        std::string link = {};           // the name of the link by which it came
+        std::string link = {};  // the name of the link by which it came
+        bool hand_raised = false;
         std::set<CameraId> direct = {};  // whose pictures come directly from their publisher
     };
     std::vector<Participant> participants;

@@ -37,7 +37,8 @@ void Host::Impl::note_participants() {
             list.push_back({id, participant.name, session->step_of(id), participant.report,
                             participant.renderer, participant.budget.refused(), participant.denied,
                             participant.refused_pictures, participant.role, participant.muted,
-                            participant.link, direct_cameras(id, participant.report)});
+                            participant.link, participant.hand_raised,
+                            direct_cameras(id, participant.report)});
     participants = list.size();
     const auto& all = session->participants();
     media.keep_everything(std::any_of(all.begin(), all.end(), [](const auto& entry) {

@@ -144,7 +144,8 @@ nlohmann::json session_json(const Sessions::value_type& entry, const Operator& w
         people.push_back({{"id", int(person.id)},
                           {"name", person.name},
                           {"role", wire::text_of(person.role)},
-                          {"muted", person.muted}});
+                          {"muted", person.muted},
+                          {"hand", person.hand_raised}});
     for (const wire::Visitor& visitor : figures.visitors)
         visitors.push_back(visitor_json(visitor));
     for (const KnownLink& link : session.links())
@@ -225,7 +226,7 @@ HttpAnswer act_on_person(const HttpRequest& request, const PortSession& session,
     constexpr std::pair<const char*, ManageAction> actions[] = {
         {"admit", ManageAction::admit},   {"turn_away", ManageAction::turn_away},
         {"mute", ManageAction::mute},     {"unmute", ManageAction::unmute},
-        {"remove", ManageAction::remove},
+        {"remove", ManageAction::remove}, {"lower", ManageAction::lower_hand},
     };
     const auto id = number_in<std::uint32_t>(net::query_value(request.target, "id"));
     const std::string asked = net::query_value(request.target, "do");

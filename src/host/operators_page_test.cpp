@@ -193,19 +193,19 @@ TEST_F(Operators, MakeShowAndRevokeLinks) {
 }
 
 TEST_F(Operators, DecideOnPeople) {
-    for (const char* what : {"admit", "turn_away", "mute", "unmute", "remove"})
+    for (const char* what : {"admit", "turn_away", "mute", "unmute", "remove", "lower"})
         EXPECT_EQ(act(std::string("person?id=8&do=") + what).status, 204);
-    EXPECT_THAT(done,
-                ElementsAre("OR 3: 1 on 8 by page of operator", "OR 3: 2 on 8 by page of operator",
-                            "OR 3: 3 on 8 by page of operator", "OR 3: 4 on 8 by page of operator",
-                            "OR 3: 6 on 8 by page of operator"));
+    EXPECT_THAT(
+        done, ElementsAre("OR 3: 1 on 8 by page of operator", "OR 3: 2 on 8 by page of operator",
+                          "OR 3: 3 on 8 by page of operator", "OR 3: 4 on 8 by page of operator",
+                          "OR 3: 6 on 8 by page of operator", "OR 3: 10 on 8 by page of operator"));
     for (const char* wrong : {"person?id=8", "person?do=mute", "person?id=0&do=mute",
                               "person?id=x&do=mute", "person?id=8&do=end_session"})
         EXPECT_EQ(act(wrong).status, 400) << wrong;
     EXPECT_EQ(act("person?id=9&do=mute").status, 404) << "has left";
     link_of_ada = "operator";
     EXPECT_EQ(act("person?id=7&do=remove").status, 409) << "the page would be closed, too";
-    EXPECT_EQ(done.size(), 5u);
+    EXPECT_EQ(done.size(), 6u);
     EXPECT_EQ(act("person?id=7&do=mute").status, 204);
     link_of_ada = "expert";
     EXPECT_EQ(act("person?id=7&do=remove").status, 204);

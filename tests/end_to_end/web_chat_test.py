@@ -66,6 +66,41 @@ class WebChat(PageCase):
             self.assertEqual(page.problems, [])
             self.leave(page)
 
+    def test_a_page_that_is_loaded_again_has_the_messages_of_its_stay_and_nobody_else_has_them(self):
+        heads = "[...document.querySelectorAll('#chat_list li .detail')].map(p => p.textContent.split(' ')[0])"
+        with self.other("Ben") as ben:
+            ben.wait_for(lambda f: f["chat"]["may_write"])
+            page = self.enter()
+            page.open_sheet("chat")
+            self.write(page, "mine")
+            ben.wait_for(lambda f: len(f["chat"]["messages"]) == 1)
+            ben.say("chat theirs")
+            page.wait_for(f"{LIST}.join() === 'mine,theirs'")
+            page.call("Page.reload")
+            page.wait_for("document.readyState === 'complete' && globalThis.theatron?.state.phase === 'left'")
+            ben.say("chat meanwhile")
+            ben.wait_for(lambda f: len(f["chat"]["messages"]) == 3)
+            page.enter("Ada", way="room")
+            page.wait_for("theatron.state.phase === 'joined' && theatron.state.chat.may_write")
+            page.open_sheet("chat")
+            page.wait_for(f"{LIST}.join() === 'mine,theirs,meanwhile'")
+            self.assertEqual(page.evaluate(heads), ["You", "Ben", "Ben"])
+            ben.wait_for(lambda f: [p["name"] for p in f["room"]["people"]].count("Ada") == 1)
+            with self.subTest("whoever enters next in this tab"):
+                self.leave(page)
+                page.enter("Eva", way="room")
+                page.wait_for("theatron.state.phase === 'joined' && theatron.state.chat.may_write")
+                ben.say("chat for Eva")
+                page.open_sheet("chat")
+                page.wait_for(f"{LIST}.join() === 'for Eva'")
+            with self.subTest("a tab that was duplicated is another stay"):
+                run = page.evaluate("theatron.run.number")
+                copy = self.browser.open(self.links["expert"], SIZES[0])
+                copy.wait_for("!!globalThis.theatron?.run")
+                copy.evaluate(f"sessionStorage.setItem(theatron.run.key, '{run}')")
+                self.assertNotEqual(copy.evaluate("theatron.run.find().then(() => theatron.run.number)"), run)
+            self.assertEqual(page.problems, [])
+
     def test_messages_are_counted_and_names_are_few(self):
         page = self.browser.open(self.links["expert"], SIZES[0])
         page.wait_for("document.readyState === 'complete' && !document.getElementById('enter')?.disabled")

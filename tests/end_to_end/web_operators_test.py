@@ -238,6 +238,18 @@ class WebOperators(PageCase):
                                 page.screenshot(pathlib.Path(PICTURES) / f"operators_{language}_{size[0]}_{scheme}.png")
                     page.close()
 
+    def test_a_raised_hand_is_shown_and_taken_down(self):
+        with self.member(self.links["expert"], "Hanna") as hanna:
+            hanna.wait_for(lambda f: f["phase"] == "joined" and f["chat"]["may_write"])
+            page = self.opened()
+            row = self.in_row("people", "Hanna", "lower")
+            page.wait_for(f"{row}?.hidden")
+            hanna.say("hand up")
+            page.wait_for(f"{ROWS % 'people'}.some(words => words.startsWith('Hanna') && words.includes('hand is up')) && !{row}.hidden")
+            self.click(page, row)
+            hanna.wait_for(lambda f: not any(p["hand_raised"] for p in f["room"]["people"]))
+            page.wait_for(f"{row}.hidden")
+
     def test_a_double_click_makes_one_link(self):
         page = self.opened()
         count = page.evaluate("document.querySelectorAll('#links > li').length")

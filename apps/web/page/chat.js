@@ -22,8 +22,9 @@ export class Chat {
     times = new Map();  // of messages by their ids, in ms since 1970
     seen = "";      // id of the newest message that the person has seen
 
-    constructor(client, sheet) {
-        Object.assign(this, { client, sheet });
+    // `run`: of the page (run.js).
+    constructor(client, sheet, run) {
+        Object.assign(this, { client, sheet, run });
         $("chat_form").addEventListener("submit", event => {
             event.preventDefault();
             this.write();
@@ -89,6 +90,14 @@ export class Chat {
     }
 
     fill(messages, unsent) {
+        // Also those that were written before the page was loaded again.
+        const own = this.run.own;
+        for (const message of messages) {
+            message.is_own ||= own.has(message.id);
+            if (message.is_own)
+                own.add(message.id);
+        }
+        this.run.own = own;
         this.messages = messages;
         // Once it is known, the time of a message stays, also while the session's time is not known again.
         for (const { id, age_s } of messages)

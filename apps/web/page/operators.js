@@ -224,8 +224,8 @@ async function show_pictures() {
 function show_people({ people, visitors }) {
     $("nobody").hidden = people.length + visitors.length > 0;
     const manage = (id, what) => () => act(`person?id=${id}&do=${what}`);
-    const line = ({ name, role, muted, records }) => `${name ?? ""} (${texts.roles[role] ?? role})`
-        + (muted ? ` · ${text("muted")}` : "") + (records ? ` · ${text("records")}` : "");
+    const line = ({ name, role, muted, records, hand }) => `${name ?? ""} (${texts.roles[role] ?? role})`
+        + (hand ? ` · ${text("hand")}` : "") + (muted ? ` · ${text("muted")}` : "") + (records ? ` · ${text("records")}` : "");
     follow_rows($("visitors"), visitors, ({ id }) => id, (row, { id }) => {
         const { buttons } = add_words(row);
         add_button(buttons, "admit", text("admit"), manage(id, "admit")).className = "first";
@@ -234,10 +234,12 @@ function show_people({ people, visitors }) {
     follow_rows($("people"), people, ({ id }) => id, (row, { id }) => {
         const { buttons } = add_words(row);
         add_button(buttons, "mute", "", () => manage(id, "muted" in row.dataset ? "unmute" : "mute")());
+        add_button(buttons, "lower", text("lower"), manage(id, "lower"));
         add_button(buttons, "remove", text("remove"), manage(id, "remove"), text("remove_sure"));
     }, (row, person) => {
         row.toggleAttribute("data-muted", person.muted);
         row.querySelector(".words").textContent = line(person);
+        row.querySelector("[data-does=lower]").hidden = !person.hand;
         row.querySelector("[data-does=mute]").textContent = text(person.muted ? "unmute" : "mute");
     });
 }

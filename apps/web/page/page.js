@@ -16,6 +16,7 @@ import { Person } from "./person.js";
 import { PicturePanel } from "./picture.js";
 import { put_bytes, with_patience, with_program } from "./program.js";
 import { ask_for_right_link } from "./right_link.js";
+import { Run } from "./run.js";
 import { save_picture } from "./saved.js";
 import { Screen } from "./screen.js";
 import { Sheet } from "./sheet.js";
@@ -84,6 +85,7 @@ async function load_client() {
         reset_figures: [null, []],
         speak: [null, [...numbers(4), "array", "number"]],
         allow_voice_recording: [null, numbers(1)],
+        use_run: [null, ["string"]],
         chat: ["string", []],
         write_chat: ["number", ["string"]],
         raise_hand: [null, numbers(1)],
@@ -143,7 +145,7 @@ function run({ client, voice, face, screen, module, flat }) {
         $("help_text").scrollTop = 0;
     };
     const sheet = page.sheet = new Sheet(name => text(titles[name]), () => next_texts = 0);
-    const chat = page.chat = new Chat(client, sheet);
+    const chat = page.chat = new Chat(client, sheet, page.run);
     const tour = page.tour = new Tour(() => $(page.way === "flat" ? "flat" : "view"));
     $("show_tour").addEventListener("click", () => {
         sheet.close();
@@ -476,6 +478,7 @@ function enter(client) {
     $("view").hidden = is_flat;
     $("flat").hidden = !is_flat;
     $(is_flat ? "flat" : "view").focus();
+    client.use_run(page.run.number);
     const person = [host, port, link.get("join"), $("name").value.trim(), page.person.id];
     const color = [link.get("color") ?? "auto", page.has_h264() ? 1 : 0];
     if (is_flat)
@@ -494,6 +497,7 @@ function follow_way(face) {
 }
 
 function leave({ voice, face, screen }, problem) {
+    page.run.begin();
     voice.leave();
     face.hide();
     screen.hide();
@@ -535,6 +539,7 @@ function follow_role(role) {
 async function main() {
     const token = link.get("join"), loading = token && load_client();
     page.person = token && await Person.of(token);
+    page.run = page.person && new Run(page.person.key);
     document.documentElement.lang = language;
     follow_touch(() => {
         document.body.classList.toggle("touch", by_touch());
@@ -595,6 +600,7 @@ async function main() {
             page.voice = voice;
             page.voice_may_record = $("may_record").checked && page.role !== "observer";
             voice.set_push_to_talk($("pushes").checked);
+            await page.run.find();
             $("problem").textContent = "";
             $("lobby").hidden = true;
             store("way", $("way").value);
