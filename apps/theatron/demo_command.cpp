@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <iterator>
+#include <optional>
 #include <thread>
 
 #include "base/error.h"
@@ -95,30 +96,38 @@ void show_pictures(const DemoFlags& flags, const std::filesystem::path& folder,
 
     output::print("Pictures of what the viewer sees are written to " + folder.string() + "/ :\n");
     const TimePoint begin = steady_now();
-    TimePoint next_line{}, next_picture = begin + 1s;
+    TimePoint next_line{}, next_views = begin + 1s;
+    // The newest picture of a camera is as old as it took to draw the views, so the screen follows
+    // some pictures later.
+    std::optional<TimePoint> next_screen;
     bool announced = false;
-    while (!cli::stop_requested() &&
-           (flags.seconds <= 0 || steady_now() - begin < seconds_to_duration(flags.seconds))) {
+    const auto has_time = [&] {
+        return flags.seconds <= 0 || steady_now() - begin < seconds_to_duration(flags.seconds);
+    };
+    while (!cli::stop_requested() && (has_time() || next_screen)) {
         viewer.wait_for_frame(20ms);
         scene.take(viewer);
         screen.take(screen_viewer);
         const TimePoint now = steady_now();
         const bool can_draw =
+            screen.has_picture() &&
             std::all_of(std::begin(views), std::end(views),
                         [&](const View& view) { return scene.can_draw(view.choice); });
-        if (can_draw && screen.has_picture() && now >= next_picture) {
+        if (can_draw && !next_screen && now >= next_views) {
             for (const View& view : views)
                 files::write_png(folder / view.file,
                                  scene.picture({view.choice, size, view.renderer, {}}).view());
-            screen.take(screen_viewer);  // what came while the others were drawn
+            next_screen = steady_now() + 1s;
+        } else if (next_screen && now >= *next_screen) {
             screen.write();
+            next_screen.reset();
+            next_views = steady_now() + 5s;
             if (!std::exchange(announced, true)) {
                 for (const View& view : views)
                     output::print("  " + (folder / view.file).string() + "\n");
                 output::print("  " + (folder / "or_screen.png").string() +
                               ", the screen in the operating room\n");
             }
-            next_picture = steady_now() + 5s;
         }
         if (announced && now >= next_line) {
             if (isatty(STDOUT_FILENO))

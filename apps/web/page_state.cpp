@@ -222,7 +222,8 @@ json state_of(const viewer::Facts& facts, const client::Participant& participant
               {"may_write", participant.may_write()},
               // The ages of messages are known once the clock is.
               {"version", 2 * participant.chat_version() + status.clock_known},
-              {"hand_raised", participant.hand_raised()}}},
+              {"hand_raised", participant.hand_raised()},
+              {"wants_hand", participant.wants_hand_raised()}}},
             {"hands", hands_json(participant)},
             {"bricks", bricks},
             // Equal for all who see the same room.

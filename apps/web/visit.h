@@ -61,7 +61,7 @@ struct Page {
     client::PictureSender screen;      // that the person shows; outlives a visit
     std::uint64_t run = 0;             // as in wire::Join: both ways of seeing are one stay
     session::MemberChat chat;          // of the ways of seeing so far
-    bool hand_raised = false;          // when the last one ended
+    bool hand_raised = false;          // wished for when the last one ended
     std::string problem;               // why the visit ended; a sentence
     std::string text;                  // that the last function returned
     Bytes bytes;                       // that the script writes for the next function
@@ -69,7 +69,7 @@ struct Page {
     void leave() {
         if (const client::Participant* left = participant()) {
             chat = left->chat_so_far();
-            hand_raised = left->hand_raised();
+            hand_raised = left->wants_hand_raised();
         }
         visit.reset();
         flat.reset();

@@ -276,6 +276,9 @@ public:
     // version. The room says whether the hand is up.
     bool raise_hand(bool raised);
     bool hand_raised() const;
+    // For Options::raises_hand of the next stay: what the person asked for last, also where the
+    // room does not show it yet.
+    bool wants_hand_raised() const;
     // All hands that are up, the first that was raised first.
     std::vector<session::RaisedHands::Hand> raised_hands() const;
 

@@ -169,6 +169,11 @@ bool Participant::hand_raised() const {
     return shared_->own_hand_is_up();
 }
 
+bool Participant::wants_hand_raised() const {
+    const std::lock_guard lock(shared_->mutex);
+    return shared_->hand_wish.value_or(shared_->own_hand_is_up());
+}
+
 std::vector<session::RaisedHands::Hand> Participant::raised_hands() const {
     const std::lock_guard lock(shared_->mutex);
     return shared_->hands.raised();

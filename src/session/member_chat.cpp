@@ -47,6 +47,13 @@ bool MemberChat::write(const std::string& text, std::uint64_t id) {
     return true;
 }
 
+void MemberChat::go_on(const std::vector<std::uint64_t>& own,
+                       const std::vector<wire::WriteChat>& unsent) {
+    own_.insert(own.begin(), own.begin() + std::ptrdiff_t(std::min(own.size(), max_kept)));
+    for (const wire::WriteChat& written : unsent)
+        (void)write(written.text, written.id);
+}
+
 std::optional<wire::WriteChat> MemberChat::due(TimePoint now) {
     if (unsent_.empty() || (sent_ && now - *sent_ < repeated_after))
         return std::nullopt;

@@ -31,6 +31,9 @@ public:
     bool write(const std::string& text, std::uint64_t id);
     // The message that is to be sent now; one after the other, in their order.
     std::optional<wire::WriteChat> due(TimePoint now);
+    // Goes on with what the person had written in an earlier program of the same stay: ids of own
+    // messages, and those that the host may not have yet. Those that write() refuses are left out.
+    void go_on(const std::vector<std::uint64_t>& own, const std::vector<wire::WriteChat>& unsent);
     // The person may not write any more. Returns the texts that are not sent.
     std::vector<std::string> give_up();
 

@@ -50,6 +50,25 @@ TEST(MemberChat, HasEachMessageOnceAndKnowsItsOwn) {
     EXPECT_FALSE(chat.is_own(1));
 }
 
+TEST(MemberChat, GoesOnWithWhatAnEarlierProgramHadWritten) {
+    MemberChat chat;
+    chat.go_on({2, 3}, {{4, "waits"}, {5, "\u200b"}, {6, " waits, too"}});
+    EXPECT_EQ(chat.due(TimePoint(10s)), (wire::WriteChat{4, "waits"}));
+    // The host had it, which the earlier program did not learn.
+    EXPECT_EQ(chat.take({{message(1, TimePoint(1s)), message(2, TimePoint(2s)),
+                          message(4, TimePoint(3s))}})
+                  .size(),
+              3u);
+    for (const std::uint64_t own : {2, 3, 4, 6})
+        EXPECT_TRUE(chat.is_own(own));
+    EXPECT_FALSE(chat.is_own(1));
+    EXPECT_EQ(chat.due(TimePoint(10s)), (wire::WriteChat{6, "waits, too"}));
+
+    MemberChat full;
+    full.go_on(std::vector<std::uint64_t>(10'000, 1), std::vector(100, wire::WriteChat{7, "text"}));
+    EXPECT_EQ(full.unsent().size(), MemberChat::max_unsent);
+}
+
 TEST(MemberChat, KeepsTheNewestMessagesAndFewThatAreNotSent) {
     MemberChat chat;
     for (std::uint64_t i = 1; i <= MemberChat::max_kept + 5; ++i)

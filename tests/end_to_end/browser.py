@@ -30,6 +30,8 @@ class Browser:
              "--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--use-gl=angle",
              "--use-angle=gles-egl", "--ignore-gpu-blocklist", "--ignore-certificate-errors",
              "--no-first-run", "--disable-background-networking",
+             # The software driver takes and gives back the same memory many times a picture: it stays at the process.
+             "--enable-features=PartitionAllocLargeEmptySlotSpanRing",
              # A test's clicks by script are no gestures of a person.
              "--autoplay-policy=no-user-gesture-required", "--lang=en-US",
              "--remote-debugging-pipe", f"--user-data-dir={self.profile.name}", *options, "about:blank"],

@@ -2,6 +2,7 @@
 """Messages and raised hands in the page, beside a program without one."""
 import os
 import pathlib
+import signal
 import unittest
 
 from page_case import PageCase
@@ -11,7 +12,12 @@ from web_access_test import AXE, CONTRAST, FINDINGS
 PICTURES = os.environ.get("THEATRON_PICTURES")  # a folder where pictures of the page stay
 SIZES = ((1280, 720), (390, 844))
 IMPORT = "import(performance.getEntriesByType('resource').find(({ name }) => name.includes('/chat.')).name)"
+HEADS = "[...document.querySelectorAll('#chat_list li .detail')].map(p => p.textContent.split(' ')[0])"
 LIST = "[...document.querySelectorAll('#chat_list li p')].map(p => p.textContent)"
+
+
+def hands_of(facts):
+    return [p["name"] for p in facts["room"]["people"] if p["hand_raised"]]
 
 
 class WebChat(PageCase):
@@ -66,8 +72,20 @@ class WebChat(PageCase):
             self.assertEqual(page.problems, [])
             self.leave(page)
 
-    def test_a_page_that_is_loaded_again_has_the_messages_of_its_stay_and_nobody_else_has_them(self):
-        heads = "[...document.querySelectorAll('#chat_list li .detail')].map(p => p.textContent.split(' ')[0])"
+    def joined(self, page, name):
+        page.enter(name, way="room")
+        page.wait_for("theatron.state.phase === 'joined' && theatron.state.chat.may_write")
+        page.open_sheet("chat")
+
+    def load_again(self, page):
+        page.call("Page.reload")
+        self.wait_for_form(page)
+
+    def wait_for_form(self, page):
+        page.wait_for("document.readyState === 'complete' && globalThis.theatron?.state.phase === 'left'"
+                      " && !document.getElementById('enter').disabled")
+
+    def test_a_page_that_is_loaded_again_has_what_was_written_seen_and_raised_in_its_stay(self):
         with self.other("Ben") as ben:
             ben.wait_for(lambda f: f["chat"]["may_write"])
             page = self.enter()
@@ -76,30 +94,97 @@ class WebChat(PageCase):
             ben.wait_for(lambda f: len(f["chat"]["messages"]) == 1)
             ben.say("chat theirs")
             page.wait_for(f"{LIST}.join() === 'mine,theirs'")
-            page.call("Page.reload")
-            page.wait_for("document.readyState === 'complete' && globalThis.theatron?.state.phase === 'left'")
+            self.press(page, "#raise_hand")
+            ben.wait_for(lambda f: hands_of(f) == ["Ada"])
+            # The host does not answer: the person does not know whether it has the message.
+            os.kill(self.host.process.pid, signal.SIGSTOP)
+            try:
+                self.write(page, "on its way")
+                page.wait_for("!!document.querySelector('#chat_list .unsent')")
+                page.call("Page.reload")
+            finally:
+                os.kill(self.host.process.pid, signal.SIGCONT)
+            self.wait_for_form(page)
             ben.say("chat meanwhile")
-            ben.wait_for(lambda f: len(f["chat"]["messages"]) == 3)
+            ben.wait_for(lambda f: "meanwhile" in [m["text"] for m in f["chat"]["messages"]])
             page.enter("Ada", way="room")
             page.wait_for("theatron.state.phase === 'joined' && theatron.state.chat.may_write")
+            # Those that were seen before count no more.
+            page.wait_for("document.getElementById('unseen').textContent === 'New messages: 1'")
             page.open_sheet("chat")
-            page.wait_for(f"{LIST}.join() === 'mine,theirs,meanwhile'")
-            self.assertEqual(page.evaluate(heads), ["You", "Ben", "Ben"])
+            page.wait_for(f"{LIST}.sort().join() === 'meanwhile,mine,on its way,theirs'")
+            self.assertEqual(sorted(page.evaluate(HEADS)), ["Ben", "Ben", "You", "You"])
+            ben.wait_for(lambda f: hands_of(f) == ["Ada"])
             ben.wait_for(lambda f: [p["name"] for p in f["room"]["people"]].count("Ada") == 1)
-            with self.subTest("whoever enters next in this tab"):
-                self.leave(page)
-                page.enter("Eva", way="room")
-                page.wait_for("theatron.state.phase === 'joined' && theatron.state.chat.may_write")
-                ben.say("chat for Eva")
-                page.open_sheet("chat")
-                page.wait_for(f"{LIST}.join() === 'for Eva'")
+            self.assertEqual(sorted(m["text"] for m in ben.newest_json()["chat"]["messages"]), ["meanwhile", "mine", "on its way", "theirs"])
+            self.press(page, "#raise_hand")
+            ben.wait_for(lambda f: not hands_of(f))
             with self.subTest("a tab that was duplicated is another stay"):
-                run = page.evaluate("theatron.run.number")
+                kept, number = page.evaluate("[sessionStorage.getItem(theatron.run.key), theatron.run.number]")
                 copy = self.browser.open(self.links["expert"], SIZES[0])
                 copy.wait_for("!!globalThis.theatron?.run")
-                copy.evaluate(f"sessionStorage.setItem(theatron.run.key, '{run}')")
-                self.assertNotEqual(copy.evaluate("theatron.run.find().then(() => theatron.run.number)"), run)
+                copy.evaluate(f"sessionStorage.setItem(theatron.run.key, {kept!r})")
+                self.assertNotEqual(copy.evaluate("theatron.run.find('Ada').then(() => theatron.run.number)"), number)
             self.assertEqual(page.problems, [])
+
+    def test_the_next_person_in_the_tab_reads_nothing(self):
+        with self.other("Ben") as ben:
+            ben.wait_for(lambda f: f["chat"]["may_write"])
+            page = self.enter()
+
+            def next_person(name, words):
+                with self.subTest(words):
+                    self.joined(page, name)
+                    ben.say(f"chat for {name}")
+                    page.wait_for(f"{LIST}.join() === 'for {name}'")
+                    self.assertEqual(page.evaluate("document.getElementById('chat_text').value"), "")
+                    self.write(page, "secret")
+                    page.wait_for(f"{LIST}.length === 2 && !document.querySelector('#chat_list .unsent')")
+            page.open_sheet("chat")
+            self.write(page, "secret")
+            page.wait_for("!!document.querySelector('#chat_list .own') && !document.querySelector('#chat_list .unsent')")
+            page.evaluate("document.getElementById('chat_text').value = 'half written'")
+            self.leave(page)
+            self.assertEqual(page.evaluate("document.getElementById('chat_list').textContent"), "")
+            next_person("Eva", "after Leave")
+            # Both in one turn of the page: the picture that ends the stay is never drawn.
+            page.evaluate("document.getElementById('leave').click(); location.reload()")
+            self.wait_for_form(page)
+            next_person("Dan", "loaded again at once after Leave")
+            self.load_again(page)
+            next_person("Fay", "loaded again, and another name")
+            self.assertEqual(page.problems, [])
+
+    def test_one_enters_again_whatever_the_browser_keeps_or_lacks(self):
+        kept = "sessionStorage.setItem(theatron.run.key, {!r})"
+        for words, before, memory in (
+                ("no time limits", "delete AbortSignal.timeout", None),
+                ("locks are refused", "navigator.locks.request = () => { throw new Error('denied'); }", None),
+                ("no locks", "Object.defineProperty(Navigator.prototype, 'locks', { get: () => undefined })", None),
+                ("damaged memory", "", "{{{"),
+                ("memory of other types", "", '{"number":"00112233445566ff","name":"Ada","own":7,"unsent":[null,{"id":[]},{"text":3}],"seen":{}}'),
+                ("memory of nothing", "", "null")):
+            with self.subTest(words):
+                page = self.browser.open("about:blank", SIZES[0])
+                page.call("Page.addScriptToEvaluateOnNewDocument", source=before)
+                page.call("Page.navigate", url=self.links["expert"])
+                page.enter("Ada", way="flat")
+                page.wait_for("theatron.state.phase === 'joined'")
+                self.load_again(page)
+                if memory is not None:
+                    page.evaluate(kept.format(memory))
+                page.enter("Ada", way="flat")
+                page.wait_for("theatron.state.phase === 'joined'")
+                self.assertEqual(page.problems, [])
+                page.close()
+
+    def test_what_shows_nothing_is_not_sent(self):
+        page = self.enter()
+        page.open_sheet("chat")
+        for words in ("\u200b\u200b", " \u00a0\u3000", "\u202e\u2066"):
+            self.write(page, words)
+            self.assertEqual(page.evaluate("document.getElementById('chat_hint').textContent"), "")
+        self.assertEqual(page.evaluate(f"{LIST}.length"), 0)
 
     def test_messages_are_counted_and_names_are_few(self):
         page = self.browser.open(self.links["expert"], SIZES[0])
@@ -112,12 +197,11 @@ class WebChat(PageCase):
             self.assertEqual(page.evaluate(f"{IMPORT}.then(m => m.names_text({names}))"), told)
 
     def test_a_hand_goes_up_for_all_also_of_an_observer(self):
-        hands = lambda f: [p["name"] for p in f["room"]["people"] if p["hand_raised"]]
         with self.other("Ben", "operator") as ben:
             ben.wait_for(lambda f: f["chat"]["may_write"])
             page = self.enter(role="observer")
             self.press(page, "#raise_hand")
-            ben.wait_for(lambda f: hands(f) == ["Ada"])
+            ben.wait_for(lambda f: hands_of(f) == ["Ada"])
             page.wait_for("document.getElementById('hands').textContent === 'Hand raised: You'")
             ben.say("hand up")
             page.wait_for("document.getElementById('hands').textContent === 'Hand raised: You, Ben'")

@@ -76,6 +76,11 @@ class WebHeadset(PageCase):
         seen = self.page.evaluate("simulated_headset.frames")
         self.page.wait_for(f"simulated_headset.frames >= {seen + count}")
 
+    def keep_picture(self, name):
+        """For those who look at pictures: none is taken otherwise, since each takes the page a while."""
+        if PICTURES:
+            self.picture(name)
+
     def picture(self, name):
         file = pathlib.Path(PICTURES or self.folder) / f"{name}.png"
         self.page.screenshot(file)
@@ -104,7 +109,7 @@ class WebHeadset(PageCase):
         self.headset("device.controllers.left.updateButtonValue('y-button', 1)")
         self.headset("device.controllers.left.updateButtonValue('y-button', 0)")
         self.headset(f"aim_at_row({row}, {rows})")
-        self.picture(f"headset_menu_{row}")
+        self.keep_picture(f"headset_menu_{row}")
         self.headset("grip('right', true)")
         self.headset("grip('right', false)")
         self.headset("device.controllers.left.updateButtonValue('y-button', 1)")
@@ -115,7 +120,7 @@ class WebHeadset(PageCase):
         widths = [0.0084 * len(each) + 0.024 for each in labels]
         left = 0.5 - 0.012 - sum(width + 0.006 for width in widths[labels.index(label):])
         self.headset(f"aim_at_plate({row}, {left + widths[labels.index(label)] / 2})")
-        self.picture(f"headset_press_{label}")
+        self.keep_picture(f"headset_press_{label}")
         self.click()
 
     def click(self):
@@ -133,7 +138,7 @@ class WebHeadset(PageCase):
         self.headset("grip('right', true)")
         for place in places[1:]:
             self.headset(f"aim('right', [0.2, 1.3, -0.2], {list(place)})")
-        self.picture("headset_draws")
+        self.keep_picture("headset_draws")
         self.headset("grip('right', false)")
 
     def marks(self, facts):
@@ -190,7 +195,7 @@ class WebHeadset(PageCase):
         drawn = self.page.evaluate("theatron.state.pictures")
         self.page.wait_for(f"theatron.state.pictures > {drawn + 2}")
         self.ada_when(lambda ada: "right_hand" not in ada)
-        self.picture("headset_left")
+        self.keep_picture("headset_left")
 
     def test_controllers_take_a_brick_and_give_it_to_a_native_participant(self):
         self.ben.say("stand 0 1.6 -1 0 1.6 0")
@@ -198,12 +203,12 @@ class WebHeadset(PageCase):
         number = self.make_brick()
         place = self.brick(number)["position"]
         self.headset("aim('right', [0.2, 1.3, -0.2], [0, 1.6, -0.8])")
-        self.picture("headset_ray")
+        self.keep_picture("headset_ray")
         self.headset("grip('right', true)")
         self.wait_for_holder(number, "Ada")
         self.headset("aim('right', [0.2, 1.3, -0.2], [0.5, 1.6, -0.8])")
         self.ben.wait_for(lambda f: distance(self.bricks(f)[-1]["position"], place) > 0.2)
-        self.picture("headset_held")
+        self.keep_picture("headset_held")
         self.headset("device.controllers.right.updateButtonValue('a-button', 1)")
         self.wait_for_holder(number, "Ben")
         self.headset("device.controllers.right.updateButtonValue('a-button', 0)")
@@ -220,7 +225,7 @@ class WebHeadset(PageCase):
         self.assertLess(distance(turned["head"], start["head"]), 0.02)
         self.headset("aim('right', [0.2, 1.3, -0.2], [0.7, 0.3, -1.2])")
         self.headset("device.controllers.right.updateAxes('thumbstick', 0, -1)")
-        self.picture("headset_teleport")
+        self.keep_picture("headset_teleport")
         self.headset("device.controllers.right.updateAxes('thumbstick', 0, 0)")
         there = self.ada_when(lambda ada: distance(ada["head"], start["head"]) > 0.8)
         self.assertAlmostEqual(there["head"][1], start["head"][1], delta=0.02)
@@ -270,7 +275,7 @@ class WebHeadset(PageCase):
         self.frames(3)
         # The way to do it is written before the eyes.
         wait_until(lambda: min(self.page.evaluate("simulated_headset.opaque()")) > 0)
-        self.picture("headset_ar_lost")
+        self.keep_picture("headset_ar_lost")
         self.headset("aim('right', [0.2, 1.0, -0.7], [1.2, 1.0, -0.7])")
         self.headset("grip('right', true)")
         self.headset("grip('right', false)")
@@ -317,7 +322,7 @@ class WebHeadset(PageCase):
 
         def seen(step):
             same()
-            self.picture(f"three_headset_{step}")
+            self.keep_picture(f"three_headset_{step}")
             folder = pathlib.Path(PICTURES or self.folder)
             cleo.screenshot(folder / f"three_page_{step}.png")
             # As a native participant sees it; who leaves is no longer in the room.
@@ -389,7 +394,7 @@ class WebHeadset(PageCase):
         distance_mark = self.marks(self.ben.wait_for(lambda f: len(self.marks(f)) == 2))[1]
         self.assertEqual(distance_mark["kind"], "distance")
         self.assertGreater(distance_mark["length_m"], 0.1)
-        self.picture("headset_marks")
+        self.keep_picture("headset_marks")
         # The newest one goes, then all.
         self.choose(1, 13)
         self.press(3, ["Undo", "Clear mine"], "Undo")
@@ -430,7 +435,7 @@ class WebHeadset(PageCase):
         self.draw((0, 1.6, -0.8))
         self.ben.wait_for(lambda f: f["cases"]["open"]["cut"])
         self.frames(3)
-        self.picture("headset_cut")
+        self.keep_picture("headset_cut")
         self.draw((1.5, 1.6, -0.8))
         self.ben.wait_for(lambda f: not f["cases"]["open"]["cut"])
         # One part is taken out of the organ, then the organ as a whole.
@@ -462,7 +467,7 @@ class WebHeadset(PageCase):
         place = self.brick(number)["position"]
         self.page.evaluate("simulated_headset.device.primaryInputMode = 'hand'")
         self.headset("aim('right', [0.2, 1.3, -0.2], [0, 1.6, -0.8])")
-        self.picture("headset_hands")
+        self.keep_picture("headset_hands")
         self.headset("grip('right', true)")
         self.wait_for_holder(number, "Ada")
         self.headset("aim('right', [0.2, 1.3, -0.2], [0.5, 1.6, -0.8])")
@@ -476,13 +481,13 @@ class WebHeadset(PageCase):
         self.enter("ar")
         # A hand over the table's middle, pointing to the patient's head.
         self.headset("aim('right', [0.3, 1.0, -1.2], [1.3, 1.0, -1.2])")
-        self.picture("headset_ar_placing")
+        self.keep_picture("headset_ar_placing")
         self.headset("grip('right', true)")
         self.headset("grip('right', false)")
         self.headset("aim('right', [0.2, 1.3, -0.2], [0, 1.6, -0.8])")
         self.frames(1)
         opaque = self.page.evaluate("simulated_headset.opaque()")
-        self.picture("headset_ar")
+        self.keep_picture("headset_ar")
         for share in opaque:  # an avatar and rays, and no wall
             self.assertTrue(0 < share < 0.5, opaque)
         # The head was 1.2 m beside the table and 0.3 m from its middle, towards its foot.

@@ -12,7 +12,7 @@ import unittest
 
 from case_test import write_case
 import patience
-from theatron_process import PROGRAM, Process, host, make_recording, wait_until
+from theatron_process import PROGRAM, Process, host, make_recording, read_png, wait_until
 from virtual_screen import VirtualScreen, brightness, difference
 
 WIDTH, HEIGHT = 480, 360
@@ -255,6 +255,10 @@ class Window(unittest.TestCase):
             self.assertEqual(demo.end(), 0, demo.errors)
             self.assertIn("No window can be opened on this display.", "".join(demo.errors))
         self.assertTrue((folder / "from_between.png").exists())
+        # Whatever it takes to draw the others, the screen's picture is no old one: it has no warning above it.
+        width, height, channels, rows = read_png(folder / "or_screen.png")
+        red, green, blue = rows[40][40 * channels:40 * channels + 3]
+        self.assertFalse(red > 200 and green > 150 and blue < 120, (red, green, blue))
 
     def test_a_demo_waits_for_the_camera_that_it_looks_through(self):
         # Its first picture is later than the demo's end; the other camera's are there.

@@ -12,6 +12,7 @@ export function unseen_of(messages, seen) {
     return messages.slice(messages.findIndex(({ id }) => id === seen) + 1).filter(({ is_own }) => !is_own).length;
 }
 
+const shows_something = /[^\s\p{C}\p{Z}]/u;
 const most_names = 3;
 export const names_text = names => listed(names, most_names);
 
@@ -19,6 +20,7 @@ export class Chat {
     version = "";   // of the messages that are shown, and the visit
     was_open = false;
     messages = [];
+    unsent = [];
     times = new Map();  // of messages by their ids, in ms since 1970
     seen = "";      // id of the newest message that the person has seen
 
@@ -30,7 +32,8 @@ export class Chat {
             this.write();
         });
         for (const button of document.querySelectorAll("[data-quick]"))
-            button.addEventListener("click", () => this.send(text(button.dataset.quick)));
+            // Not both clicks of a double click.
+            button.addEventListener("click", event => event.detail < 2 && this.send(text(button.dataset.quick)));
         $("raise_hand").addEventListener("click", () => client.raise_hand(this.is_raised ? 0 : 1));
         $("hands").addEventListener("click", event => sheet.open("people", event.detail === 0 ? $("hands") : null));
         for (const id of ["unseen", "show_chat"])
@@ -50,14 +53,31 @@ export class Chat {
     }
 
     send(words) {
-        const is_taken = words.trim() !== "" && this.client.write_chat(words) !== 0;
-        set_text($("chat_hint"), is_taken || words.trim() === "" ? "" : text("not_sent"));
+        const is_blank = !shows_something.test(words);
+        const is_taken = !is_blank && this.client.write_chat(words) !== 0;
+        set_text($("chat_hint"), is_taken || is_blank ? "" : text("not_sent"));
         return is_taken;
     }
 
-    // `state`: the client's; `visit`: a number of the person's stay.
+    // A stay begins, or goes on with what was kept of it (run.js).
+    begin({ own, unsent, seen, hand_raised }) {
+        this.forget();
+        this.seen = seen;
+        this.client.go_on(JSON.stringify({ own, unsent, hand_raised }));
+    }
+
+    // Nothing of a stay is there for the next person.
+    forget() {
+        Object.assign(this, { version: "", messages: [], unsent: [], seen: "" });
+        this.times.clear();
+        $("chat_text").value = "";
+        $("chat_list").replaceChildren();
+        set_text($("chat_hint"), "");
+    }
+
+    // `state`: the client's; `visit`: a number of the way of seeing.
     show({ chat, hands = [] }, visit) {
-        const { has_chat = false, may_write = false, version = 0, hand_raised = false } = chat ?? {};
+        const { has_chat = false, may_write = false, version = 0, hand_raised = false, wants_hand = false } = chat ?? {};
         this.is_raised = hand_raised;
         if (this.version !== `${visit} ${version}`) {
             this.version = `${visit} ${version}`;
@@ -81,6 +101,8 @@ export class Chat {
         const names = [...(hand_raised ? [text("you")] : []), ...hands];
         set_text($("hands"), names.length ? text("hands", { names: names_text(names) }) : "");
         $("hands").hidden = !names.length;
+        this.run.keep({ own: this.messages.filter(({ is_own }) => is_own).map(({ id }) => id), unsent: this.unsent,
+                        seen: this.seen, hand_raised: wants_hand });
         for (const part of [$("chat_text"), $("send"), ...document.querySelectorAll("[data-quick]")])
             part.disabled = !may_write;
         if (!may_write)
@@ -90,15 +112,7 @@ export class Chat {
     }
 
     fill(messages, unsent) {
-        // Also those that were written before the page was loaded again.
-        const own = this.run.own;
-        for (const message of messages) {
-            message.is_own ||= own.has(message.id);
-            if (message.is_own)
-                own.add(message.id);
-        }
-        this.run.own = own;
-        this.messages = messages;
+        Object.assign(this, { messages, unsent });
         // Once it is known, the time of a message stays, also while the session's time is not known again.
         for (const { id, age_s } of messages)
             if (age_s !== null && !this.times.has(id))
@@ -119,7 +133,7 @@ export class Chat {
         list.replaceChildren(
             ...messages.map(({ id, name, text: words, is_own }) => item(
                 is_own ? text("you") : name, words, this.times.has(id) ? clock.format(this.times.get(id)) : "", is_own ? "own" : "")),
-            ...unsent.map(words => item(text("not_yet_sent"), words, "", "own unsent")));
+            ...unsent.map(({ text: words }) => item(text("not_yet_sent"), words, "", "own unsent")));
         $("no_messages").hidden = messages.length + unsent.length > 0;
         if (at_end)
             list.scrollTop = list.scrollHeight;

@@ -86,6 +86,7 @@ async function load_client() {
         speak: [null, [...numbers(4), "array", "number"]],
         allow_voice_recording: [null, numbers(1)],
         use_run: [null, ["string"]],
+        go_on: [null, ["string"]],
         chat: ["string", []],
         write_chat: ["number", ["string"]],
         raise_hand: [null, numbers(1)],
@@ -232,7 +233,11 @@ function run({ client, voice, face, screen, module, flat }) {
         picture.addEventListener("keydown", on_key);
     }
     $("show_help").addEventListener("click", help);
-    $("leave").addEventListener("click", () => client.leave());
+    $("leave").addEventListener("click", () => {
+        // At once: the next person may be quick.
+        page.run.end();
+        client.leave();
+    });
     // A page that is closed leaves, too: nobody is told that its connection broke.
     addEventListener("pagehide", () => page.state.phase !== "left" && client.leave());
     canvas.addEventListener("webglcontextlost", () => {
@@ -497,7 +502,8 @@ function follow_way(face) {
 }
 
 function leave({ voice, face, screen }, problem) {
-    page.run.begin();
+    page.run.end();
+    page.chat?.forget();
     voice.leave();
     face.hide();
     screen.hide();
@@ -600,7 +606,8 @@ async function main() {
             page.voice = voice;
             page.voice_may_record = $("may_record").checked && page.role !== "observer";
             voice.set_push_to_talk($("pushes").checked);
-            await page.run.find();
+            begin ??= run(program);
+            page.chat.begin(await page.run.find(name));
             $("problem").textContent = "";
             $("lobby").hidden = true;
             store("way", $("way").value);
@@ -616,7 +623,6 @@ async function main() {
                 voice.open_microphone();
             if ($("shows_face").checked && page.role !== "observer" && page.way === "room")
                 face.show();
-            begin ??= run(program);
             begin();
         } catch (error) {
             $("problem").textContent = text("no_program", { why: error.message });
