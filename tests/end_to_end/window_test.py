@@ -255,7 +255,7 @@ class Window(unittest.TestCase):
             self.assertEqual(demo.end(), 0, demo.errors)
             self.assertIn("No window can be opened on this display.", "".join(demo.errors))
         self.assertTrue((folder / "from_between.png").exists())
-        # Whatever it takes to draw the others, the screen's picture is no old one: it has no warning above it.
+        # The screen's picture is no old one, whatever the others took: no warning is above it.
         width, height, channels, rows = read_png(folder / "or_screen.png")
         red, green, blue = rows[40][40 * channels:40 * channels + 3]
         self.assertFalse(red > 200 and green > 150 and blue < 120, (red, green, blue))

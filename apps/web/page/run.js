@@ -30,7 +30,7 @@ function take(number) {
 
 const list = value => Array.isArray(value) ? value : [];
 
-// What keep() has written. The memory of a tab may hold anything.
+// Reads what keep() has written. The memory of a tab may hold anything.
 function parsed(words) {
     try {
         const { number = "", name, own, unsent, seen, hand_raised } = JSON.parse(words);
