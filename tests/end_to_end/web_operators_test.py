@@ -143,6 +143,14 @@ class WebOperators(PageCase):
         other = self.page_of(self.host.greeting["link"].split("#")[0] + "#join=wrongwrongwrong")
         other.wait_for("document.getElementById('problem')?.textContent.startsWith('This page needs a valid link')")
 
+    def test_a_link_that_expires_closes_the_page_and_says_so(self):
+        page = self.opened()
+        made = page.evaluate("""fetch("/operators/link?role=operator&hours=0.003", { method: "POST",
+            headers: { Authorization: `Bearer ${new URLSearchParams(location.hash.slice(1)).get("join")}` } }).then(answer => answer.json())""")
+        other = self.page_of(made["link"])
+        other.wait_for("document.getElementById('problem')?.textContent.startsWith('This link has expired.')")
+        self.assertFalse(other.evaluate("document.getElementById('all').checkVisibility()"))
+
     def test_a_recording_is_begun_and_ended_and_is_whole(self):
         page = self.opened()
         self.click(page, "document.getElementById('start_recording')")

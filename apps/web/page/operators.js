@@ -74,10 +74,11 @@ async function follow() {
     }
     if (turn !== asked)
         return true;
-    if (answer && [401, 403, 410].includes(answer.status)) {
+    const why_closed = { 401: "no_link", 403: "for_operators", 410: "link_expired" }[answer?.status];
+    if (why_closed) {
         $("all").hidden = true;
         links.hide();
-        tell(text(answer.status === 403 ? "for_operators" : "no_link"));
+        tell(text(why_closed));
         return false;
     }
     document.body.classList.toggle("silent", !answer?.ok);
