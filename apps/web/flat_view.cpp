@@ -7,12 +7,32 @@
 #include "base/error.h"
 #include "geometry/screen.h"
 #include "page_state.h"
+#include "phrases/phrase.h"
+#include "session/shared_screen.h"
 #include "session/whose_camera.h"
 #include "viewer/meeting.h"
+#include "viewer/panels/tool_panel.h"
 #include "viewer/playing.h"
+#include "viewer/screen_panel.h"
 #include "wire/no_codec.h"
 
 namespace theatron::web {
+namespace {
+
+constexpr const char* depth_codec = "strata";
+
+// Buttons of other commands need the room's view.
+template <class Command>
+void keep_buttons(viewer::RoomPanel& panel) {
+    for (window::Panel& one : panel.panels)
+        for (window::PanelRow& row : one.rows)
+            std::erase_if(row.buttons, [&](const window::PanelButton& button) {
+                return !std::holds_alternative<Command>(
+                    panel.commands[std::size_t(button.command)]);
+            });
+}
+
+}  // namespace
 
 client::Participant::Options FlatView::options(client::Participant::Options join) {
     // Nothing until a camera is known: then ask() does.
@@ -38,14 +58,18 @@ void FlatView::follow_cameras() {
     const auto room = participant_.room();
     for (const auto& camera : participant_.cameras(generation))
         if (camera.description.has_color)
-            seen_[camera.description.id] = {session::whose_camera(camera.description, room.objects),
-                                            is_screen(camera.calibration)};
+            seen_[camera.description.id] = {
+                session::whose_camera(camera.description, room.objects),
+                is_screen(camera.calibration),
+                camera.calibration.depth.size.area() > 0 && !is_screen(camera.calibration),
+                camera.calibration};
     if (!camera_ || !seen_.contains(*camera_)) {
         camera_.reset();
         next_camera();
     }
     if (!camera_)
         shown_.reset();
+    show_marks();
     ask();
 }
 
@@ -54,12 +78,15 @@ void FlatView::ask() {
     const client::Participant::Status status = participant_.status();
     if (!camera_ || status.phase != client::Participant::Phase::joined)
         return;
-    Asked wanted{status.joins, *camera_, color_};
+    Asked wanted{status.joins, *camera_, color_, seen_[*camera_].measures && marks_.wants_depth()};
     if (asked_ == wanted)
         return;
     const std::string nothing(wire::no_codec);
     participant_.choose_codecs(nothing, nothing);
-    participant_.choose_codecs(*camera_, "", color_);
+    participant_.choose_codecs(*camera_, wanted.depth ? depth_codec : "", color_);
+    wire::ChooseDelivery goal = client::Participant::Options().delivery;
+    goal.max_kbit_per_s = wanted.depth ? most_kbit_per_s_with_depth : most_kbit_per_s;
+    participant_.choose_delivery(goal);
     asked_ = std::move(wanted);
 }
 
@@ -70,11 +97,12 @@ bool FlatView::take(TimePoint now) {
     follow_cameras();
     bool is_new = false;
     for (const receive::CameraFramePtr& frame : participant_.take_frames()) {
+        marks_.take(frame);
         if (frame->camera != camera_ || !frame->color)
             continue;
         const Seen& seen = seen_[frame->camera];
         show(*frame->color, seen.is_screen ? most_screen_width : most_flat_width);
-        shown_ = {seen.name, frame->times.captured};
+        shown_ = {frame->camera, seen.name, frame->times.captured};
         is_new = true;
     }
     if (!is_new)
@@ -124,11 +152,29 @@ viewer::Facts FlatView::facts(TimePoint now) {
     facts.way.renderer = "flat";
     facts.notice = notice_.text(now);
     facts.visitors = participant_.visitors();
-    add_people(facts, now);
+    add_panels(facts, now);
     return facts;
 }
 
-void FlatView::add_people(viewer::Facts& facts, TimePoint now) {
+// The picture's camera, until there is a picture of the next one.
+void FlatView::show_marks() {
+    const auto shown = shown_ ? seen_.find(shown_->id) : seen_.end();
+    if (shown == seen_.end())
+        marks_.show_nothing();
+    else
+        marks_.show(shown->first, shown->second.calibration, shown->second.measures);
+}
+
+std::string FlatView::step(window::InputQueue& input, TimePoint now) {
+    std::vector<std::string> notes;
+    marks_.step(input, now, notes);
+    for (const std::string& text : notes)
+        note(text, now);
+    ask();
+    return marks_.take_drawing(now);
+}
+
+void FlatView::add_panels(viewer::Facts& facts, TimePoint now) {
     const auto room = participant_.room();
     const wire::Role role = facts.received.status.standing.role;
     viewer::RoomPanel people = viewer::room_panel(
@@ -139,30 +185,66 @@ void FlatView::add_people(viewer::Facts& facts, TimePoint now) {
          .is_operator = role == wire::Role::operator_,
          .visitors = facts.visitors,
          .asked = removal_.asked(now)});
-    // Ways to people need the room's view.
-    for (window::Panel& one : people.panels)
-        for (window::PanelRow& row : one.rows)
-            std::erase_if(row.buttons, [&](const window::PanelButton& button) {
-                return !std::holds_alternative<viewer::Decide>(
-                    people.commands[std::size_t(button.command)]);
-            });
+    keep_buttons<viewer::Decide>(people);
     viewer::RoomPanel panel;
     (void)study_.take(participant_.study(), now);
     study_.add_panel(panel, now);
     panel = viewer::joined(std::move(panel), people);
+    add_screens(facts, panel, now);
+    if (marks_.chosen() != viewer::ToolKind::none)
+        viewer::add_tool_panel({marks_.chosen(), false, false, role == wire::Role::operator_},
+                               panel);
     facts.panels = std::move(panel.panels);
     commands_ = std::move(panel.commands);
+}
+
+// Each shared screen, with the way to its picture; and the offer of a new one.
+void FlatView::add_screens(const viewer::Facts& facts, viewer::RoomPanel& panel, TimePoint now) {
+    const auto room = participant_.room();
+    screen_offer_.follow(room.objects, room.self, now);
+    if (screen_offer_.is_open(now))
+        panel.panels.push_back({say(Phrase::shared_screen), {screen_offer_.row(panel)}});
+    viewer::RoomPanel screens;
+    viewer::add_screen_panel({&room.objects, room.self, facts.received.status.standing.role, {}},
+                             screens);
+    keep_buttons<viewer::ShowScreen>(screens);
+    panel = viewer::joined(std::move(panel), screens);
 }
 
 void FlatView::press(int command, TimePoint now) {
     if (command < 0 || command >= int(commands_.size()))
         return;
-    if (const auto* press = std::get_if<viewer::StudyPress>(&commands_[std::size_t(command)]))
-        if (const auto reply = study_.carry_out(*press, now))
-            participant_.reply_to_study(*reply);
-    const auto* decision = std::get_if<viewer::Decide>(&commands_[std::size_t(command)]);
-    if (decision && removal_.is_meant(*decision, now))
-        participant_.manage(decision->action, decision->person, decision->role);
+    const viewer::RoomCommand pressed = commands_[std::size_t(command)];
+    std::visit([&](const auto& one) { on(one, now); }, pressed);
+}
+
+void FlatView::on(const viewer::StudyPress& press, TimePoint now) {
+    if (const auto reply = study_.carry_out(press, now))
+        participant_.reply_to_study(*reply);
+}
+
+void FlatView::on(const viewer::ChangeMarks& change, TimePoint now) {
+    if (!change.change(participant_))
+        note(say(Phrase::no_such_mark), now);
+}
+
+void FlatView::on(const viewer::Decide& decision, TimePoint now) {
+    if (removal_.is_meant(decision, now))
+        participant_.manage(decision.action, decision.person, decision.role);
+}
+
+void FlatView::on(const viewer::ShowScreen& shown, TimePoint now) {
+    screen_offer_.close();
+    const auto room = participant_.room();
+    const auto found = room.objects.find(shown.screen);
+    const auto screen =
+        found == room.objects.end()
+            ? std::nullopt
+            : session::decode_shared_screen(found->second.kind, found->second.properties);
+    if (!screen || !screen->camera || !seen_.contains(*screen->camera))
+        return note(say(Phrase::not_in_room_any_more), now);
+    camera_ = screen->camera;
+    ask();
 }
 
 nlohmann::json FlatView::state(const viewer::Facts& facts, const std::string& address) const {

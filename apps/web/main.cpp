@@ -91,6 +91,21 @@ EMSCRIPTEN_KEEPALIVE void theatron_flat_next() {
         page().flat->view.next_camera();
 }
 
+// In the page's rhythm: what the person does over the picture, and what is drawn over it, as JSON
+// for page/flat_marks.js; "": as before.
+EMSCRIPTEN_KEEPALIVE const char* theatron_flat_step() {
+    page().text.clear();
+    if (page().flat)
+        web::guarded([] { page().text = page().flat->view.step(page().input, steady_now()); });
+    return page().text.c_str();
+}
+
+// The person has chosen to point, or does so no longer.
+EMSCRIPTEN_KEEPALIVE void theatron_flat_points(int expected) {
+    if (page().flat)
+        page().flat->view.expect_pointing(expected != 0);
+}
+
 // The stay is over: nothing of it goes on with the next one.
 EMSCRIPTEN_KEEPALIVE void theatron_leave() {
     web::guarded([] {

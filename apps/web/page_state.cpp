@@ -19,11 +19,12 @@ using nlohmann::json;
 // The page shows one kind at a time. The panel of the case has the case's name.
 const char* kind_of(const window::Panel& panel) {
     constexpr std::pair<Phrase, const char*> kinds[] = {
-        {Phrase::people, "people"},    {Phrase::places, "places"},
-        {Phrase::at_the_door, "door"}, {Phrase::calls_you, "call"},
-        {Phrase::screens, "screens"},  {Phrase::sound, "sound"},
-        {Phrase::cameras, "cameras"},  {Phrase::look_back_alone, "past"},
-        {Phrase::marks, "marks"},      {Phrase::study, "study"},
+        {Phrase::people, "people"},        {Phrase::places, "places"},
+        {Phrase::at_the_door, "door"},     {Phrase::calls_you, "call"},
+        {Phrase::screens, "screens"},      {Phrase::sound, "sound"},
+        {Phrase::cameras, "cameras"},      {Phrase::look_back_alone, "past"},
+        {Phrase::marks, "marks"},          {Phrase::study, "study"},
+        {Phrase::shared_screen, "shared"},
     };
     for (const auto& [title, kind] : kinds)
         if (panel.title == say(title))
@@ -51,7 +52,9 @@ json to_json(const window::OverlayContent& overlay) {
         for (const window::PanelRow& row : panel.rows) {
             json buttons = json::array();
             for (const window::PanelButton& button : row.buttons)
-                buttons.push_back({{"label", button.label}, {"command", button.command}});
+                buttons.push_back({{"label", button.label},
+                                   {"command", button.command},
+                                   {"leads_away", button.leads_away}});
             rows.push_back({{"text", row.text}, {"detail", row.detail}, {"buttons", buttons}});
             if (row.subject)
                 rows.back()["subject"] = *row.subject;

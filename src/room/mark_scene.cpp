@@ -30,12 +30,6 @@ bool is_in_picture(Vec3 place, const render::CameraView& view) {
            p.y > view.top * p.z && p.y < view.bottom * p.z;
 }
 
-render::LabelRank rank_of(MarkKind kind) {
-    return kind == MarkKind::distance ? render::LabelRank::number
-           : kind == MarkKind::pin    ? render::LabelRank::name
-                                      : render::LabelRank::author;
-}
-
 }  // namespace
 
 void MarkScene::add_to(render::SceneFrame& frame, const std::vector<PlacedMark>& marks,

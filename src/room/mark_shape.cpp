@@ -83,6 +83,12 @@ std::string label_of(const Mark& mark) {
     return signed_text(decimal(text));
 }
 
+render::LabelRank rank_of(MarkKind kind) {
+    return kind == MarkKind::distance ? render::LabelRank::number
+           : kind == MarkKind::pin    ? render::LabelRank::name
+                                      : render::LabelRank::author;
+}
+
 std::vector<Vec3> label_places(const Mark& mark) {
     const Vec3 first = mark.points.front().position, last = mark.points.back().position;
     if (mark.kind == MarkKind::pin)

@@ -16,9 +16,11 @@ constexpr double before_m = 0.02, before_per_distance = 0.01;
 
 }  // namespace
 
-Pointers::Pointers()
-    : ball_(render::make_sphere_mesh(ball_m, 8)),
-      end_({{{}, {}, end_m, end_m, end_half_widths, end_half_widths}}) {}
+render::LinePiece pointer_end(Vec3 place) {
+    return {place, place, end_m, end_m, end_half_widths, end_half_widths};
+}
+
+Pointers::Pointers() : ball_(render::make_sphere_mesh(ball_m, 8)), end_({pointer_end({})}) {}
 
 void Pointers::add_to(render::SceneFrame& frame, const std::vector<Pointer>& pointers) const {
     for (const Pointer& pointer : pointers) {

@@ -21,6 +21,9 @@ struct Pointer {
     std::optional<Vec3> twin = {};
 };
 
+// The dot at the end of a ray. Pure.
+render::LinePiece pointer_end(Vec3 place);
+
 // Needs the GL context current in which it was made.
 class Pointers {
 public:

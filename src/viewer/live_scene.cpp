@@ -12,6 +12,7 @@
 #include "session/room_object.h"
 #include "session/whose_camera.h"
 #include "viewer/age_text.h"
+#include "viewer/first_met.h"
 #include "viewer/looking_back.h"
 #include "viewer/still_cover.h"
 #include "window/font.h"
@@ -296,18 +297,14 @@ void LiveScene::add_pointers() {
         return;
     const std::vector<CloudCamera> cameras = cloud();
     for (room::Pointer& pointer : pointers_) {
-        const render::PickRay ray{pointer.from, pointer.direction};
         pointer.twin.reset();
-        if (const auto picked = render::pick(frame_, ray)) {
-            pointer.reach_m = picked->distance_m;
+        const auto met = first_met(frame_, cameras, {pointer.from, pointer.direction});
+        if (!met)
+            continue;
+        pointer.reach_m = met->distance_m;
+        if (met->object)
             pointer.twin = meeting_.case_scene().twin_place(
-                session::ObjectId(std::uint32_t(picked->id)), picked->place);
-        }
-        if (const auto point = pick_cloud(cameras, ray);
-            point && point->distance_m < pointer.reach_m.value_or(farthest_pick_m)) {
-            pointer.reach_m = point->distance_m;
-            pointer.twin.reset();
-        }
+                session::ObjectId(std::uint32_t(*met->object)), met->place);
     }
     if (!drawn_pointers_)
         drawn_pointers_ = std::make_unique<room::Pointers>();

@@ -150,13 +150,11 @@ RoomPanel call_panel(const std::vector<room::RoomPerson>& callers) {
         return panel;
     window::Panel offer{say(Phrase::calls_you), {}};
     for (const room::RoomPerson& person : callers) {
-        const int first = int(panel.commands.size());
-        panel.commands.push_back(AnswerCall{person.id, true});
-        panel.commands.push_back(AnswerCall{person.id, false});
         offer.rows.push_back(
             {person.name,
              "",
-             {{say(Phrase::go_there), first}, {say(Phrase::stay_here), first + 1}}});
+             {panel.button(say(Phrase::go_there), AnswerCall{person.id, true}),
+              panel.button(say(Phrase::stay_here), AnswerCall{person.id, false})}});
     }
     panel.panels.push_back(std::move(offer));
     return panel;

@@ -86,7 +86,11 @@ struct ChangeScreen {
     enum class What { smaller, larger, pin, unpin, end } what{};
     session::ObjectId screen{};
 };
-struct LookBackTo {  // for this person alone; 0: the present
+struct ShowScreen {  // that is shared
+    session::ObjectId screen{};
+};
+struct CloseScreenOffer {};  // it is not wanted
+struct LookBackTo {          // for this person alone; 0: the present
     Duration ago{};
 };
 struct StudyPress {  // in the panel of a study
@@ -125,11 +129,11 @@ struct PressKey {  // as its key does
 struct ShowSheet {
     Sheet sheet{};
 };
-using RoomCommand =
-    std::variant<GoToPerson, LookThrough, GoToPlace, Decide, AskToOpen, OpenOffered, LeaveClosed,
-                 ChangeCase, ChooseTool, ChangeMarks, Call, AnswerCall, ShowLarge, AdjustStep,
-                 PlayStep, ChangeScreen, ShowFace, LookBackTo, UseSound, StudyPress, WriteText,
-                 SendText, RaiseHand, TourPress, PressKey, ShowSheet>;
+using RoomCommand = std::variant<GoToPerson, LookThrough, GoToPlace, Decide, AskToOpen, OpenOffered,
+                                 LeaveClosed, ChangeCase, ChooseTool, ChangeMarks, Call, AnswerCall,
+                                 ShowLarge, AdjustStep, PlayStep, ChangeScreen, ShowScreen,
+                                 CloseScreenOffer, ShowFace, LookBackTo, UseSound, StudyPress,
+                                 WriteText, SendText, RaiseHand, TourPress, PressKey, ShowSheet>;
 
 struct RoomPanel {
     std::vector<window::Panel> panels;
@@ -141,7 +145,11 @@ struct RoomPanel {
         return int(commands.size()) - 1;
     }
     window::PanelButton button(std::string label, RoomCommand command) {
-        return {std::move(label), add(std::move(command))};
+        const bool leads_away = std::holds_alternative<GoToPerson>(command) ||
+                                std::holds_alternative<GoToPlace>(command) ||
+                                std::holds_alternative<LookThrough>(command) ||
+                                std::holds_alternative<ShowScreen>(command);
+        return {std::move(label), add(std::move(command)), leads_away};
     }
 };
 

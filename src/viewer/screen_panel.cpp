@@ -58,9 +58,7 @@ void add_screen_panel(const ScreenPanelFacts& facts, RoomPanel& panel) {
         };
         // Nobody gets the pictures of an own screen.
         if (object.creator != facts.self)
-            row.buttons.push_back(
-                panel.button(say(Phrase::show),
-                             GoToPlace{{screen->name, in_front_of(place_of(object, *screen))}}));
+            row.buttons.push_back(panel.button(say(Phrase::show), ShowScreen{id}));
         if (session::may(facts.role, session::Right::handle) && !screen->pinned &&
             object.grip.holder == ParticipantId{}) {
             add(Phrase::smaller, What::smaller);

@@ -41,7 +41,7 @@ std::optional<Shown> shown(const session::RoomObject& object, wire::Role role) {
     Shown result{row.detail, {}, {}};
     for (const window::PanelButton& button : row.buttons) {
         result.labels.push_back(button.label);
-        if (std::holds_alternative<GoToPlace>(panel.commands.at(std::size_t(button.command))))
+        if (std::holds_alternative<ShowScreen>(panel.commands.at(std::size_t(button.command))))
             continue;
         result.commands.push_back(
             std::get<ChangeScreen>(panel.commands.at(std::size_t(button.command))));

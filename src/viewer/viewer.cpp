@@ -356,6 +356,7 @@ bool Viewer::step(Size picture, TimePoint now) {
         scene_changed_ = true;
     if (scene_.take_meeting(participant_))
         scene_changed_ = true;
+    screen_offer_.follow(scene_.meeting().room().objects, scene_.meeting().room().self, now);
     if (const auto place = meeting_place(); place && !eye_.is_placed()) {
         eye_.stand(at_eye_height(*place));
         scene_changed_ = true;
@@ -584,6 +585,8 @@ void Viewer::add_open_panels(const Facts& facts, RoomPanel& panel, TimePoint now
             add_look_back(facts, panel, now);
     }
     panel = joined(std::move(panel), call_panel(callers()));
+    if (screen_offer_.is_open(now) && facts.past.empty())
+        panel.panels.push_back({say(Phrase::shared_screen), {screen_offer_.row(panel)}});
     // Its buttons would change the present by what is shown of the past.
     if (shows_case_ && facts.past.empty())
         add_case(panel);

@@ -32,6 +32,7 @@
 #include "viewer/playing.h"
 #include "viewer/removal_question.h"
 #include "viewer/renderer_text.h"
+#include "viewer/screen_offer.h"
 #include "viewer/sheet.h"
 #include "viewer/shown_moment.h"
 #include "viewer/sound_panel.h"
@@ -228,6 +229,8 @@ private:
     void on(const UseSound& sound, TimePoint now);
     void on(const PlayStep& step, TimePoint now);
     void on(const ChangeScreen& change, TimePoint now);
+    void on(const ShowScreen& shown, TimePoint now);
+    void on(const CloseScreenOffer& offer, TimePoint now);
     void on(const LookBackTo& moment, TimePoint now);
     void on(const ChooseTool& chosen, TimePoint now);
     void on(const ChangeMarks& change, TimePoint now);
@@ -247,6 +250,7 @@ private:
     bool is_calling(TimePoint now) const { return now < calls_until_; }
     std::optional<Pose> meeting_place() const;
     void use_tool(window::WindowInput& input, Size picture, TimePoint now);
+    void press_with_tool(window::WindowInput& input, const ToolScene& scene);
     void point(const window::WindowInput& input, Size picture);
     void add_pointing(wire::PersonPose& pose);
     void on_camera_key(const window::KeyPress& key, Size picture, TimePoint now);
@@ -299,6 +303,8 @@ private:
     bool microphone_open_ = false;
     Handling handling_;
     Tools tools_;
+    ScreenOffer screen_offer_;
+    bool missed_with_tool_ = false;  // the button went down on nothing, and is still down
     AdjustPanel adjusting_;
     Playing playing_;
     LookingBack looking_back_;

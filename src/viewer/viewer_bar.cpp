@@ -123,7 +123,7 @@ void Viewer::add_tools(Facts& facts, RoomPanel& panel, TimePoint now) const {
     facts.unrest = unrest_.count(now);
 }
 
-// Somebody at the door, a call, and the way back to the present.
+// Somebody at the door, a call, a shared screen, and the way back to the present.
 void Viewer::add_offers(Facts& facts, RoomPanel& panel, TimePoint now) const {
     if (!facts.past.empty()) {
         add_look_back(facts, panel, now);
@@ -149,6 +149,8 @@ void Viewer::add_offers(Facts& facts, RoomPanel& panel, TimePoint now) const {
              "",
              {panel.button(say(Phrase::go_there), AnswerCall{person.id, true}),
               panel.button(say(Phrase::stay_here), AnswerCall{person.id, false})}});
+    if (screen_offer_.is_open(now) && facts.past.empty())
+        facts.offers.push_back(screen_offer_.row(panel));
     add_tour(facts, panel);
 }
 

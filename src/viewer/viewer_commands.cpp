@@ -3,6 +3,7 @@
 #include <type_traits>
 
 #include "phrases/phrase.h"
+#include "session/shared_screen.h"
 #include "viewer/case_actions.h"
 #include "viewer/screen_panel.h"
 #include "viewer/viewer.h"
@@ -17,8 +18,8 @@ constexpr bool is_one_of = (std::is_same_v<Command, Others> || ...);
 
 // Commands on panels and words alone are carried out also while there is no picture.
 template <class Command>
-constexpr bool needs_no_picture =
-    is_one_of<Command, PressKey, ShowSheet, StudyPress, WriteText, SendText, RaiseHand, TourPress>;
+constexpr bool needs_no_picture = is_one_of<Command, PressKey, ShowSheet, StudyPress, WriteText,
+                                            SendText, RaiseHand, TourPress, CloseScreenOffer>;
 
 }  // namespace
 
@@ -127,6 +128,7 @@ void Viewer::on(const LookBackTo& moment, TimePoint now) {
 }
 
 void Viewer::on(const ChooseTool& chosen, TimePoint now) {
+    points_ = false;
     tools_.choose(chosen.tool, scene_.meeting());
     if (!headset_)
         return;
@@ -175,6 +177,23 @@ void Viewer::on(const GoToPerson& person, TimePoint now) {
 void Viewer::on(const GoToPlace& place, TimePoint now) {
     bring(place.place.room_from_eye);
     note(place.place.name, now);
+}
+
+void Viewer::on(const ShowScreen& shown, TimePoint now) {
+    screen_offer_.close();
+    const auto& objects = scene_.meeting().room().objects;
+    const auto found = objects.find(shown.screen);
+    const auto screen = found == objects.end() ? std::nullopt
+                                               : session::decode_shared_screen(
+                                                     found->second.kind, found->second.properties);
+    if (!screen)
+        return note(say(Phrase::not_in_room_any_more), now);
+    bring(in_front_of(place_of(found->second, *screen)));
+    note(screen->name, now);
+}
+
+void Viewer::on(const CloseScreenOffer&, TimePoint) {
+    screen_offer_.close();
 }
 
 void Viewer::on(const LookThrough& through, TimePoint now) {

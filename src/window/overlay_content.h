@@ -28,6 +28,8 @@ struct Fact {
 struct PanelButton {
     std::string label;
     int command = 0;  // chosen by the owner of the panel
+    // The person sees something else then, which the panel may hide.
+    bool leads_away = false;
 
     bool operator==(const PanelButton&) const = default;
 };

@@ -114,6 +114,28 @@ class MarksWindow(unittest.TestCase):
                 self.assertIn(seen, ([1, 2, 3], [3, 2, 1]))
                 anna.say("case slice axial")
                 anna.wait_for(lambda f: on_screen(f)["picture"] is None)
+            with self.subTest("an arrow has a click at each of its ends"):
+                self.press(self.buttons()[1])
+                do("sleep", 0.3)
+                for place in (BOX, BOX_BELOW):
+                    do("mousemove", *place, "sleep", 0.3, "mousedown", 1, "sleep", 0.15, "mouseup", 1, "sleep", 0.3)
+                arrow = marks(anna.wait_for(lambda f: len(marks(f)) == 4))[3]
+                self.assertEqual((arrow["kind"], len(arrow["points"])), ("arrow", 2))
+                do("key", "BackSpace")
+                anna.wait_for(lambda f: len(marks(f)) == 3)
+            with self.subTest("a drag that begins on nothing neither draws nor turns the view"):
+                head = lambda f: next(p["head"] for p in f["room"]["people"] if p["name"] == "Wim Dow")
+                home = head(anna.newest_json())
+                # Farther back the camera's surfaces do not fill the picture.
+                do("keydown", "s", "sleep", 1, "keyup", "s", "sleep", 0.5)
+                stands = []
+                anna.wait_for(lambda f: stands.append(head(f)) or (len(stands) > 1 and stands[-1] == stands[-2] and stands[-1][2] > home[2] + 0.5))
+                before = stands[-1]
+                self.drag(AIR, (200, 30), after=("sleep", 0.5))
+                newest = anna.newest_json()
+                self.assertEqual((head(newest), len(marks(newest))), (before, 3))
+                do("mousemove", *AIR, "key", "r")
+                anna.wait_for(lambda f: head(f) == home)
             with self.subTest("Backspace takes the newest back, and the mouse turns the view again"):
                 do("key", "BackSpace")
                 anna.wait_for(lambda f: len(marks(f)) == 2)

@@ -92,6 +92,34 @@ class WebScreen(unittest.TestCase):
             chief.wait_for(lambda f: not screens(f))
             page.wait_for("theatron.screen.state === 'off' && document.getElementById('share_screen').hidden")
 
+    def test_others_are_offered_the_way_to_it(self):
+        browser = self.stack.enter_context(Browser(*CHOOSES))
+        ada, eva = self.enter(browser, "room"), self.enter(browser, "flat")
+        self.share(ada)
+        offer = "document.getElementById('shared_screen').textContent"
+        with self.subTest("in the 2D view its picture comes"):
+            eva.wait_for(f"{offer}.includes('Ada shares a screen: ')")
+            self.assertEqual(ada.evaluate(offer), "", "one's own is not offered")
+            self.click(eva, "#shared_screen button")
+            eva.wait_for(f"theatron.state.flat_camera.includes('Screen of Ada') && {offer} === ''")
+        with self.subTest("in the room one stands before it, and what lay over it is closed"):
+            mia = self.enter(browser, "room")
+            mia.wait_for(f"{offer}.includes('Ada shares a screen: ')")
+            mia.open_sheet("people")
+            before = mia.evaluate("theatron.state.ear.position")
+            mia.wait_for("!!document.querySelector('#room_panels [data-leads-away]')")
+            if folder := os.environ.get("THEATRON_PICTURES"):
+                mia.screenshot(pathlib.Path(folder) / "web_screen_offer.png")
+            mia.wait_for("[...document.querySelectorAll('#room_panels button')].some(b => b.textContent === 'Show' && (b.click(), true))")
+            mia.wait_for(f"theatron.sheet.name === '' && JSON.stringify(theatron.state.ear.position) !== '{before}'.replaceAll(' ', '') && {offer} === ''")
+        with self.subTest("whoever does not want it is not asked again"):
+            kim = self.enter(browser, "room")
+            kim.wait_for(f"{offer}.includes('Ada shares a screen: ')")
+            self.click(kim, "#shared_screen button:last-child")
+            kim.wait_for(f"{offer} === ''")
+        for page in (ada, eva, mia, kim):
+            self.assertEqual(page.problems, [])
+
     def test_without_a_choice_nothing_is_shown_and_the_page_says_so(self):
         browser = self.stack.enter_context(Browser())
         page = self.enter(browser, "room")

@@ -114,7 +114,15 @@ class WebTouch(unittest.TestCase):
             page.touch("touchEnd")
             ben.wait_for(lambda f: not points(f))
             self.assertLess(distance(before["position"], self.ear(page)["position"]), 0.01, "it turned the picture, too")
+        with self.subTest("one either points or draws"):
+            pressed = lambda *buttons: [page.evaluate(f"document.querySelector('{b}').ariaPressed") for b in buttons]
+            self.tap(page, "#draw")
+            page.wait_for("document.querySelector('#draw').ariaPressed === 'true' && document.querySelector('[data-tool=points]').ariaPressed === 'false'")
             self.tap(page, "[data-tool=points]")
+            page.wait_for("document.querySelector('#draw').ariaPressed === 'false'")
+            self.assertEqual(pressed("[data-tool=points]"), ["true"])
+            self.tap(page, "[data-tool=points]")
+            self.assertEqual(pressed("[data-tool=points]"), ["false"])
         with self.subTest("a finger holds an object, another one removes it"):
             self.tap_more(page, "r")
             self.drawn(page)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The graphics of this computer, and the 2D view for one that cannot draw the room.
+import { FlatMarks } from "./flat_marks.js";
 
 const software = /llvmpipe|softpipe|swiftshader|swrast|microsoft basic render/i;
 const flat_every_ms = 200;
@@ -14,19 +15,21 @@ export function find_graphics() {
     return software.test(name) ? "processor" : "card";
 }
 
-// One camera's picture on a canvas, a few times a second.
+// One camera's picture on a canvas, a few times a second, with what people do on it above.
 export class FlatView {
-    constructor(canvas, module, client) {
-        Object.assign(this, { canvas, module, client, next_ms: 0 });
+    constructor(canvas, over, module, client) {
+        Object.assign(this, { canvas, marks: new FlatMarks(over, canvas), module, client, next_ms: 0 });
     }
 
     clear() {
         if (this.canvas.width > 1)
             this.canvas.width = this.canvas.height = 1;
+        this.marks.clear();
     }
 
     // True if the picture is a new one.
     draw(now_ms) {
+        this.marks.draw(this.client.flat_step());
         if (now_ms < this.next_ms)
             return false;
         this.next_ms = now_ms + flat_every_ms;

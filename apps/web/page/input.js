@@ -9,14 +9,19 @@ const walking = {
 const of_page = new Set(["b", "o", "p"]);  // panels, which the page itself opens
 const pixels_per_click = 100;  // of a wheel or of a pinch
 
-// The result is for the buttons of touch.js.
-export function listen(canvas, client) {
+const whole = ({ clientWidth: width, clientHeight: height }) => ({ left: 0, top: 0, width, height });
+
+// The result is for the buttons of touch.js. `box_of`: the part of the canvas in which the picture is.
+export function listen(canvas, client, box_of = whole) {
     let walk = [0, 0, 0];  // by a button
     let tool = "";         // "points" or "teleports": what a press on the picture does instead of turning it
     let using = null;      // the pointer that does it
     let used = () => {};
     let is_over = false;   // a mouse, which points wherever it is
-    const share = event => [event.offsetX / canvas.clientWidth, event.offsetY / canvas.clientHeight];
+    const share = event => {
+        const { left, top, width, height } = box_of(canvas);
+        return [(event.offsetX - left) / width, (event.offsetY - top) / height];
+    };
     const pointers = new Map();  // id -> place in pixels
     const middle = () => {
         const all = [...pointers.values()];

@@ -14,12 +14,11 @@ export class Notices {
     notice = "";
 
     // The client's sentences at this moment; `of_camera`: the notice tells that a camera stands still or goes on. `once`: the
-    // page's own sentence, such as why it shows something else than before; "": none.
+    // page's own sentences, such as why it shows something else than before; "": none.
     // Returns the sentences to show now, and the warning and the number of such notices that are signs of the dot.
-    at(now_ms, { warning, notice, of_camera, once = "" }) {
+    at(now_ms, { warning, notice, of_camera, once = [] }) {
         const shown = [];
-        if (once && this.is_new(now_ms, once))
-            shown.push(once);
+        shown.push(...once.filter(sentence => sentence && this.is_new(now_ms, sentence)));
         if (warning && this.is_new(now_ms, kind_of(warning)))
             shown.push(warning);
         this.unrest = this.unrest.filter(at_ms => now_ms - at_ms < unrest_ms);

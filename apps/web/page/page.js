@@ -5,13 +5,14 @@ import make_client from "./client.mjs";
 import { join_workers, start_workers } from "./decoding.js";
 import { use_loudspeaker } from "./device_choice.js";
 import { Face } from "./face.js";
+import { picture_box } from "./flat_marks.js";
 import { name_full_screen, offer_full_screen } from "./full_screen.js";
 import { FlatView, Patience, find_graphics, note_lost_graphics, take_lost_graphics } from "./graphics.js";
 import { Headset, headset_kinds } from "./headset.js";
 import { listen } from "./input.js";
 import { Lobby } from "./lobby.js";
 import { Notices } from "./notices.js";
-import { command_of, face_problem, fill_texts, show, show_face, show_own_screen, show_voices } from "./panels.js";
+import { command_of, face_problem, fill_texts, has_draw_tools, show, show_face, show_own_screen, show_voices } from "./panels.js";
 import { Person } from "./person.js";
 import { PicturePanel } from "./picture.js";
 import { put_bytes, with_patience, with_program } from "./program.js";
@@ -60,6 +61,8 @@ async function load_client() {
         flat_width: ["number", []],
         flat_height: ["number", []],
         flat_next: [null, []],
+        flat_step: ["string", []],
+        flat_points: [null, numbers(1)],
         leave: [null, []],
         draw: ["number", numbers(2)],
         finish_drawing: ["number", []],
@@ -124,7 +127,7 @@ async function load_client() {
         client.leave();
         leave({ voice, face, screen }, text("decoder_ended"));
     });
-    return { client, voice, face, screen, module, flat: new FlatView($("flat"), module, client) };
+    return { client, voice, face, screen, module, flat: new FlatView($("flat"), $("flat_marks"), module, client) };
 }
 
 // For tests and measurements: the newest state, and milliseconds since the link was opened.
@@ -153,14 +156,18 @@ function run({ client, voice, face, screen, module, flat }) {
         tour.begin();
     });
     let notices = new Notices();
-    offer_touch($("touch"), listen(canvas, client), client);
+    const follow_drawing = offer_touch($("touch"), [listen(canvas, client), listen($("flat"), client, picture_box)], client,
+                                       () => page.state.phase !== "left" && has_draw_tools(page.state.overlay));
     const picture_panel = new PicturePanel(client, () => next_texts = 0);
     follow_touch(() => picture_panel.name());
-    for (const id of ["room_panels", "study"])
+    for (const id of ["room_panels", "study", "shared_screen"])
         $(id).addEventListener("click", event => {
             const command = event.target.dataset.command === undefined ? null : command_of(event.target, page.state.overlay.panels);
             if (command !== null)
                 client.command(command);
+            // The panel would lie over what the person wants to see.
+            if (command !== null && "leadsAway" in event.target.dataset)
+                sheet.close();
             next_texts = 0;
         });
     for (const [id, key] of [["draw", "z"], ["back_to_live", "end"]])
@@ -179,7 +186,7 @@ function run({ client, voice, face, screen, module, flat }) {
     let asked_to_save_ms = 0;
     $("save_picture").addEventListener("click", () => {
         if (page.way === "flat")
-            return save($("flat"));
+            return save(flat.marks.copy());
         asked_to_save_ms = performance.now();
         client.redraw();
     });
@@ -290,7 +297,8 @@ function run({ client, voice, face, screen, module, flat }) {
             flat.clear();
         page.state.face_problem ||= face_problem(face, page.way);
         const way_sentence = show_way(page.state);
-        show(page.state, { sheet, notices, way: page.way, way_sentence, now_ms: performance.now() });
+        const tip = follow_drawing() === "points" && by_touch() ? text("point_by_touch") : "";
+        show(page.state, { sheet, notices, way: page.way, once: [way_sentence, tip], now_ms: performance.now() });
         tour.show(page.state, page.way);
         still.show(page.state);
         picture_panel.show(page.state);
@@ -510,7 +518,7 @@ function leave({ voice, face, screen }, problem) {
     still.rest();
     $("view").hidden = $("flat").hidden = $("panels").hidden = $("session_picture").hidden = true;
     // The canvases would keep their last pictures.
-    for (const canvas of [$("view"), $("flat"), $("session_picture")])
+    for (const canvas of [$("view"), $("flat"), $("flat_marks"), $("session_picture")])
         canvas.width = canvas.height = 1;
     $("lobby").hidden = false;
     page.lobby.watch();

@@ -63,7 +63,7 @@ function update(place, content, fill) {
 
 // The room's panels are not rebuilt while one of their buttons is pressed: the click would be lost.
 let is_pressed = false;
-for (const id of ["room_panels", "study"])
+for (const id of ["room_panels", "study", "shared_screen"])
     $(id).addEventListener("pointerdown", () => is_pressed = true);
 for (const end of ["pointerup", "pointercancel"])
     addEventListener(end, () => setTimeout(() => is_pressed = false), true);  // behind the click
@@ -120,12 +120,13 @@ function fill_panels(place, panels) {
             const item = element("li");
             item.append(element("div", row.text), element("div", row.detail, "detail"));
             const buttons = element("div", "", "buttons");
-            for (const [i, { label, command }] of row.buttons.entries()) {
+            for (const [i, { label, command, leads_away }] of row.buttons.entries()) {
                 const chosen = /^\[(.+)\]$/.exec(label);  // as the client marks the chosen tool
                 const button = element("button", chosen?.[1] ?? label);
                 if (chosen)
                     button.setAttribute("aria-pressed", "true");
                 button.dataset.command = command;
+                button.toggleAttribute("data-leads-away", leads_away);
                 button.dataset.label = `${place_of(panel, at)}/${label}`;
                 button.dataset.place = `${place_of(panel, at).split(/[:,] /)[0]}/${i}`;
                 const subject = subject_of(panel, at);
@@ -214,18 +215,18 @@ export function show_own_screen(screen, { phase, may_show_screen, screen: told }
 const kinds = { people: ["door", "call", "people", "screens", "sound", "places"], case: ["case"], draw: ["marks"], more: ["past"] };
 
 const of_kind = (overlay, kind) => overlay.panels.filter(panel => panel.kind === kind);
-const is_drawing = overlay => of_kind(overlay, "marks").length > 0;
+export const has_draw_tools = overlay => of_kind(overlay, "marks").length > 0;
 
 // Shows what the role and the way of seeing allow.
 function show_buttons(state, way) {
     const is_flat = way === "flat";
     $("webcam").hidden = is_flat || !state.may_be_seen;
-    $("point").hidden = is_flat || !state.may_point;
-    $("draw").hidden = is_flat || !state.may_handle;
+    $("point").hidden = !state.may_point;
+    $("draw").hidden = !state.may_handle;
     $("show_case").hidden = is_flat;
     $("next_camera").hidden = !is_flat;
     $("save_picture").disabled = !state.has_picture;
-    $("draw").setAttribute("aria-pressed", String(is_drawing(state.overlay)));
+    $("draw").setAttribute("aria-pressed", String(has_draw_tools(state.overlay)));
     for (const key of ["r", "n"])
         document.querySelector(`#more [data-key="${key}"]`).hidden = is_flat || (key === "n" && !state.may_handle);
 }
@@ -233,7 +234,7 @@ function show_buttons(state, way) {
 // The panel of the tools comes and goes with them.
 let was_drawing = false;
 function follow_drawing(overlay, sheet) {
-    const is_on = is_drawing(overlay);
+    const is_on = has_draw_tools(overlay);
     if (is_on && !was_drawing)
         sheet.open("draw");
     if (!is_on && sheet.name === "draw" && !overlay.message)
@@ -274,24 +275,25 @@ function show_study(panels) {
 }
 
 // `sheet` is the page's Sheet, `notices` its Notices; `way` is "room" or "flat",
-// and `way_sentence` says why, or which camera is shown.
-export function show(state, { sheet, notices, way, way_sentence, now_ms }) {
+// and `once` has sentences of the page itself, such as why another way than before is shown.
+export function show(state, { sheet, notices, way, once, now_ms }) {
     const { overlay } = state;
     set_text($("message"), [overlay.message, overlay.detail].filter(Boolean).join("\n"));
     // That a picture is not of the present is said as long as it is so.
     const played = overlay.facts.find(fact => fact.kind === "not_live");
     set_text($("not_live"), !state.is_not_live ? "" : overlay.warning || (played ? text("labelled", played) : ""));
     const { shown, warning, unrest } = notices.at(now_ms, {
-        warning: state.is_not_live ? "" : overlay.warning, notice: overlay.notice, of_camera: state.is_of_camera, once: way_sentence });
+        warning: state.is_not_live ? "" : overlay.warning, notice: overlay.notice, of_camera: state.is_of_camera, once });
     set_text($("notice"), shown.join("\n"));
     show_dot($("dot"), judge(state, unrest));
     show_chips(state);
     show_buttons(state, way);
     follow_drawing(overlay, sheet);
-    if (way === "flat" && ["case", "draw"].includes(sheet.name))
+    if (way === "flat" && sheet.name === "case")
         sheet.close();  // nothing of them is in this view
     show_details(state, [warning, unrest ? text("unrest", { count: unrest }) : ""].filter(Boolean));
     show_study(of_kind(overlay, "study"));
+    update_panels($("shared_screen"), of_kind(overlay, "shared"));
     sheet.entitle();
     update_panels($("room_panels"), (kinds[sheet.name] ?? []).flatMap(kind => of_kind(overlay, kind)));
 }

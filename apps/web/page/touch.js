@@ -4,8 +4,11 @@
 const step_ms = 400;           // of a press by a screen reader, which has no end
 const click_follows_ms = 700;  // of a touch
 
-// `controls`: the result of listen() in input.js.
-export function offer_touch(place, controls, client) {
+// `controls`: the result of listen() in input.js for each picture, the room's first. `draws` says whether the tools for drawing
+// are out. The result is to be called with each state, since a press on the picture either points or draws; it returns the tool
+// that is chosen ("points", "teleports" or "").
+export function offer_touch(place, [room, flat], client, draws) {
+    const controls = { walk: room.walk, choose_tool: (...tool) => [room, flat].forEach(picture => picture.choose_tool(...tool)) };
     const stand = () => controls.walk([0, 0, 0]);
     for (const button of place.querySelectorAll("[data-walk]"))
         on_hold(button, () => controls.walk(button.dataset.walk.split(" ").map(Number)), stand);
@@ -16,6 +19,8 @@ export function offer_touch(place, controls, client) {
     let chosen = "";
     const choose = name => {
         chosen = name;
+        if (name && draws())
+            client.key("z", "");
         for (const button of tools)
             button.setAttribute("aria-pressed", String(button.dataset.tool === name));
         // One goes somewhere once, and points at several things.
@@ -24,6 +29,15 @@ export function offer_touch(place, controls, client) {
     for (const button of tools)
         on_press(button, () => choose(chosen === button.dataset.tool ? "" : button.dataset.tool));
     place.addEventListener("contextmenu", event => event.preventDefault());  // of a long touch
+    let drew = false;
+    return () => {
+        const now = draws();
+        if (now && !drew && chosen)
+            choose("");
+        drew = now;
+        client.flat_points(chosen === "points" ? 1 : 0);
+        return chosen;
+    };
 }
 
 function on_press(button, act) {

@@ -7,12 +7,12 @@ namespace theatron::viewer {
 namespace {
 
 using window::FormKey;
-constexpr ParticipantId anna{2};
+constexpr ParticipantId writer{2};
 
 client::Participant::Chat chat_of(int count) {
     client::Participant::Chat chat;
     for (int i = 0; i < count; ++i) {
-        chat.messages.push_back({std::uint64_t(i + 1), anna, "Anna", "text " + std::to_string(i),
+        chat.messages.push_back({std::uint64_t(i + 1), writer, "Anna", "text " + std::to_string(i),
                                  TimePoint(std::chrono::minutes(i))});
         if (i % 2)
             chat.own.insert(std::uint64_t(i + 1));

@@ -1,30 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tools for marks: a stroke, an arrow, a pin or a distance that is drawn onto the surface which
-// the pointer's ray meets, from the press to the release.
+// The tools for marks: a stroke, an arrow, a pin or a distance (mark_draft.h) on the surface that
+// the pointer's ray meets.
 #pragma once
 
+#include "viewer/tools/mark_draft.h"
 #include "viewer/tools/tool.h"
 
 namespace theatron::viewer {
 
 class MarkTool : public Tool {
 public:
-    explicit MarkTool(session::MarkKind kind) : kind_(kind) {}
+    explicit MarkTool(session::MarkKind kind) : draft_(kind) {}
 
     bool on_pointer(const Pointer& pointer, const ToolScene& scene) override;
+    bool follows_pointer() const override { return draft_.is_open(); }
+    std::optional<Phrase> take_advice() override { return draft_.take_advice(); }
     void end(Meeting& meeting) override;
 
 private:
-    struct Draft {
-        SurfacePoint first, last;
-        session::Mark mark;
-    };
-    void begin(const SurfacePoint& at, const Meeting& meeting);
-    void go_on(const SurfacePoint& at, const Meeting& meeting);
-    bool is_worth_keeping() const;
-
-    session::MarkKind kind_;
-    std::optional<Draft> draft_;
+    MarkDraft draft_;
+    render::PickRay ray_;  // that drew last
 };
 
 }  // namespace theatron::viewer

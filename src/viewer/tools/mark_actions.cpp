@@ -14,9 +14,8 @@ namespace request = session::request;
 // Below the width of a mark's line.
 constexpr double tolerance_m = 0.0002;
 
-}  // namespace
-
-bool sign_mark(const client::Participant::Room& room, session::Mark& mark) {
+// The author's colour and initials in `mark`. False without a room.
+bool sign(const client::Participant::Room& room, session::Mark& mark) {
     for (const auto& [id, object] : room.objects)
         if (object.kind == session::ObjectKind::person && object.creator == room.self) {
             const auto facts = session::decode_person(object.properties);
@@ -27,19 +26,20 @@ bool sign_mark(const client::Participant::Room& room, session::Mark& mark) {
     return false;
 }
 
-void simplify_stroke(session::Mark& mark) {
+}  // namespace
+
+std::optional<session::Mark> preview_of(const client::Participant::Room& room, session::Mark mark) {
+    if (!sign(room, mark))
+        return std::nullopt;
     if (mark.kind == session::MarkKind::stroke)
         mark.points = session::simplified(mark.points, tolerance_m, session::most_mark_points);
+    return mark;
 }
 
 bool make_mark(client::Participant& participant, session::Mark mark) {
-    if (!sign_mark(participant.room(), mark))
-        return false;
-    simplify_stroke(mark);
-    if (mark.kind == session::MarkKind::pin)
-        mark.number = 1;
-    return participant.ask_room(
-               request::Create{session::ObjectKind::mark, {}, 1, session::encode_mark(mark)}) != 0;
+    auto made = preview_of(participant.room(), std::move(mark));
+    return made && participant.ask_room(request::Create{
+                       session::ObjectKind::mark, {}, 1, session::encode_mark(*made)}) != 0;
 }
 
 bool undo_mark(client::Participant& participant) {

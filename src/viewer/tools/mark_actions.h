@@ -11,11 +11,8 @@ namespace theatron::viewer {
 // Gives the mark its author's colour and initials; a pin gets its number from the host. A stroke of
 // too many points is simplified.
 bool make_mark(client::Participant& participant, session::Mark mark);
-// The author's colour and initials in `mark`, for a preview. False without a room.
-bool sign_mark(const client::Participant::Room& room, session::Mark& mark);
-
-// With at most as many points as a mark may have.
-void simplify_stroke(session::Mark& mark);
+// The same mark before the host has it: signed and simplified. Nullopt without a room.
+std::optional<session::Mark> preview_of(const client::Participant::Room& room, session::Mark mark);
 
 // Removes the newest mark that this person made.
 bool undo_mark(client::Participant& participant);

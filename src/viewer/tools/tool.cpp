@@ -45,6 +45,11 @@ const std::vector<ToolRow>& tool_rows() {
     return rows;
 }
 
+bool draws(ToolKind kind) {
+    return kind == ToolKind::stroke || kind == ToolKind::arrow || kind == ToolKind::pin ||
+           kind == ToolKind::distance;
+}
+
 Phrase name_of(ToolKind kind) {
     for (const ToolRow& row : tool_rows())
         for (const ToolRow::Choice& choice : row.choices)

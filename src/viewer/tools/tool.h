@@ -47,6 +47,10 @@ public:
     virtual ~Tool() = default;
     // True while the tool uses the pointer: from a press that it takes to the release.
     virtual bool on_pointer(const Pointer& pointer, const ToolScene& scene) = 0;
+    // True while it shows something that follows the pointer, also between two presses.
+    virtual bool follows_pointer() const { return false; }
+    // Tells a person who does not know the tool yet the next step. Given once.
+    virtual std::optional<Phrase> take_advice() { return std::nullopt; }
     // The person puts the tool away, perhaps in the middle of its work.
     virtual void end(Meeting&) {}
 };
@@ -64,6 +68,8 @@ struct ToolRow {
     std::vector<Choice> choices;
 };
 const std::vector<ToolRow>& tool_rows();
+// The tool makes marks.
+bool draws(ToolKind kind);
 Phrase name_of(ToolKind kind);
 
 // The tool that the person has chosen. Use from one thread.
@@ -74,10 +80,12 @@ public:
     void choose(ToolKind kind, Meeting& meeting);
     // Single parts of an organ are held instead of the organ.
     bool takes_parts() const { return chosen_ == ToolKind::part; }
-    // As Tool::on_pointer(); false without a tool.
+    // As those of Tool; false and nothing without a tool.
     bool on_pointer(const Pointer& pointer, const ToolScene& scene) {
         return tool_ && tool_->on_pointer(pointer, scene);
     }
+    bool follows_pointer() const { return tool_ && tool_->follows_pointer(); }
+    std::optional<Phrase> take_advice() { return tool_ ? tool_->take_advice() : std::nullopt; }
 
 private:
     ToolKind chosen_ = ToolKind::none;
