@@ -171,7 +171,7 @@ class WebBar(PageCase):
         said = page.evaluate(IMPORT % "notices" + """.then(({ Notices }) => {
             const notices = new Notices();
             const at = (s, warning, notice = "", of_camera = false, once = "") => {
-                const { shown, unrest } = notices.at(1000 * s, { warning, notice, of_camera, once });
+                const { shown, unrest } = notices.at(1000 * s, { warning, notice, of_camera, once: [once] });
                 return [...shown, unrest];
             };
             return [at(0, "It is 3 s old"), at(7, "It is 9 s old"), at(9, "It is 11 s old"), at(10, ""), at(20, "It is 2 s old"), at(100, "It is 2 s old"),

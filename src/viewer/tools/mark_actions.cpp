@@ -37,6 +37,8 @@ std::optional<session::Mark> preview_of(const client::Participant::Room& room, s
 }
 
 bool make_mark(client::Participant& participant, session::Mark mark) {
+    if (mark.kind == session::MarkKind::pin)
+        mark.number = 1;
     auto made = preview_of(participant.room(), std::move(mark));
     return made && participant.ask_room(request::Create{
                        session::ObjectKind::mark, {}, 1, session::encode_mark(*made)}) != 0;
