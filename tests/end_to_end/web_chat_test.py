@@ -196,6 +196,21 @@ class WebChat(PageCase):
         for names, told in ((["A"], "A"), (list("ABC"), "A, B, C"), (list("ABCDE"), "A, B, C, and 2 more")):
             self.assertEqual(page.evaluate(f"{IMPORT}.then(m => m.names_text({names}))"), told)
 
+    def test_own_messages_stay_own_until_the_host_sends_them_again(self):
+        page = self.enter()
+        kept = page.evaluate(IMPORT + """.then(({ Chat }) => {
+            const kept = [], of = (...ids) => JSON.stringify({ messages: ids.map(id => ({ id, name: "A", text: "t", is_own: id > 6, age_s: 1 })), unsent: [] });
+            const client = { go_on() {}, answer: of(), chat() { return this.answer; } };
+            const chat = new Chat(client, { name: "" }, { keep: stay => kept.push(stay.own.join()) });
+            chat.begin({ own: ["7"], unsent: [], seen: "", hand_raised: false });
+            chat.show({ chat: { version: 1 } }, 1);
+            client.answer = of("5", "7", "9");
+            chat.show({ chat: { version: 2 } }, 1);
+            chat.forget();
+            return [...kept, chat.own.length];
+        })""")
+        self.assertEqual(kept, ["7", "7,9", 0])
+
     def test_a_hand_goes_up_for_all_also_of_an_observer(self):
         with self.other("Ben", "operator") as ben:
             ben.wait_for(lambda f: f["chat"]["may_write"])

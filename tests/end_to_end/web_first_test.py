@@ -300,7 +300,7 @@ class WebFirst(PageCase):
             page.wait_for("theatron.state.phase === 'joined' && !document.getElementById('flat').hidden")
             page.wait_for(f"theatron.tour.step === 1 && {NAMED}.join() === 'next_camera'")
             page.evaluate("document.getElementById('tour_next').click()")
-            page.wait_for(f"{NAMED}.join() === 'microphone,show_people'")
+            page.wait_for(f"{NAMED}.join() === 'microphone,point'")
         page.evaluate("document.getElementById('tour_skip').click()")
         page.wait_for("theatron.tour.step === 0")
         self.leave(page)

@@ -21,6 +21,7 @@ export class Chat {
     was_open = false;
     messages = [];
     unsent = [];
+    own = [];       // ids of the messages that the person wrote, also of those that have not come again yet
     times = new Map();  // of messages by their ids, in ms since 1970
     seen = "";      // id of the newest message that the person has seen
 
@@ -63,12 +64,13 @@ export class Chat {
     begin({ own, unsent, seen, hand_raised }) {
         this.forget();
         this.seen = seen;
+        this.own = own;
         this.client.go_on(JSON.stringify({ own, unsent, hand_raised }));
     }
 
     // Nothing of a stay is there for the next person.
     forget() {
-        Object.assign(this, { version: "", messages: [], unsent: [], seen: "" });
+        Object.assign(this, { version: "", messages: [], unsent: [], own: [], seen: "" });
         this.times.clear();
         $("chat_text").value = "";
         $("chat_list").replaceChildren();
@@ -101,8 +103,7 @@ export class Chat {
         const names = [...(hand_raised ? [text("you")] : []), ...hands];
         set_text($("hands"), names.length ? text("hands", { names: names_text(names) }) : "");
         $("hands").hidden = !names.length;
-        this.run.keep({ own: this.messages.filter(({ is_own }) => is_own).map(({ id }) => id), unsent: this.unsent,
-                        seen: this.seen, hand_raised: wants_hand });
+        this.run.keep({ own: this.own, unsent: this.unsent, seen: this.seen, hand_raised: wants_hand });
         for (const part of [$("chat_text"), $("send"), ...document.querySelectorAll("[data-quick]")])
             part.disabled = !may_write;
         if (!may_write)
@@ -113,6 +114,7 @@ export class Chat {
 
     fill(messages, unsent) {
         Object.assign(this, { messages, unsent });
+        this.own = [...new Set([...this.own, ...messages.filter(({ is_own }) => is_own).map(({ id }) => id)])];
         // Once it is known, the time of a message stays, also while the session's time is not known again.
         for (const { id, age_s } of messages)
             if (age_s !== null && !this.times.has(id))

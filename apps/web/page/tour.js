@@ -14,8 +14,7 @@ function content_of(step, way) {
     if (step === 1)
         return way === "flat" ? ["tour_look_flat", ["next_camera"]] : ["tour_look", []];
     if (step === 2)
-        return has("microphone") && has("point") ? ["tour_act", ["microphone", "point"]]
-            : has("microphone") ? ["tour_speak", ["microphone", "show_people"]] : ["tour_watch", ["show_people"]];
+        return has("microphone") ? ["tour_act", ["microphone", "point"]] : ["tour_watch", ["show_people"]];
     return ["tour_leave", ["leave", "show_more"]];
 }
 
