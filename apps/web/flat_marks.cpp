@@ -47,6 +47,7 @@ json to_json(const viewer::FlatDrawing& drawing) {
                               piece.to_half_widths});
         lines.push_back({{"color", text_of(line.color)},
                          {"outline", text_of(render::outline_color(line.color))},
+                         {"points", line.points},
                          {"pieces", std::move(pieces)}});
     }
     for (const viewer::FlatLabel& label : drawing.labels)
@@ -68,6 +69,8 @@ void FlatMarks::show(CameraId camera, const Calibration& calibration, bool measu
     receive::CameraFramePtr frame;
     if (shown_ && shown_->camera == camera)
         frame = std::move(shown_->frame);
+    else
+        tools_.lift();
     shown_ = Shown{camera, calibration, measures, std::move(frame)};
 }
 
@@ -158,7 +161,8 @@ void FlatMarks::send_pointing(TimePoint now) {
 
 viewer::FlatDrawing FlatMarks::drawing(TimePoint now) const {
     viewer::FlatDrawing drawing;
-    const auto seen = picture();
+    // A mark of the room means nothing over a screen, and a length would be taken for one of it.
+    const auto seen = shown_ && shown_->measures ? picture() : std::nullopt;
     if (!seen)
         return drawing;
     for (const session::Mark& mark : marks_)

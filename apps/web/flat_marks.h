@@ -35,6 +35,7 @@ public:
     void expect_pointing(bool expected) { expects_pointing_ = expected; }
 
     viewer::ToolKind chosen() const { return tools_.chosen(); }
+    bool is_drawing() const { return tools_.drawn() != nullptr; }
     void choose(viewer::ToolKind tool) { tools_.choose(tool); }
     // The next step in the page's rhythm takes all of `input`. Sentences for the person are added
     // to `notes`.

@@ -170,6 +170,8 @@ std::string FlatView::step(window::InputQueue& input, TimePoint now) {
     marks_.step(input, now, notes);
     for (const std::string& text : notes)
         note(text, now);
+    if (!marks_.is_drawing())
+        notice_.take_back(say(Phrase::press_at_other_end));
     ask();
     return marks_.take_drawing(now);
 }

@@ -7,6 +7,7 @@
 // same program, of which they call the functions of calls/decoder_calls.cpp alone.
 #include <emscripten/emscripten.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <memory>
 #include <string>
@@ -187,6 +188,7 @@ EMSCRIPTEN_KEEPALIVE void theatron_command(int command) {
 }
 
 // Input. Places are shares of the canvas from its upper left corner, ways are shares of its height.
+// A canvas that is not shown has no size, so that they are no numbers: such input is left out.
 EMSCRIPTEN_KEEPALIVE void theatron_key(const char* key, const char* code) {
     if (const auto press = web::pressed(key, code))
         page().input.press(*press);
@@ -200,22 +202,28 @@ EMSCRIPTEN_KEEPALIVE void theatron_hold(double right, double up, double ahead, i
     input.points = points != 0;
 }
 EMSCRIPTEN_KEEPALIVE void theatron_point(double x, double y) {
-    page().input.newest().pointer = Vec2{x, y};
+    if (std::isfinite(x) && std::isfinite(y))
+        page().input.move({x, y});
 }
 EMSCRIPTEN_KEEPALIVE void theatron_grab(double x, double y, int left) {
+    if (!std::isfinite(x) || !std::isfinite(y))
+        return;
     page().input.grab({x, y}, left != 0);
-    page().input.newest().pointer = Vec2{x, y};
+    page().input.move({x, y});
 }
 EMSCRIPTEN_KEEPALIVE void theatron_release() {
     page().input.release();
 }
 EMSCRIPTEN_KEEPALIVE void theatron_drag(double x, double y, int turns) {
+    if (!std::isfinite(x) || !std::isfinite(y))
+        return;
     window::Steering& steering = page().input.newest().steering;
     Vec2& way = turns ? steering.turn : steering.slide;
     way = {way.x + x, way.y + y};
 }
 EMSCRIPTEN_KEEPALIVE void theatron_wheel(double clicks) {
-    page().input.newest().steering.approach += clicks;
+    if (std::isfinite(clicks))
+        page().input.newest().steering.approach += clicks;
 }
 // The canvas has lost its content.
 EMSCRIPTEN_KEEPALIVE void theatron_redraw() {

@@ -40,10 +40,12 @@ wire::OfferedCamera PictureSender::face(Size picture, double frames_per_second) 
 
 wire::OfferedCamera PictureSender::screen(const std::string& name, Size picture,
                                           double frames_per_second) {
+    Calibration calibration = screen_calibration(picture, usual_screen_width_m, usual_screen_place);
+    calibration.registered = false;  // the host finds a free place
     return {name,
             true,
             frames_per_second,
-            encode_calibration(screen_calibration(picture, usual_screen_width_m, {})),
+            encode_calibration(calibration),
             false,
             wire::CameraKind::screen};
 }

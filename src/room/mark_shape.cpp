@@ -74,6 +74,9 @@ std::string label_of(const Mark& mark) {
     if (mark.kind != MarkKind::distance)
         return mark.initials;
     const double mm = 1000 * length(mark.points[1].position - mark.points[0].position);
+    // Its other end is not known yet.
+    if (mm == 0)
+        return "";
     char text[64];
     if (mark.deviation_m > 0)
         std::snprintf(text, sizeof(text), "%.1f mm \u00b1 %.1f mm", mm,

@@ -11,6 +11,11 @@ void Notice::say(std::string text, TimePoint now) {
     said_at_ = now;
 }
 
+void Notice::take_back(const std::string& text) {
+    if (text_ == text)
+        text_.clear();
+}
+
 void Notice::begin(TimePoint now) {
     if (!began_at_)
         began_at_ = now;

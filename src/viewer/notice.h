@@ -16,6 +16,8 @@ public:
 
     // Replaces the sentence before it.
     void say(std::string text, TimePoint now);
+    // That sentence, if it is the newest one, is not true any more.
+    void take_back(const std::string& text);
     // The first picture has been shown. Later calls change nothing.
     void begin(TimePoint now);
     // Empty: none, or its time is over.

@@ -39,5 +39,16 @@ TEST(Notice, TheNewestReplacesTheOneBefore) {
     EXPECT_EQ(notice.text(begin + 9s), "");
 }
 
+TEST(Notice, ASentenceThatIsNotTrueAnyMoreGoes) {
+    Notice notice;
+    const TimePoint now{std::chrono::seconds(5)};
+    notice.begin(now);
+    notice.say("press at the other end", now);
+    notice.take_back("another one");
+    EXPECT_EQ(notice.text(now), "press at the other end");
+    notice.take_back("press at the other end");
+    EXPECT_EQ(notice.text(now), "");
+}
+
 }  // namespace
 }  // namespace theatron::viewer

@@ -27,6 +27,8 @@ void Viewer::use_tool(window::WindowInput& input, Size picture, TimePoint now) {
     missed_with_tool_ = missed_with_tool_ && !input.released;
     if (const auto advice = tools_.take_advice())
         note(say(*advice), now);
+    if (!tools_.follows_pointer())
+        notice_.take_back(say(Phrase::press_at_other_end));
 }
 
 // A press on nothing does not turn the view while one draws: the drawing would go elsewhere.

@@ -330,10 +330,12 @@ WindowInput DesktopWindow::poll() {
     while (!parts_->awaits_owner && SDL_PollEvent(&event))
         parts_->take(event);
     WindowInput input = parts_->inputs.take();
-    input.pointer.reset();
+    // A release has its own place: a slow picture comes later, and the mouse may be elsewhere.
+    if (!input.released)
+        input.pointer.reset();
     if (!parts_->takes_text)
         read_held_keys(input.steering);
-    if (SDL_GetMouseFocus() == parts_->window) {
+    if (!input.released && SDL_GetMouseFocus() == parts_->window) {
         int x = 0, y = 0;
         SDL_GetMouseState(&x, &y);
         input.pointer = parts_->shares_of(x, y);
@@ -446,8 +448,10 @@ void DesktopWindow::Parts::take(const SDL_Event& event) {
                         event.button.button == SDL_BUTTON_LEFT);
             break;
         case SDL_MOUSEBUTTONUP:
-            if (event.button.button == SDL_BUTTON_LEFT)
+            if (event.button.button == SDL_BUTTON_LEFT) {
                 inputs.release();
+                inputs.newest().pointer = shares_of(event.button.x, event.button.y);
+            }
             break;
         case SDL_MOUSEWHEEL: {
             const double clicks = event.wheel.preciseY;

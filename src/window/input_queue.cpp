@@ -51,6 +51,12 @@ void InputQueue::grab(Vec2 place, bool left) {
     newest().grabbed_left = left;
 }
 
+void InputQueue::move(Vec2 place) {
+    if (newest().released)
+        (void)begin_next();
+    newest().pointer = place;
+}
+
 void InputQueue::release() {
     if (has_button(newest()) || !newest().keys.empty())
         (void)begin_next();

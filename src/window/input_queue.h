@@ -21,6 +21,8 @@ public:
     void type(const FormKeyPress& key);
     void grab(Vec2 place, bool left);
     void release();
+    // The pointer is there from now on, and was where it was until then when a button was released.
+    void move(Vec2 place);
     // For all that adds up or is a state: movements, the pointer, keys that are held.
     WindowInput& newest() { return waiting_.back(); }
 

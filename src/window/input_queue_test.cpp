@@ -25,6 +25,24 @@ TEST(InputQueue, TwoClicksBetweenPicturesAreBothSeenAtTheirPlaces) {
     EXPECT_FALSE(queue.take().grabbed);
 }
 
+TEST(InputQueue, AReleaseIsWhereThePointerWasThen) {
+    InputQueue queue;
+    for (const double x : {0.25, 0.75}) {
+        queue.move({x, 0.5});
+        queue.grab({x, 0.5}, true);
+        queue.release();
+    }
+    queue.move({0.9, 0.9});
+    for (const double x : {0.25, 0.75}) {
+        WindowInput input = queue.take();
+        while (!input.released)
+            input = queue.take();
+        ASSERT_TRUE(input.pointer);
+        EXPECT_EQ(input.pointer->x, x);
+    }
+    EXPECT_EQ(queue.take().pointer->x, 0.9);
+}
+
 TEST(InputQueue, KeysAndButtonsComeInTheirOrder) {
     InputQueue queue;
     queue.press({Action::marks});

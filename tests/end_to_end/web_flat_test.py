@@ -72,6 +72,12 @@ class WebFlat(unittest.TestCase):
                             ".then(m => m.picture_box(document.getElementById('flat')))")
         return (box["left"] + (column + 0.5) / 160 * box["width"], box["top"] + (row + 0.5) / 120 * box["height"])
 
+    def press(self, page, selector):
+        """As a person does."""
+        place = page.middle(selector)
+        page.mouse("mousePressed", *place)
+        page.mouse("mouseReleased", *place)
+
     def click(self, page, selector):
         page.evaluate(f"document.querySelector('{selector}').click()")
 
@@ -144,10 +150,21 @@ class WebFlat(unittest.TestCase):
             self.tap(ada, self.at(ada, 54, 80))
             distance = marks(ben.wait_for(lambda f: len(marks(f)) == 2))[1]
             self.assertEqual(distance["kind"], "distance")
+            ada.wait_for("!document.getElementById('notice').textContent.includes('other end')")
             self.assertAlmostEqual(distance["length_m"], 28 / FOCAL * BOX_M, delta=0.008)
             self.assertGreater(distance["deviation_m"], 0)
             if PICTURES:
                 ada.screenshot(pathlib.Path(PICTURES) / "flat_distance.png")
+        with self.subTest("two clicks within one picture are two clicks"):
+            begin, end = self.at(ada, 26, 70), self.at(ada, 54, 70)
+            for place in (begin, end):
+                ada.mouse("mouseMoved", *place, button="none")
+                ada.mouse("mousePressed", *place)
+                ada.mouse("mouseReleased", *place)
+            quick = marks(ben.wait_for(lambda f: len(marks(f)) == 3))[2]
+            self.assertAlmostEqual(quick["length_m"], 28 / FOCAL * BOX_M, delta=0.008)
+            ada.press("Backspace", "Backspace")
+            ben.wait_for(lambda f: len(marks(f)) == 2)
         with self.subTest("a saved picture has what lies over it"):
             copied = ada.evaluate("(async () => { let copied; const own = HTMLCanvasElement.prototype.toBlob;"
                                   "HTMLCanvasElement.prototype.toBlob = function(done) { copied = this; done(null); };"
@@ -167,6 +184,40 @@ class WebFlat(unittest.TestCase):
             ada.wait_for("(async () => { const frames = () => theatron.state.cameras[0].depth_frames, before = frames();"
                          "await new Promise(done => setTimeout(done, 1000)); return frames() === before; })()")
         self.assertEqual((ada.problems, eva.problems), ([], []))
+
+    def test_the_room_is_there_where_the_view_changes_under_a_held_button(self):
+        page = self.open("Ada")
+        x, y = self.at(page, 40, 60)
+        page.mouse("mousePressed", x, y)
+        self.moved(page, x + 20, y)
+        page.evaluate("document.getElementById('other_way').click()")
+        for i in range(6):
+            self.moved(page, x + 30 + i, y)
+        page.wait_for("theatron.way === 'room' && theatron.state.pictures > 2")
+        self.moved(page, x + 50, y)
+        page.mouse("mouseReleased", x + 50, y)
+        ear = page.evaluate("theatron.state.ear")
+        self.assertNotIn(None, ear["position"] + ear["ahead"] + ear["up"], ear)
+
+    def test_marks_do_not_lie_over_a_screen(self):
+        with Browser("--use-fake-device-for-media-stream", "--use-fake-ui-for-media-stream",
+                     "--auto-select-desktop-capture-source=Entire screen") as sharing:
+            self.browser = sharing
+            ada = self.open("Ada")
+            self.click(ada, "#draw")
+            self.with_depth(ada)
+            self.drag(ada, self.at(ada, 26, 60), self.at(ada, 54, 60))
+            ada.wait_for(DRAWN)
+            eva = self.open("Eva")
+            eva.wait_for(DRAWN)
+            ada.open_sheet("more")
+            ada.wait_for("!document.getElementById('share_screen').hidden")
+            self.press(ada, "#share_screen")
+            eva.wait_for("document.getElementById('shared_screen').textContent.includes('Ada shares a screen')")
+            self.press(eva, "#shared_screen button")
+            eva.wait_for(f"theatron.state.flat_camera.includes('Screen of Ada') && {DRAWN} === null")
+            self.click(eva, "#next_camera")
+            eva.wait_for(f"!theatron.state.flat_camera.includes('Screen of Ada') && {DRAWN} !== null")
 
     def test_a_finger_points_and_draws(self):
         ben = self.stack.enter_context(member(self.link, "Ben"))

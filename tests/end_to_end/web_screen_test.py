@@ -112,6 +112,9 @@ class WebScreen(unittest.TestCase):
                 mia.screenshot(pathlib.Path(folder) / "web_screen_offer.png")
             mia.wait_for("[...document.querySelectorAll('#room_panels button')].some(b => b.textContent === 'Show' && (b.click(), true))")
             mia.wait_for(f"theatron.sheet.name === '' && JSON.stringify(theatron.state.ear.position) !== '{before}'.replaceAll(' ', '') && {offer} === ''")
+            # The screen hangs upright at a free place, and so does the one who looks at it.
+            self.assertGreater(mia.evaluate("theatron.state.ear.up[1]"), 0.99)
+            self.assertGreater(mia.evaluate("theatron.state.ear.position[1]"), 1)
         with self.subTest("whoever does not want it is not asked again"):
             kim = self.enter(browser, "room")
             kim.wait_for(f"{offer}.includes('Ada shares a screen: ')")

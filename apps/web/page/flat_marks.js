@@ -63,15 +63,20 @@ function paint(to, [width, height], ratio, { lines, labels }) {
     const least = Math.max(least_line_px * ratio, line_share * smaller) / 2;
     const around = Math.max(least_outline_px * ratio, outline_part * 2 * least);
     to.lineCap = to.lineJoin = "round";
-    for (const { color, outline, pieces } of lines)
-        // First around all pieces, so that no piece's outline covers its neighbour.
-        for (const [paint_color, more] of [[outline, around], [color, 0]]) {
-            to.fillStyle = to.strokeStyle = paint_color;
-            for (const [x0, y0, r0, n0, x1, y1, r1, n1] of pieces)
-                paint_piece(to, { x: x0 * width, y: y0 * height, half: Math.max(r0 * height, n0 * least) },
-                            { x: x1 * width, y: y1 * height, half: Math.max(r1 * height, n1 * least) }, more);
-        }
+    const paint_lines = chosen => {
+        for (const { color, outline, pieces } of chosen)
+            // First around all pieces, so that no piece's outline covers its neighbour.
+            for (const [paint_color, more] of [[outline, around], [color, 0]]) {
+                to.fillStyle = to.strokeStyle = paint_color;
+                for (const [x0, y0, r0, n0, x1, y1, r1, n1] of pieces)
+                    paint_piece(to, { x: x0 * width, y: y0 * height, half: Math.max(r0 * height, n0 * least) },
+                                { x: x1 * width, y: y1 * height, half: Math.max(r1 * height, n1 * least) }, more);
+            }
+    };
+    paint_lines(lines.filter(({ points }) => !points));
     paint_labels(to, [width, height], Math.max(least_letter_px * ratio, letter_share * smaller), labels);
+    // No label hides where somebody points.
+    paint_lines(lines.filter(({ points }) => points));
 }
 
 function paint_piece(to, from, end, more) {
@@ -111,7 +116,20 @@ function paint_labels(to, size, letter, labels) {
         const box = free_place([x * size[0], y * size[1]], [wide, high], apart * letter, size, plates);
         if (!box && rank === ranks.author)
             continue;
-        plates.push({ ...(box ?? place_beside([x * size[0], y * size[1]], [wide, high], apart * letter, size, 1, -1)), text, color });
+        plates.push({ ...(box ?? place_beside([x * size[0], y * size[1]], [wide, high], apart * letter, size, 1, -1)), text, color,
+                      at: [x * size[0], y * size[1]] });
+    }
+    // A label that had to go away from its place is joined to it.
+    for (const { left, top, wide, high, color, at: [x, y] } of plates) {
+        const near = [Math.max(left, Math.min(x, left + wide)), Math.max(top, Math.min(y, top + high))];
+        if (Math.hypot(near[0] - x, near[1] - y) < 2 * apart * letter)
+            continue;
+        to.strokeStyle = color;
+        to.lineWidth = Math.max(edge_px, letter / 6);
+        to.beginPath();
+        to.moveTo(x, y);
+        to.lineTo(...near);
+        to.stroke();
     }
     for (const { left, top, wide, high, text, color } of plates.reverse()) {
         to.fillStyle = plate;

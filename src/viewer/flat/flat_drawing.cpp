@@ -54,7 +54,10 @@ void add_mark(const session::Mark& mark, const FlatPicture& picture, FlatDrawing
 void add_pointer(ParticipantId person, const std::string& name, Vec3 place,
                  const FlatPicture& picture, FlatDrawing& drawing) {
     const Rgb color = room::srgb_of(room::color_of(person));
+    const std::size_t before = drawing.lines.size();
     add_pieces({room::pointer_end(place)}, color, picture, drawing);
+    if (drawing.lines.size() > before)
+        drawing.lines.back().points = true;
     add_label(name, {place}, color, render::LabelRank::name, picture, drawing);
 }
 

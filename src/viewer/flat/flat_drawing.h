@@ -25,6 +25,7 @@ struct FlatPiece {
 struct FlatLine {
     std::vector<FlatPiece> pieces;
     Rgb color;
+    bool points = false;  // the end of a pointer: before everything else
 };
 
 struct FlatLabel {

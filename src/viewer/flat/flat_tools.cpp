@@ -53,6 +53,15 @@ void FlatTools::on_input(const window::WindowInput& input, const FlatPicture* pi
         draw(input, picture, measures);
 }
 
+void FlatTools::lift() {
+    if (!draft_)
+        return;
+    if (auto mark = draft_->release())
+        made_.push_back(std::move(*mark));
+    if (chosen_ == ToolKind::stroke)
+        draft_->drop();
+}
+
 void FlatTools::point(const window::WindowInput& input, const FlatPicture* picture, bool measures) {
     const bool begins = input.points && !points_;
     points_ = input.points;
@@ -60,7 +69,8 @@ void FlatTools::point(const window::WindowInput& input, const FlatPicture* pictu
     pointed_.reset();
     if (!points_)
         return;
-    if (begins && (!picture || !picture->has_surface()))
+    const bool can_meet = picture && picture->has_surface();
+    if (begins && !can_meet)
         advice_ = why_nothing(picture, measures);
     if (!picture || !input.pointer)
         return;
@@ -75,6 +85,9 @@ void FlatTools::point(const window::WindowInput& input, const FlatPicture* pictu
                              });
     if (pointed_)
         pointing_ = ray_along(picture->eye(), *pointed_);
+    else if (can_meet && !misses_)
+        advice_ = Phrase::points_at_nothing;
+    misses_ = !pointed_ && can_meet;
 }
 
 void FlatTools::draw(const window::WindowInput& input, const FlatPicture* picture, bool measures) {

@@ -28,6 +28,8 @@ public:
 
     // `picture`: that the person sees; null: none. `measures`: its camera has depth, although none
     // may have come yet.
+    // Ends what is drawn with the button down: the next picture shows another place there.
+    void lift();
     void on_input(const window::WindowInput& input, const FlatPicture* picture, bool measures);
 
     // The ray to the place that the person points at; it begins on the camera's line.
@@ -48,6 +50,7 @@ private:
 
     ToolKind chosen_ = ToolKind::none;
     bool points_ = false;
+    bool misses_ = false;  // points where nothing was measured
     std::optional<render::PickRay> pointing_;
     std::optional<Vec3> pointed_;
     std::optional<MarkDraft> draft_;  // of the chosen tool

@@ -145,6 +145,37 @@ TEST_F(FlatToolsTest, PointingWithoutASurfaceIsToldOnce) {
     EXPECT_TRUE(tools.are_used());
 }
 
+TEST_F(FlatToolsTest, WhereNothingWasMeasuredPointingSaysSoOnceUntilItMeetsASurface) {
+    point({0.5, 0.5});
+    EXPECT_FALSE(tools.take_advice());
+    std::fill(depth.pixels.begin(), depth.pixels.end(), std::uint16_t(0));
+    point({0.6, 0.5});
+    EXPECT_FALSE(tools.pointing());
+    EXPECT_EQ(tools.take_advice(), Phrase::points_at_nothing);
+    point({0.7, 0.5});
+    EXPECT_FALSE(tools.take_advice());
+}
+
+TEST_F(FlatToolsTest, AStrokeEndsWithItsPictureAndADistanceWaitsForItsOtherEnd) {
+    tools.choose(ToolKind::stroke);
+    press({0.4, 0.5});
+    for (int i = 1; i <= 5; ++i)
+        hover({0.4 + 0.02 * i, 0.5});
+    tools.lift();
+    EXPECT_FALSE(tools.drawn());
+    EXPECT_EQ(tools.take_marks().size(), 1u);
+    hover({0.8, 0.5});
+    release({0.8, 0.5});
+    EXPECT_TRUE(tools.take_marks().empty());
+    tools.choose(ToolKind::distance);
+    press({0.4, 0.5});
+    release({0.4, 0.5});
+    tools.lift();
+    press({0.6, 0.5});
+    release({0.6, 0.5});
+    EXPECT_EQ(tools.take_marks().size(), 1u);
+}
+
 TEST_F(FlatToolsTest, ToolsOfACaseAreNone) {
     tools.choose(ToolKind::slice);
     EXPECT_EQ(tools.chosen(), ToolKind::none);
