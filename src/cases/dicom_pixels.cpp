@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "base/outside_text.h"
+#include "cases/dicom_rle.h"
 
 namespace theatron::cases {
 namespace {
@@ -129,16 +130,20 @@ Answer read_packed(const DicomFile& file, const DicomElement& pixels, const Dico
     const gdcm::TransferSyntax syntax = syntax_of(file, parts[0]);
     if (syntax == gdcm::TransferSyntax::TS_END)
         return Answer::compression;
-    const bool keeps_bits = syntax == gdcm::TransferSyntax::RLELossless;
+    if (syntax == gdcm::TransferSyntax::RLELossless) {
+        Bytes whole;
+        for (const ByteView part : parts)
+            whole.insert(whole.end(), part.begin(), part.end());
+        return unpack_rle(whole, bits.allocated / 8, values) ? Answer::content
+                                                             : Answer::compression;
+    }
     gdcm::Image packed;
     packed.SetNumberOfDimensions(2);
     packed.SetDimension(0, unsigned(image.columns));
     packed.SetDimension(1, unsigned(image.rows));
-    // All bits of RLE are values; the other formats know how many are.
-    const int stored = keeps_bits ? bits.allocated : bits.stored;
-    packed.SetPixelFormat(gdcm::PixelFormat(1, std::uint16_t(bits.allocated), std::uint16_t(stored),
-                                            std::uint16_t(stored - 1),
-                                            !keeps_bits && bits.is_signed));
+    packed.SetPixelFormat(gdcm::PixelFormat(1, std::uint16_t(bits.allocated),
+                                            std::uint16_t(bits.stored),
+                                            std::uint16_t(bits.stored - 1), bits.is_signed));
     packed.SetPhotometricInterpretation(gdcm::PhotometricInterpretation::MONOCHROME2);
     packed.SetTransferSyntax(syntax);
     const gdcm::SmartPointer<gdcm::SequenceOfFragments> sequence = gdcm::SequenceOfFragments::New();
@@ -165,8 +170,6 @@ Answer read_packed(const DicomFile& file, const DicomElement& pixels, const Dico
             values[i] = std::uint8_t(buffer[i]);
         else
             values[i] = load_le<std::uint16_t>(reinterpret_cast<std::byte*>(buffer.data()) + 2 * i);
-    if (keeps_bits)
-        return Answer::content;
     // These formats know the values' own bits and sign.
     if (bits.high != bits.stored - 1)
         return Answer::compression;
