@@ -12,6 +12,7 @@
 #include "viewer/meeting.h"
 #include "viewer/pointing_hand.h"
 #include "viewer/refusal_text.h"
+#include "viewer/tools/grasp.h"
 #include "viewer/tools/mark_actions.h"
 
 namespace theatron::web {
@@ -80,15 +81,14 @@ void FlatMarks::take(const receive::CameraFramePtr& frame) {
 }
 
 std::optional<viewer::FlatPicture> FlatMarks::picture() const {
-    if (!shown_)
+    if (!measures())
         return std::nullopt;
-    return viewer::FlatPicture(
-        shown_->camera, shown_->calibration,
-        shown_->frame && shown_->measures ? shown_->frame->depth.view() : DepthView{});
+    return viewer::FlatPicture(shown_->camera, shown_->calibration,
+                               shown_->frame ? shown_->frame->depth.view() : DepthView{});
 }
 
-void FlatMarks::on_key(const window::KeyPress& key, std::vector<std::string>& notes) {
-    const wire::Role role = participant_.status().standing.role;
+void FlatMarks::on_key(const window::KeyPress& key, wire::Role role,
+                       std::vector<std::string>& notes) {
     if (key.action == window::Action::marks && session::may(role, session::Right::handle))
         tools_.choose(tools_.chosen() == viewer::ToolKind::none ? viewer::ToolKind::stroke
                                                                 : viewer::ToolKind::none);
@@ -103,9 +103,9 @@ void FlatMarks::step(window::InputQueue& queue, TimePoint now, std::vector<std::
         window::WindowInput input = queue.take();
         input.points = input.points && session::may(role, session::Right::point);
         for (const window::KeyPress& key : input.keys)
-            on_key(key, notes);
+            on_key(key, role, notes);
         const auto seen = picture();
-        tools_.on_input(input, seen ? &*seen : nullptr, shown_ && shown_->measures);
+        tools_.on_input(input, seen ? &*seen : nullptr, measures());
         if (happens(input))
             drawn_ = {};
     } while (queue.has_more());
@@ -117,7 +117,7 @@ void FlatMarks::step(window::InputQueue& queue, TimePoint now, std::vector<std::
         if (std::string text = viewer::text_of(refusal->second); !text.empty())
             notes.push_back(std::move(text));
     send_pointing(now);
-    if (tools_.are_used() || expects_pointing_ || is_pointed_at_)
+    if (tools_.are_used() || expects_pointing_ || !pointing_.empty())
         needed_ = now;
     wants_depth_ = needed_ != TimePoint{} && now - needed_ < depth_stays;
     // The next time needs newer depth.
@@ -126,20 +126,17 @@ void FlatMarks::step(window::InputQueue& queue, TimePoint now, std::vector<std::
 }
 
 void FlatMarks::follow_room(TimePoint now) {
-    poses_ = participant_.poses();
-    const TimePoint session_time = participant_.session_time(now);
-    is_pointed_at_ = std::any_of(poses_.begin(), poses_.end(), [&](const auto& pose) {
-        return pose.second.points && pose.second.right_hand &&
-               session_time - pose.second.time < viewer::Meeting::stale_after;
-    });
-    if (participant_.room_version() == room_.version)
-        return;
-    room_ = participant_.room();
-    marks_.clear();
-    for (const auto& [id, object] : room_.objects)
-        if (object.kind == session::ObjectKind::mark)
-            if (auto mark = session::decode_mark(object.properties))
-                marks_.push_back(std::move(*mark));
+    if (participant_.room_version() != room_.version) {
+        room_ = participant_.room();
+        marks_.clear();
+        for (const auto& [id, object] : room_.objects)
+            if (object.kind == session::ObjectKind::mark)
+                if (auto mark = session::decode_mark(object.properties))
+                    marks_.push_back(std::move(*mark));
+    }
+    pointing_ = viewer::people_of(room_, participant_.poses(), participant_.session_time(now));
+    std::erase_if(pointing_,
+                  [](const room::RoomPerson& person) { return !person.points || person.is_stale; });
 }
 
 // The hand alone: the person has no place in the room.
@@ -159,10 +156,10 @@ void FlatMarks::send_pointing(TimePoint now) {
     participant_.send_pose(pose);
 }
 
-viewer::FlatDrawing FlatMarks::drawing(TimePoint now) const {
+viewer::FlatDrawing FlatMarks::drawing() const {
     viewer::FlatDrawing drawing;
     // A mark of the room means nothing over a screen, and a length would be taken for one of it.
-    const auto seen = shown_ && shown_->measures ? picture() : std::nullopt;
+    const auto seen = picture();
     if (!seen)
         return drawing;
     for (const session::Mark& mark : marks_)
@@ -170,13 +167,9 @@ viewer::FlatDrawing FlatMarks::drawing(TimePoint now) const {
     if (const session::Mark* begun = tools_.drawn())
         if (const auto preview = viewer::preview_of(room_, *begun))
             add_mark(*preview, *seen, drawing);
-    for (const room::RoomPerson& person :
-         viewer::people_of(room_, poses_, participant_.session_time(now)))
-        if (person.points && !person.is_stale)
-            if (const auto point =
-                    seen->surface_at({person.right_hand->translation,
-                                      rotate(person.right_hand->rotation, {0, 0, -1})}))
-                add_pointer(person.id, person.name, point->place, *seen, drawing);
+    for (const room::RoomPerson& person : pointing_)
+        if (const auto point = seen->surface_at(viewer::grip_of_hand(*person.right_hand).ray))
+            add_pointer(person.id, person.name, point->place, *seen, drawing);
     if (tools_.pointed())
         add_pointer(room_.self, "", *tools_.pointed(), *seen, drawing);
     return drawing;
@@ -186,7 +179,7 @@ std::string FlatMarks::take_drawing(TimePoint now) {
     if (!tools_.are_used() && now - drawn_ < drawn_every)
         return "";
     drawn_ = now;
-    std::string made = to_json(drawing(now)).dump(-1, ' ', false, json::error_handler_t::replace);
+    std::string made = to_json(drawing()).dump(-1, ' ', false, json::error_handler_t::replace);
     if (made == drawing_)
         return "";
     drawing_ = made;

@@ -6,12 +6,12 @@
 // somebody points or draws, and a little longer.
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "client/participant.h"
+#include "room/people.h"
 #include "viewer/flat/flat_drawing.h"
 #include "viewer/flat/flat_tools.h"
 #include "window/input_queue.h"
@@ -51,19 +51,19 @@ private:
         bool measures = false;
         receive::CameraFramePtr frame;  // the newest with depth; may be null
     };
-    void on_key(const window::KeyPress& key, std::vector<std::string>& notes);
+    bool measures() const { return shown_ && shown_->measures; }
+    void on_key(const window::KeyPress& key, wire::Role role, std::vector<std::string>& notes);
     void follow_room(TimePoint now);
     void send_pointing(TimePoint now);
     std::optional<viewer::FlatPicture> picture() const;
-    viewer::FlatDrawing drawing(TimePoint now) const;
+    viewer::FlatDrawing drawing() const;
 
     client::Participant& participant_;
     viewer::FlatTools tools_;
     std::optional<Shown> shown_;
     client::Participant::Room room_;
-    std::vector<session::Mark> marks_;  // of room_
-    std::map<ParticipantId, wire::PersonPose> poses_;
-    bool is_pointed_at_ = false;  // others point
+    std::vector<session::Mark> marks_;        // of room_
+    std::vector<room::RoomPerson> pointing_;  // the others who point now
     bool expects_pointing_ = false;
     bool wants_depth_ = false;
     TimePoint needed_;            // depth, last

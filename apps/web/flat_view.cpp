@@ -237,12 +237,7 @@ void FlatView::on(const viewer::Decide& decision, TimePoint now) {
 
 void FlatView::on(const viewer::ShowScreen& shown, TimePoint now) {
     screen_offer_.close();
-    const auto room = participant_.room();
-    const auto found = room.objects.find(shown.screen);
-    const auto screen =
-        found == room.objects.end()
-            ? std::nullopt
-            : session::decode_shared_screen(found->second.kind, found->second.properties);
+    const auto screen = session::shared_screen_of(participant_.room().objects, shown.screen);
     if (!screen || !screen->camera || !seen_.contains(*screen->camera))
         return note(say(Phrase::not_in_room_any_more), now);
     camera_ = screen->camera;

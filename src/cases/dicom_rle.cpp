@@ -6,7 +6,7 @@
 namespace theatron::cases {
 namespace {
 
-constexpr std::size_t header_bytes = 64, most_segments = 15;
+constexpr std::size_t header_bytes = 64;
 
 std::size_t word(ByteView frame, std::size_t number) {
     return load_le<std::uint32_t>(frame.data() + 4 * number);
@@ -42,7 +42,7 @@ bool unpack_segment(ByteView packed, std::vector<int>& values) {
 
 bool unpack_rle(ByteView frame, int bytes, std::vector<int>& values) {
     const std::size_t segments = std::size_t(bytes);
-    if (frame.size() < header_bytes || segments > most_segments || word(frame, 0) != segments)
+    if (frame.size() < header_bytes || word(frame, 0) != segments)
         return false;
     std::fill(values.begin(), values.end(), 0);
     for (std::size_t i = 1; i <= segments; ++i) {

@@ -191,10 +191,7 @@ bool HostRoom::is_sharer(ParticipantId id, ObjectId screen) const {
 
 std::optional<CameraId> HostRoom::camera_of_removed(const Request& request) const {
     const auto* remove = std::get_if<request::Remove>(&request);
-    const auto found = remove ? state_.objects().find(remove->object) : state_.objects().end();
-    if (found == state_.objects().end())
-        return std::nullopt;
-    const auto screen = decode_shared_screen(found->second.kind, found->second.properties);
+    const auto screen = remove ? shared_screen_of(state_.objects(), remove->object) : std::nullopt;
     return screen ? screen->camera : std::nullopt;
 }
 

@@ -60,6 +60,13 @@ std::optional<SharedScreen> decode_shared_screen(ObjectKind kind, ByteView prope
     return screen;
 }
 
+std::optional<SharedScreen> shared_screen_of(const RoomObjects& objects, ObjectId id) {
+    const auto found = objects.find(id);
+    return found == objects.end()
+               ? std::nullopt
+               : decode_shared_screen(found->second.kind, found->second.properties);
+}
+
 bool is_shared_screen(const RoomObject& object) {
     return object.kind == ObjectKind::screen && !object.properties.empty() &&
            std::to_integer<std::uint8_t>(object.properties.front()) == shared_screen_tag;

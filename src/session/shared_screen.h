@@ -32,6 +32,8 @@ struct SharedScreen {
 // Names are cut to wire::max_name characters.
 Bytes encode_shared_screen(const SharedScreen& screen);
 std::optional<SharedScreen> decode_shared_screen(ObjectKind kind, ByteView properties);
+// The screen of this number. Nullopt: there is none, or it is another object.
+std::optional<SharedScreen> shared_screen_of(const RoomObjects& objects, ObjectId id);
 // True for any screen of this kind, also one that cannot be decoded. Screens of a case are none.
 bool is_shared_screen(const RoomObject& object);
 

@@ -289,9 +289,10 @@ std::vector<ColoredPoint> LiveScene::points() const {
 void LiveScene::add_pointers() {
     const bool is_present = !past_moment();
     for (const room::RoomPerson& person : meeting_.people())
-        if (is_present && person.points && !person.is_stale)
-            pointers_.push_back({person.id, person.name, person.right_hand->translation,
-                                 rotate(person.right_hand->rotation, {0, 0, -1}), std::nullopt});
+        if (is_present && person.points && !person.is_stale) {
+            const render::PickRay ray = grip_of_hand(*person.right_hand).ray;
+            pointers_.push_back({person.id, person.name, ray.from, ray.direction, std::nullopt});
+        }
     pointers_.insert(pointers_.end(), own_pointers_.begin(), own_pointers_.end());
     if (pointers_.empty())
         return;

@@ -79,13 +79,10 @@ void add_screen_panel(const ScreenPanelFacts& facts, RoomPanel& panel) {
 
 bool change_screen(const ChangeScreen& change, client::Participant& participant) {
     const auto room = participant.room();
-    const auto found = room.objects.find(change.screen);
-    if (found == room.objects.end())
-        return false;
-    const session::RoomObject& object = found->second;
-    auto screen = session::decode_shared_screen(object.kind, object.properties);
+    auto screen = session::shared_screen_of(room.objects, change.screen);
     if (!screen || !screen->camera)
         return false;
+    const session::RoomObject& object = room.objects.at(change.screen);
     using What = ChangeScreen::What;
     switch (change.what) {
         case What::smaller:

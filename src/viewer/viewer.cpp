@@ -354,9 +354,10 @@ bool Viewer::step(Size picture, TimePoint now) {
     // A host that came back may have fewer cameras than before.
     if (eye_.follow(cameras(), status.joins == 1, picture, now))
         scene_changed_ = true;
-    if (scene_.take_meeting(participant_))
+    if (scene_.take_meeting(participant_)) {
         scene_changed_ = true;
-    screen_offer_.follow(scene_.meeting().room().objects, scene_.meeting().room().self, now);
+        screen_offer_.follow(scene_.meeting().room().objects, scene_.meeting().room().self, now);
+    }
     if (const auto place = meeting_place(); place && !eye_.is_placed()) {
         eye_.stand(at_eye_height(*place));
         scene_changed_ = true;

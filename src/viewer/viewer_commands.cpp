@@ -182,13 +182,10 @@ void Viewer::on(const GoToPlace& place, TimePoint now) {
 void Viewer::on(const ShowScreen& shown, TimePoint now) {
     screen_offer_.close();
     const auto& objects = scene_.meeting().room().objects;
-    const auto found = objects.find(shown.screen);
-    const auto screen = found == objects.end() ? std::nullopt
-                                               : session::decode_shared_screen(
-                                                     found->second.kind, found->second.properties);
+    const auto screen = session::shared_screen_of(objects, shown.screen);
     if (!screen)
         return note(say(Phrase::not_in_room_any_more), now);
-    bring(in_front_of(place_of(found->second, *screen)));
+    bring(in_front_of(place_of(objects.at(shown.screen), *screen)));
     note(screen->name, now);
 }
 

@@ -35,7 +35,7 @@ void Viewer::use_tool(window::WindowInput& input, Size picture, TimePoint now) {
 void Viewer::press_with_tool(window::WindowInput& input, const ToolScene& scene) {
     const render::PickRay ray = render::ray_through(scene.view, *input.grabbed);
     const bool uses = tools_.on_pointer({ray, true, false}, scene);
-    missed_with_tool_ = !uses && draws(tools_.chosen()) && !scene.meeting.pick(ray, scene.view);
+    missed_with_tool_ = !uses && marks_of(tools_.chosen()) && !scene.meeting.pick(ray, scene.view);
     if (missed_with_tool_)
         note(say(Phrase::begin_on_surface), scene.now);
     if (uses || missed_with_tool_)

@@ -216,6 +216,12 @@ class Page:
         return self.evaluate("(b => [b.x + b.width / 2, b.y + b.height / 2])"
                              f"(document.querySelector('{selector}').getBoundingClientRect())")
 
+    def click(self, selector):
+        """As a person does, with the mouse."""
+        place = self.middle(selector)
+        self.mouse("mousePressed", *place)
+        self.mouse("mouseReleased", *place)
+
     def press(self, key, code, number=0, text=""):
         """`number` and `text` are needed where the browser itself acts on the key."""
         for kind in ("keyDown", "keyUp"):

@@ -63,11 +63,6 @@ class WebBar(PageCase):
         if PICTURES:
             page.screenshot(pathlib.Path(PICTURES) / f"{name}.png")
 
-    def click(self, page, selector):
-        at = page.middle(selector)
-        page.mouse("mousePressed", *at)
-        page.mouse("mouseReleased", *at)
-
     def assert_inside(self, page, selector, size):
         left, top, right, bottom = page.evaluate(BOX % selector)
         self.assertTrue(0 <= left < right <= size[0] and 0 <= top < bottom <= size[1], (selector, left, top, right, bottom))
@@ -92,7 +87,7 @@ class WebBar(PageCase):
             places = set()
             for button in ("show_people", "show_case", "show_more", "dot"):
                 with self.subTest(size=size, button=button):
-                    self.click(page, "#" + button)
+                    page.click("#" + button)
                     page.wait_for("document.getElementById('sheet').checkVisibility()")
                     self.assert_inside(page, "#sheet", size)
                     places.add(tuple(page.evaluate(BOX % "#sheet")))
@@ -102,10 +97,10 @@ class WebBar(PageCase):
                     self.assertEqual(page.evaluate(COVERED), [])
                     self.picture(page, f"panel_{size[0]}_{button}")
             self.assertEqual(len(places), 1, "a panel jumps")
-            self.click(page, "#draw")
+            page.click("#draw")
             page.wait_for("document.getElementById('sheet').dataset.shows === 'draw' && document.getElementById('draw').ariaPressed === 'true'")
             self.assert_inside(page, "#sheet", size)
-            self.click(page, "#draw")
+            page.click("#draw")
             page.wait_for("document.getElementById('sheet').hidden && document.getElementById('draw').ariaPressed === 'false'")
             self.assertEqual(page.problems, [])
             self.leave(page)
@@ -153,7 +148,7 @@ class WebBar(PageCase):
         self.assertIn(page.evaluate("document.getElementById('dot').dataset.level"), ("good", "slow", "bad"))
         self.assertEqual(page.evaluate("[...document.querySelectorAll('#dot svg > *')].filter(e => getComputedStyle(e).display !== 'none').length"), 1)
         self.assertNotRegex(page.evaluate("document.getElementById('panels').innerText"), "(?i)codec|strata|jpeg|mbit|fps|lost|dropped")
-        self.click(page, "#dot")
+        page.click("#dot")
         page.wait_for("document.getElementById('facts').innerText.includes('Left out')")
         self.assertIn("Mbit/s", page.evaluate("document.getElementById('details').innerText"))
         judged = page.evaluate(IMPORT % "dot" + """.then(({ judge }) => {

@@ -72,12 +72,6 @@ class WebFlat(unittest.TestCase):
                             ".then(m => m.picture_box(document.getElementById('flat')))")
         return (box["left"] + (column + 0.5) / 160 * box["width"], box["top"] + (row + 0.5) / 120 * box["height"])
 
-    def press(self, page, selector):
-        """As a person does."""
-        place = page.middle(selector)
-        page.mouse("mousePressed", *place)
-        page.mouse("mouseReleased", *place)
-
     def click(self, page, selector):
         page.evaluate(f"document.querySelector('{selector}').click()")
 
@@ -212,9 +206,9 @@ class WebFlat(unittest.TestCase):
             eva.wait_for(DRAWN)
             ada.open_sheet("more")
             ada.wait_for("!document.getElementById('share_screen').hidden")
-            self.press(ada, "#share_screen")
+            ada.click("#share_screen")
             eva.wait_for("document.getElementById('shared_screen').textContent.includes('Ada shares a screen')")
-            self.press(eva, "#shared_screen button")
+            eva.click("#shared_screen button")
             eva.wait_for(f"theatron.state.flat_camera.includes('Screen of Ada') && {DRAWN} === null")
             self.click(eva, "#next_camera")
             eva.wait_for(f"!theatron.state.flat_camera.includes('Screen of Ada') && {DRAWN} !== null")

@@ -37,16 +37,10 @@ class WebScreen(unittest.TestCase):
             Process("join", link, "--name", name, "--no-window", "--every", "0.2",
                     env={**os.environ, "XDG_STATE_HOME": str(self.folder / name)}))
 
-    def click(self, page, selector):
-        """As a person does: a browser shows no screen without."""
-        x, y = page.middle(selector)
-        page.mouse("mousePressed", x, y)
-        page.mouse("mouseReleased", x, y)
-
     def share(self, page):
         page.open_sheet("more")
         page.wait_for("!document.getElementById('share_screen').hidden")
-        self.click(page, "#share_screen")
+        page.click("#share_screen")
         page.wait_for("theatron.screen.state === 'on' && !document.getElementById('own_screen').hidden")
 
     def test_an_experts_screen_is_seen_by_all_and_ended_by_either(self):
@@ -68,7 +62,7 @@ class WebScreen(unittest.TestCase):
                 page.wait_for("document.visibilityState === 'visible'")
                 if folder := os.environ.get("THEATRON_PICTURES"):
                     page.screenshot(pathlib.Path(folder) / f"web_screen_{way}.png")
-                self.click(page, "#end_own_screen")
+                page.click("#end_own_screen")
                 ben.wait_for(lambda f: not screens(f))
                 self.assertEqual(page.evaluate("[theatron.screen.state, theatron.screen.stream]"), ["off", None])
                 self.assertEqual(page.problems, [])
@@ -100,7 +94,7 @@ class WebScreen(unittest.TestCase):
         with self.subTest("in the 2D view its picture comes"):
             eva.wait_for(f"{offer}.includes('Ada shares a screen: ')")
             self.assertEqual(ada.evaluate(offer), "", "one's own is not offered")
-            self.click(eva, "#shared_screen button")
+            eva.click("#shared_screen button")
             eva.wait_for(f"theatron.state.flat_camera.includes('Screen of Ada') && {offer} === ''")
         with self.subTest("in the room one stands before it, and what lay over it is closed"):
             mia = self.enter(browser, "room")
@@ -118,7 +112,7 @@ class WebScreen(unittest.TestCase):
         with self.subTest("whoever does not want it is not asked again"):
             kim = self.enter(browser, "room")
             kim.wait_for(f"{offer}.includes('Ada shares a screen: ')")
-            self.click(kim, "#shared_screen button:last-child")
+            kim.click("#shared_screen button:last-child")
             kim.wait_for(f"{offer} === ''")
         for page in (ada, eva, mia, kim):
             self.assertEqual(page.problems, [])
@@ -130,7 +124,7 @@ class WebScreen(unittest.TestCase):
         page.evaluate("navigator.mediaDevices.getDisplayMedia = () => Promise.reject(new DOMException('', 'NotAllowedError'))")
         page.open_sheet("more")
         page.wait_for("!document.getElementById('share_screen').hidden")
-        self.click(page, "#share_screen")
+        page.click("#share_screen")
         page.wait_for("document.getElementById('share_hint').textContent.includes('No screen is shown')")
         self.assertEqual(page.evaluate("theatron.screen.stream"), None)
 

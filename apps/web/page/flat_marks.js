@@ -112,12 +112,11 @@ function paint_labels(to, size, letter, labels) {
     to.textBaseline = "middle";
     const plates = [];
     for (const { text, x, y, color, rank } of [...labels].sort((a, b) => b.rank - a.rank)) {
-        const wide = to.measureText(text).width + 2 * padding * letter, high = letter * (1 + 2 * padding);
-        const box = free_place([x * size[0], y * size[1]], [wide, high], apart * letter, size, plates);
-        if (!box && rank === ranks.author)
-            continue;
-        plates.push({ ...(box ?? place_beside([x * size[0], y * size[1]], [wide, high], apart * letter, size, 1, -1)), text, color,
-                      at: [x * size[0], y * size[1]] });
+        const at = [x * size[0], y * size[1]], far = apart * letter;
+        const plate_size = [to.measureText(text).width + 2 * padding * letter, letter * (1 + 2 * padding)];
+        const box = free_place(at, plate_size, far, size, plates);
+        if (box || rank !== ranks.author)
+            plates.push({ ...(box ?? place_beside(at, plate_size, far, size, 1, -1)), text, color, at });
     }
     // A label that had to go away from its place is joined to it.
     for (const { left, top, wide, high, color, at: [x, y] } of plates) {

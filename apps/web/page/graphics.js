@@ -24,7 +24,6 @@ export class FlatView {
     clear() {
         if (this.canvas.width > 1)
             this.canvas.width = this.canvas.height = 1;
-        this.marks.clear();
     }
 
     // True if the picture is a new one.

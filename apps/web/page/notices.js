@@ -17,8 +17,7 @@ export class Notices {
     // page's own sentences, such as why it shows something else than before; "": none.
     // Returns the sentences to show now, and the warning and the number of such notices that are signs of the dot.
     at(now_ms, { warning, notice, of_camera, once = [] }) {
-        const shown = [];
-        shown.push(...once.filter(sentence => sentence && this.is_new(now_ms, sentence)));
+        const shown = once.filter(sentence => sentence && this.is_new(now_ms, sentence));
         if (warning && this.is_new(now_ms, kind_of(warning)))
             shown.push(warning);
         this.unrest = this.unrest.filter(at_ms => now_ms - at_ms < unrest_ms);

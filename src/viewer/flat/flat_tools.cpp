@@ -6,21 +6,6 @@
 namespace theatron::viewer {
 namespace {
 
-std::optional<session::MarkKind> kind_of(ToolKind tool) {
-    switch (tool) {
-        case ToolKind::stroke:
-            return session::MarkKind::stroke;
-        case ToolKind::arrow:
-            return session::MarkKind::arrow;
-        case ToolKind::pin:
-            return session::MarkKind::pin;
-        case ToolKind::distance:
-            return session::MarkKind::distance;
-        default:
-            return std::nullopt;
-    }
-}
-
 std::optional<MarkedPlace> place_at(const FlatPicture* picture, Vec2 pointer) {
     const auto ray = picture ? picture->ray_through(pointer) : std::nullopt;
     const auto point = ray ? picture->surface_at(*ray) : std::nullopt;
@@ -39,7 +24,7 @@ Phrase why_nothing(const FlatPicture* picture, bool measures) {
 }  // namespace
 
 void FlatTools::choose(ToolKind kind) {
-    const auto mark = kind_of(kind);
+    const auto mark = marks_of(kind);
     chosen_ = mark ? kind : ToolKind::none;
     draft_.reset();
     if (mark)

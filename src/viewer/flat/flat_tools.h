@@ -20,16 +20,16 @@ namespace theatron::viewer {
 
 class FlatTools {
 public:
-    // A tool of one that draws(); none: the pointer draws nothing.
+    // One that makes marks; another one: the pointer draws nothing.
     void choose(ToolKind kind);
     ToolKind chosen() const { return chosen_; }
     // The person points or draws, so that a surface is needed.
     bool are_used() const { return points_ || draft_.has_value(); }
 
-    // `picture`: that the person sees; null: none. `measures`: its camera has depth, although none
-    // may have come yet.
     // Ends what is drawn with the button down: the next picture shows another place there.
     void lift();
+    // `picture`: that the person sees; null: none. `measures`: its camera has depth, although none
+    // may have come yet.
     void on_input(const window::WindowInput& input, const FlatPicture* picture, bool measures);
 
     // The ray to the place that the person points at; it begins on the camera's line.

@@ -8,23 +8,10 @@ namespace theatron::viewer {
 namespace {
 
 std::unique_ptr<Tool> make_tool(ToolKind kind) {
-    switch (kind) {
-        case ToolKind::stroke:
-            return std::make_unique<MarkTool>(session::MarkKind::stroke);
-        case ToolKind::arrow:
-            return std::make_unique<MarkTool>(session::MarkKind::arrow);
-        case ToolKind::pin:
-            return std::make_unique<MarkTool>(session::MarkKind::pin);
-        case ToolKind::distance:
-            return std::make_unique<MarkTool>(session::MarkKind::distance);
-        case ToolKind::slice:
-            return std::make_unique<SliceTool>(false);
-        case ToolKind::cut:
-            return std::make_unique<SliceTool>(true);
-        case ToolKind::none:
-        case ToolKind::part:
-            break;
-    }
+    if (const auto mark = marks_of(kind))
+        return std::make_unique<MarkTool>(*mark);
+    if (kind == ToolKind::slice || kind == ToolKind::cut)
+        return std::make_unique<SliceTool>(kind == ToolKind::cut);
     return nullptr;
 }
 
@@ -45,9 +32,23 @@ const std::vector<ToolRow>& tool_rows() {
     return rows;
 }
 
-bool draws(ToolKind kind) {
-    return kind == ToolKind::stroke || kind == ToolKind::arrow || kind == ToolKind::pin ||
-           kind == ToolKind::distance;
+std::optional<session::MarkKind> marks_of(ToolKind kind) {
+    switch (kind) {
+        case ToolKind::stroke:
+            return session::MarkKind::stroke;
+        case ToolKind::arrow:
+            return session::MarkKind::arrow;
+        case ToolKind::pin:
+            return session::MarkKind::pin;
+        case ToolKind::distance:
+            return session::MarkKind::distance;
+        case ToolKind::none:
+        case ToolKind::slice:
+        case ToolKind::cut:
+        case ToolKind::part:
+            break;
+    }
+    return std::nullopt;
 }
 
 Phrase name_of(ToolKind kind) {

@@ -68,8 +68,8 @@ struct ToolRow {
     std::vector<Choice> choices;
 };
 const std::vector<ToolRow>& tool_rows();
-// The tool makes marks.
-bool draws(ToolKind kind);
+// The marks that a tool makes; none: it makes no marks.
+std::optional<session::MarkKind> marks_of(ToolKind kind);
 Phrase name_of(ToolKind kind);
 
 // The tool that the person has chosen. Use from one thread.
