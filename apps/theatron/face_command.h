@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "enrol/landmark_finder.h"
 #include "visit/face_files.h"
 
 namespace theatron::app {
@@ -74,17 +75,28 @@ struct FaceEnrol {
         std::string picture, landmarks;
     };
     std::array<Photo, face::emotion_count> photos;
-    std::string model, out, passphrase_file;
+    std::string camera;  // takes the photos, if it is not empty
+    bool mark = false;   // in a window
+    std::string model, out, passphrase_file, landmark_model = enrol::usual_landmark_model;
     std::optional<double> eyes_apart_mm;
     double view_degrees = 65;
     bool overwrite = false, json = false;
 };
 void run_face_enrol(const FaceEnrol& wanted);
 
+struct FaceLandmarks {
+    std::string photo, out, emotion = "neutral", landmark_model = enrol::usual_landmark_model;
+    bool mark = false, overwrite = false;
+};
+void run_face_landmarks(const FaceLandmarks& wanted);
+
 struct FaceShow {
     std::string face, out, passphrase_file;
 };
 void run_face_show(const FaceShow& wanted);
+
+// A face that is replaced or deleted by a link to it would stay. Throws Error.
+void refuse_link_to_face(const std::string& file);
 
 void run_face_delete(const std::string& face);
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// theatron face model, photos, enrol, show and delete: their options
+// theatron face model, photos, enrol, landmarks, show and delete: their options
 #include <memory>
 
+#include "cli/choice_check.h"
 #include "commands.h"
+#include "enrol/photo_guide.h"
 #include "face/face_fit.h"
 #include "face_command.h"
 
@@ -59,24 +61,37 @@ void add_photos(CLI::App& face) {
     command->callback([wanted] { run_face_photos(*wanted); });
 }
 
+void add_landmark_options(CLI::App& command, bool& mark, std::string& model) {
+    command.add_flag("--mark", mark,
+                     "Mark the landmarks in a window, or look over those that were found");
+    command
+        .add_option("--landmark-model", model,
+                    "The model of dlib that finds landmarks (a shape_predictor of 68 points)")
+        ->capture_default_str();
+}
+
 void add_enrol(CLI::App& face) {
     const auto wanted = std::make_shared<FaceEnrol>();
     CLI::App* command =
         face.add_subcommand("enrol", "Make a face of your own from one photo to six");
     command->footer(
-        "Each photo needs the 68 landmarks of its face in a .pts file, as iBUG (300-W) marks them. "
-        "Take photos\nfrom the front, upright, in even light. An emotion without a photo gets the "
-        "neutral one's skin.\nThe face is sealed with a passphrase and stays on this machine. "
-        "'theatron face delete' removes it.\n"
+        "Take photos from the front, upright, in even light; or let a window take them with "
+        "--camera. The 68\nlandmarks of each face (as iBUG, 300-W, marks them) are found where "
+        "Debian's package libdlib-data\nis installed, whose model excludes commercial use, or are "
+        "marked with --mark, or come in a .pts file.\nAn emotion without a photo gets the neutral "
+        "one's skin. The face is sealed with a passphrase and\nstays on this machine. 'theatron "
+        "face delete' removes it.\n"
         "\nExamples:\n"
-        "  theatron face enrol --photo me.jpg --landmarks me.pts --out me.face\n"
+        "  theatron face enrol --camera /dev/video0 --out me.face\n"
+        "  theatron face enrol --photo me.jpg --happiness smile.jpg --mark --out me.face\n"
         "  theatron face enrol --photo me.jpg --landmarks me.pts --happiness smile.jpg \\\n"
         "    --happiness-landmarks smile.pts --eye-distance-mm 61.5 --out me.face");
-    for (std::size_t i = 0; i < face::emotion_count; ++i) {
-        const bool is_neutral = face::Emotion(i) == face::Emotion::neutral;
-        const std::string name(face::emotion_names[i]);
+    CLI::Option* neutral = nullptr;
+    for (const face::Emotion emotion : enrol::photo_order) {
+        const bool is_neutral = emotion == face::Emotion::neutral;
+        const std::string name(to_text(emotion));
         const std::string photo = is_neutral ? "--photo" : "--" + name;
-        auto& files = wanted->photos[i];
+        auto& files = wanted->photos[std::size_t(emotion)];
         CLI::Option* picture =
             command->add_option(photo, files.picture,
                                 is_neutral ? std::string("Your face at rest, as JPEG or PNG")
@@ -84,11 +99,17 @@ void add_enrol(CLI::App& face) {
         CLI::Option* landmarks =
             command->add_option(is_neutral ? std::string("--landmarks") : photo + "-landmarks",
                                 files.landmarks, "Its landmarks, as .pts");
-        picture->needs(landmarks);
         landmarks->needs(picture);
         if (is_neutral)
-            picture->required();
+            neutral = picture;
+        else
+            picture->needs(neutral);
     }
+    CLI::Option* camera = command->add_option(
+        "--camera", wanted->camera,
+        "Takes the photos in a window, one emotion after the other: /dev/video0, or a video file");
+    camera->excludes(neutral);
+    add_landmark_options(*command, wanted->mark, wanted->landmark_model);
     command->add_option("--model", wanted->model,
                         "Of 'theatron face model import' (default: the generated head)");
     command
@@ -106,7 +127,33 @@ void add_enrol(CLI::App& face) {
     command->add_option("--passphrase-file", wanted->passphrase_file, passphrase_file_help);
     command->add_flag("--overwrite", wanted->overwrite, "Replace a file that is there");
     command->add_flag("--json", wanted->json, "Print the figures as one JSON line");
-    command->callback([wanted] { run_face_enrol(*wanted); });
+    command->callback([wanted] {
+        if (wanted->camera.empty() &&
+            wanted->photos[std::size_t(face::Emotion::neutral)].picture.empty())
+            throw CLI::RequiredError("--camera or --photo");
+        run_face_enrol(*wanted);
+    });
+}
+
+void add_landmarks(CLI::App& face) {
+    const auto wanted = std::make_shared<FaceLandmarks>();
+    CLI::App* command =
+        face.add_subcommand("landmarks", "Find or mark the 68 landmarks of a face in a photo");
+    command->footer(
+        "They are written as a .pts file, which only you may read.\n"
+        "\nExamples:\n"
+        "  theatron face landmarks me.jpg --out me.pts\n"
+        "  theatron face landmarks smile.jpg --emotion happiness --mark --out smile.pts");
+    command->add_option("photo", wanted->photo, "A photo of one face, as JPEG or PNG")->required();
+    command->add_option("--out", wanted->out, "The .pts file to write")->required();
+    command
+        ->add_option("--emotion", wanted->emotion,
+                     "What the face shows: a guess of the landmarks begins with it")
+        ->capture_default_str()
+        ->check(cli::one_of({face::emotion_names.begin(), face::emotion_names.end()}));
+    add_landmark_options(*command, wanted->mark, wanted->landmark_model);
+    command->add_flag("--overwrite", wanted->overwrite, "Replace a file that is there");
+    command->callback([wanted] { run_face_landmarks(*wanted); });
 }
 
 void add_show(CLI::App& face) {
@@ -137,6 +184,7 @@ void add_own_face_commands(CLI::App& face) {
     add_model_commands(face);
     add_photos(face);
     add_enrol(face);
+    add_landmarks(face);
     add_show(face);
     add_delete(face);
 }

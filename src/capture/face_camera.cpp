@@ -19,6 +19,7 @@ constexpr double face_width_m = 0.28;
 // Share of the period by which a picture may come early, since cameras are uneven.
 constexpr double early_share = 0.2;
 constexpr const char* test_device = "test";
+constexpr Size webcam_picture{640, 480};
 
 CameraInfo face_info(double frames_per_second) {
     CameraInfo info;
@@ -182,14 +183,18 @@ std::unique_ptr<Camera> open_face_camera(Options& options, const Progress& progr
         throw LastingError("Name a webcam, as in /dev/video0, a video file, or test.");
     if (device == test_device)
         return std::make_unique<TestFace>();
+    return make_face_camera(
+        open_camera(webcam_specification(std::move(device), webcam_picture), progress));
+}
+
+std::string webcam_specification(std::string device, Size size) {
     constexpr std::string_view v4l2 = "v4l2:";
     const bool is_device = device.starts_with(v4l2) || device.starts_with("/dev/");
     if (device.starts_with(v4l2))
         device.erase(0, v4l2.size());
-    return make_face_camera(open_camera(is_device
-                                            ? std::string(v4l2) + device + ",size=640x480,fps=15"
-                                            : "video:" + device + ",loop=1",
-                                        progress));
+    return is_device ? std::string(v4l2) + device + ",size=" + std::to_string(size.width) + "x" +
+                           std::to_string(size.height) + ",fps=15"
+                     : "video:" + device + ",loop=1";
 }
 
 }  // namespace theatron::capture

@@ -100,6 +100,30 @@ TEST(Enrol, OnePhotoGivesShapeAndTextureOfTheFace) {
     EXPECT_GT(dB / persons, 24);
 }
 
+TEST(Enrol, LandmarksBesideTheJawLayNoBackgroundOnTheSkin) {
+    const MorphModel model = generated_head();
+    const PaintedPerson person = painted_person(model, 2);
+    const PaintedPhoto photo = painted_photo(model, person, Emotion::neutral, 2, photo_size, 65);
+    EnrolPhoto given{Emotion::neutral, photo.picture.view(), photo.landmarks_px, 65};
+    const double width = given.landmarks_px[16].x - given.landmarks_px[0].x;
+    for (std::size_t i = 0; i <= 16; ++i)  // the jaw, as finders of landmarks draw it
+        given.landmarks_px[i].x += (i < 8 ? -0.05 : 0.05) * width * (i == 8 ? 0 : 1);
+    const auto made = enrol(model, std::span(&given, 1));
+    ASSERT_TRUE(made);
+    const ColorImage& texture = *made->textures[std::size_t(Emotion::neutral)];
+    const TextureMap map(model);
+    const Rgb background = photo.picture.pixels[0];
+    std::size_t skin = 0, dark = 0;
+    for (std::size_t i = 0; i < texel_count; ++i)
+        if (map.shows_skin(i)) {
+            ++skin;
+            const Rgb pixel = texture.pixels[i];
+            dark += std::abs(pixel.r - background.r) < 12 && std::abs(pixel.g - background.g) < 12 &&
+                    std::abs(pixel.b - background.b) < 12;
+        }
+    EXPECT_LT(double(dark), 0.001 * double(skin));
+}
+
 TEST(Enrol, PhotosOfEmotionsAreLaidOverEachOther) {
     const MorphModel model = generated_head();
     const TextureMap map(model);

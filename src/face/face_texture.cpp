@@ -95,8 +95,8 @@ public:
     }
     // The background is so near to this place that a face which was fitted a little too large would
     // have it on its skin.
-    bool is_on_rim(Vec3 seen) const {
-        const double radius = rim_share * std::max(size_.width, size_.height) / scale_;
+    bool is_on_rim(Vec3 seen, double share = rim_share) const {
+        const double radius = share * std::max(size_.width, size_.height) / scale_;
         for (int k = 0; k < 8; ++k) {
             const double turn = k * std::numbers::pi / 4;
             const auto pixel = pixel_of(
@@ -270,8 +270,58 @@ TextureMap::TextureMap(const MorphModel& model)
     }
 }
 
+namespace {
+
+// What is so near to the rim that only its colour tells skin from background: landmarks are a few
+// per cent of the face off, more so those of the jaw.
+constexpr double doubtful_rim_share = 4 * rim_share;
+// Natural logarithms of ratios: skin in shade and in light differs by less from the face's usual
+// brightness and colour.
+constexpr float most_brightness_ratio = 0.9F, most_color_ratio = 0.5F;
+
+// Red, green and blue that half of the seen texels exceed.
+Light usual_light(const TexturePart& part) {
+    Light usual{};
+    for (std::size_t c = 0; c < 3; ++c) {
+        std::vector<float> values;
+        for (std::size_t i = 0; i < texel_count; ++i)
+            if (part.weights[i] > 0.5F)
+                values.push_back(part.light[i][c]);
+        if (values.empty())
+            return usual;
+        const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+        std::nth_element(values.begin(), middle, values.end());
+        usual[c] = *middle;
+    }
+    return usual;
+}
+
+bool is_like_skin(const Light& light, const Light& usual) {
+    constexpr float least = 1e-3F;
+    std::array<float, 3> ratio{};
+    for (std::size_t c = 0; c < 3; ++c)
+        ratio[c] = std::log(std::max(light[c], least) / std::max(usual[c], least));
+    const float brightness = (ratio[0] + ratio[1] + ratio[2]) / 3;
+    return std::fabs(brightness) < most_brightness_ratio &&
+           std::fabs(ratio[0] - ratio[2]) < most_color_ratio;
+}
+
+// One of the texels round this one, which mix skin and background, or itself.
+bool has_near(const std::vector<bool>& is_background, std::size_t texel) {
+    constexpr int reach = 7;
+    const int x = int(texel % texture_side), y = int(texel / texture_side);
+    for (int v = std::max(y - reach, 0); v <= std::min(y + reach, texture_side - 1); ++v)
+        for (int u = std::max(x - reach, 0); u <= std::min(x + reach, texture_side - 1); ++u)
+            if (is_background[std::size_t(v) * texture_side + std::size_t(u)])
+                return true;
+    return false;
+}
+
+}  // namespace
+
 TexturePart unwrap_photo(const TextureMap& map, const FaceMesh& mesh, const FaceCamera& camera,
                          ColorView photo) {
+    std::vector<std::size_t> doubtful;
     TexturePart part{std::vector<Light>(texel_count), std::vector<float>(texel_count)};
     const DepthPicture depth(mesh, camera);
     const std::vector<Vec3> normals = normals_of(mesh);
@@ -300,9 +350,19 @@ TexturePart unwrap_photo(const TextureMap& map, const FaceMesh& mesh, const Face
         const Vec3 view = eye - point;
         const double facing = dot(normal, view) / std::max(length(normal) * length(view), 1e-9);
         part.weights[i] = smooth_step(least_facing, full_facing, facing);
-        if (part.weights[i] > 0)
+        if (part.weights[i] > 0) {
             part.light[i] = averaged(photo, seen.x, seen.y, span);
+            if (depth.is_on_rim(seen, doubtful_rim_share))
+                doubtful.push_back(i);
+        }
     }
+    const Light usual = usual_light(part);
+    std::vector<bool> is_background(texel_count);
+    for (const std::size_t texel : doubtful)
+        is_background[texel] = !is_like_skin(part.light[texel], usual);
+    for (const std::size_t texel : doubtful)
+        if (has_near(is_background, texel))
+            part.weights[texel] = 0;
     return part;
 }
 

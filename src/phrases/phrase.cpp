@@ -12,6 +12,7 @@ constexpr Sentence phrases[] = {
 #define PHRASE(key, ...) {__VA_ARGS__},
 #include "phrases/bar.inc"
 #include "phrases/connection.inc"
+#include "phrases/face.inc"
 #include "phrases/form.inc"
 #include "phrases/meeting.inc"
 #include "phrases/pictures.inc"

@@ -19,6 +19,7 @@ enum class Phrase : std::uint16_t {
 #define PHRASE(key, ...) key,
 #include "phrases/bar.inc"
 #include "phrases/connection.inc"
+#include "phrases/face.inc"
 #include "phrases/form.inc"
 #include "phrases/meeting.inc"
 #include "phrases/pictures.inc"

@@ -49,6 +49,7 @@ TEST(Phrases, HaveTheSameArgumentsInEveryLanguage) {
 #define PHRASE(key, ...) {Phrase::key, #key},
 #include "phrases/bar.inc"
 #include "phrases/connection.inc"
+#include "phrases/face.inc"
 #include "phrases/form.inc"
 #include "phrases/meeting.inc"
 #include "phrases/pictures.inc"

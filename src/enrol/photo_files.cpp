@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "enrol/photo_files.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "base/error.h"
+#include "face/face_fit.h"
+#include "files/file_bytes.h"
+#include "files/png_file.h"
+#include "video/jpeg_file_native.h"
+
+namespace theatron::enrol {
+namespace {
+
+constexpr std::size_t max_photo_bytes = std::size_t(64) << 20;
+constexpr std::size_t max_landmarks_bytes = 64 * 1024;
+// Beyond the photo's border by this share of its side, a landmark is of another photo.
+constexpr double outside_share = 0.1;
+
+std::string_view text_of(const Bytes& bytes) {
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+}  // namespace
+
+ColorImage read_photo(const std::string& file) {
+    const Bytes bytes = files::read_file(file, max_photo_bytes);
+    ColorImage picture;
+    if (text_of(bytes).substr(0, files::png_beginning.size()) == files::png_beginning) {
+        if (const std::string problem = files::decode_png(bytes, picture); !problem.empty())
+            throw Error("'" + file + "' " + problem + ".");
+        return picture;
+    }
+    if (const Status status = video::decode_jpeg_file(bytes, picture); status != Status::ok)
+        throw Error("'" + file + "' is no photo as JPEG or PNG: it is " +
+                    std::string(to_text(status)) + ".");
+    return picture;
+}
+
+face::Landmarks read_landmarks(const std::string& file, Size photo) {
+    const auto landmarks = face::parse_pts(text_of(files::read_file(file, max_landmarks_bytes)));
+    if (!landmarks)
+        throw Error("'" + file + "' has no 68 landmarks as a .pts file: it is " +
+                    std::string(to_text(landmarks.error())) + ".");
+    const double margin = outside_share * std::max(photo.width, photo.height);
+    for (const Vec2 point : *landmarks)
+        if (point.x < -margin || point.y < -margin || point.x > photo.width + margin ||
+            point.y > photo.height + margin)
+            throw Error("Landmarks in '" + file +
+                        "' are outside of their photo; mark the photo as it is stored, upright.");
+    return *landmarks;
+}
+
+std::string pts_text(const face::Landmarks& landmarks_px) {
+    std::string text = "version: 1\nn_points: 68\n{\n";
+    for (const Vec2 point : landmarks_px) {
+        char line[64];
+        std::snprintf(line, sizeof(line), "%.3f %.3f\n", point.x, point.y);
+        text += line;
+    }
+    return text + "}\n";
+}
+
+}  // namespace theatron::enrol

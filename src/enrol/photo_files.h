@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// Files of photos and of their landmarks.
+#pragma once
+
+#include <string>
+
+#include "face/landmark_draft.h"
+#include "image/image.h"
+
+namespace theatron::enrol {
+
+// JPEG or PNG. Throws Error, with a sentence that repeats nothing of the file's content; so does the
+// next.
+ColorImage read_photo(const std::string& file);
+// Of a .pts file, for a photo of this size.
+face::Landmarks read_landmarks(const std::string& file, Size photo);
+
+std::string pts_text(const face::Landmarks& landmarks_px);
+
+}  // namespace theatron::enrol

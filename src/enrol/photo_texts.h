@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// The texts and buttons of the window in which a person's face is photographed and marked. Pure.
+#pragma once
+
+#include <optional>
+
+#include "enrol/photo_guide.h"
+#include "window/overlay_content.h"
+
+namespace theatron::enrol {
+
+// The commands of the panel's buttons.
+enum class GuideCommand { take = 1, stop, again, keep, undo, leave_out, finish };
+
+// `has_picture`: the camera has given one.
+window::OverlayContent guide_content(const PhotoGuide& guide, bool has_picture, TimePoint now);
+
+// What Return and the space bar do: the first button; nullopt: there is none.
+std::optional<GuideCommand> usual_command(const PhotoGuide& guide, bool has_picture);
+
+void obey(PhotoGuide& guide, GuideCommand command, TimePoint now);
+
+}  // namespace theatron::enrol
