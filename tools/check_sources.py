@@ -21,7 +21,7 @@ DIRECT_OUTPUT = re.compile(r"std::(cout|cerr|clog|printf|puts|putchar)\b|\bstd::
 MAY_WRITE_DIRECTLY = re.compile(
     r"_(test|bench|fuzz)\.cpp$|^src/(testing|synthetic/pictures)/|^src/base/log_output_web\.cpp$|^apps/theatron/("
     r"background|bench|cameras|case|export|inspect|link|lobby|recover|register|session|status|study|target)_command\.cpp$|"
-    r"^apps/theatron/(register_result|study_report|study_session|study_terminal|main)\.cpp$|^apps/cli/program_frame\.cpp$|^apps/web/")
+    r"^apps/theatron/(register_result|study_report|study_session|study_terminal|main)\.cpp$|^apps/cli/program_frame\.cpp$|^apps/(landmarks|web)/")
 # A sentence that begins so does not name its subject.
 UNNAMED_SUBJECT = re.compile(r"(?:^|[.:;!?] )(What|Whatever|Who|Whoever|Whose|Of|Which|Whether) [^?]*$")
 # Words that stand for a count or a noun which the reader would have to look for; also across a line's end.

@@ -1,61 +1,46 @@
 // SPDX-License-Identifier: Apache-2.0
 // theatron-landmarks MODEL < photo.ppm > face.pts
 //
-// The 68 landmarks of the largest face in a photo, by dlib: its finder of faces (histograms of
-// oriented gradients) and its model of landmarks (Kazemi and Sullivan, CVPR 2014). Theatron starts it
-// (src/enrol/landmark_finder.h). Exit codes: 3 no face, 4 no model, 1 anything else.
-#include <dlib/image_processing.h>
-#include <dlib/image_processing/frontal_face_detector.h>
+// Theatron starts it (src/enrol/landmark_finder.h). Exit codes: 3 no face, 4 no model, 1 anything
+// else.
 #include <sys/resource.h>
 
 #include <cstdio>
 #include <exception>
 
+#include "dlib_landmarks.h"
+
 namespace {
 
-constexpr int no_face = 3, no_model = 4, failed = 1;
-constexpr int max_side = 8192;
-constexpr unsigned long landmark_count = 68;
+using namespace theatron::landmarks;
 
-bool read_photo(dlib::array2d<dlib::rgb_pixel>& photo) {
-    int width = 0, height = 0;
-    if (std::scanf("P6 %d %d 255", &width, &height) != 2 || std::getchar() != '\n' || width < 1 ||
-        height < 1 || width > max_side || height > max_side)
+constexpr int failed = 1, no_face = 3, no_model = 4;
+constexpr int max_side = 8192;
+
+bool read_photo(Photo& photo) {
+    if (std::scanf("P6 %d %d 255", &photo.width, &photo.height) != 2 || std::getchar() != '\n' ||
+        photo.width < 1 || photo.height < 1 || photo.width > max_side || photo.height > max_side)
         return false;
-    photo.set_size(height, width);
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) {
-            unsigned char color[3];
-            if (std::fread(color, 1, sizeof(color), stdin) != sizeof(color))
-                return false;
-            photo[y][x] = {color[0], color[1], color[2]};
-        }
-    return true;
+    photo.colors.resize(std::size_t(3) * std::size_t(photo.width) * std::size_t(photo.height));
+    return std::fread(photo.colors.data(), 1, photo.colors.size(), stdin) == photo.colors.size();
 }
 
-int run(const char* file) {
-    dlib::array2d<dlib::rgb_pixel> photo;
+int run(const char* model) {
+    Photo photo;
     if (!read_photo(photo))
         return failed;
-    dlib::shape_predictor model;
-    try {
-        dlib::deserialize(file) >> model;
-    } catch (const std::exception&) {
-        return no_model;
+    std::vector<std::pair<long, long>> points;
+    switch (find(photo, model, points)) {
+        case Outcome::no_face:
+            return no_face;
+        case Outcome::no_model:
+            return no_model;
+        case Outcome::found:
+            break;
     }
-    if (model.num_parts() != landmark_count)
-        return no_model;
-    dlib::frontal_face_detector finder = dlib::get_frontal_face_detector();
-    dlib::rectangle largest;
-    for (const dlib::rectangle& face : finder(photo))
-        if (face.area() > largest.area())
-            largest = face;
-    if (largest.is_empty())
-        return no_face;
-    const dlib::full_object_detection found = model(photo, largest);
-    std::printf("version: 1\nn_points: %lu\n{\n", landmark_count);
-    for (unsigned long i = 0; i < landmark_count; ++i)
-        std::printf("%ld %ld\n", found.part(i).x(), found.part(i).y());
+    std::printf("version: 1\nn_points: %zu\n{\n", points.size());
+    for (const auto& [x, y] : points)
+        std::printf("%ld %ld\n", x, y);
     std::printf("}\n");
     return std::fflush(stdout) == 0 ? 0 : failed;
 }

@@ -172,8 +172,8 @@ void run_face_enrol(const FaceEnrol& wanted) {
     const std::vector<enrol::Photo> photos = photos_of(wanted, model);
     std::vector<face::EnrolPhoto> seen;
     for (const enrol::Photo& photo : photos)
-        seen.push_back({photo.emotion, photo.picture.view(), *photo.landmarks_px,
-                        wanted.view_degrees});
+        seen.push_back(
+            {photo.emotion, photo.picture.view(), *photo.landmarks_px, wanted.view_degrees});
     std::optional<face::EyeDistance> eyes;
     if (wanted.eyes_apart_mm)
         eyes = face::EyeDistance{*wanted.eyes_apart_mm};

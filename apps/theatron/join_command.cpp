@@ -412,8 +412,9 @@ void add_join_command(CLI::App& app) {
                         "the lines 'webcam on' and 'webcam off' change it");
     command->add_option("--face", flags->face,
                         "Send what your face shows, as six emotions, jaw and lids; no picture: the "
-                        "UDP port where the OSC packets of your headset's face tracker arrive, or "
-                        "actor for a scripted face. The lines 'face on' and 'face off' change it");
+                        "UDP port where the OSC packets of your headset's face tracker arrive, "
+                        "voice for a mouth that your microphone moves, or actor for a scripted "
+                        "face. The lines 'face on' and 'face off' change it");
     command->add_option("--face-model", flags->face_model,
                         "The network that tells the emotions, of 'theatron face train'; without it "
                         "one learns from synthetic persons at first, for some seconds");

@@ -78,7 +78,8 @@ void refuse_unused(const JoinFlags& flags) {
         {"--face", !or_screen, "is about how the others see you: it goes without --or-screen."},
         {"--face-model", !flags.face.empty(), "is about what your face shows: it needs --face."},
         {"--face-channels", !flags.face.empty(), "is about what your face shows: it needs --face."},
-        {"--own-face", !flags.face.empty(), "needs --face: a tracker, or actor, that moves it."},
+        {"--own-face", !flags.face.empty(),
+         "needs --face: a tracker, voice or actor, that moves it."},
         {"--passphrase-file", !flags.own_face.empty(), "is about --own-face: it needs that."},
         {"--spatial-voices", hears, "is about what you hear: it needs --speaker."},
     };

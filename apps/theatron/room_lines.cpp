@@ -49,8 +49,9 @@ Pose towards(Vec3 place, Vec3 at) {
 // has come.
 nlohmann::json face_json(const wire::FaceExpression& shown, bool has_own) {
     const auto strongest = std::max_element(shown.emotions.begin(), shown.emotions.end());
-    const bool is_tracked = shown.state == wire::FaceExpression::State::tracked;
-    return {{"state", is_tracked ? "tracked" : "lost"},
+    using State = wire::FaceExpression::State;
+    return {{"state", shown.state == State::lost ? "lost" : "tracked"},
+            {"mouth_guessed", shown.state == State::voiced},
             {"emotion", face::emotion_names[std::size_t(strongest - shown.emotions.begin())]},
             {"channels", shown.channels.has_value()},
             {"own", has_own}};

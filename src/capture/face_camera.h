@@ -17,8 +17,8 @@ inline constexpr const char* face_camera_help =
 inline constexpr Size face_picture{320, 240};
 inline constexpr double face_fps = 15;
 
-// The camera behind a webcam's name, with its own pictures: `device` as in face_camera_help, but for
-// "test".
+// The camera behind a webcam's name, with its own pictures: `device` as in face_camera_help, but
+// for "test".
 std::string webcam_specification(std::string device, Size size = {1280, 720});
 
 // Pictures of the device's middle, scaled, at most face_fps.

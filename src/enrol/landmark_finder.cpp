@@ -37,16 +37,16 @@ fs::path usual_program() {
     std::error_code error;
     const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
     const fs::path built = folder / program_name;
-    return fs::exists(built, error) ? built : folder.parent_path() / "libexec/theatron" / program_name;
+    return fs::exists(built, error) ? built
+                                    : folder.parent_path() / "libexec/theatron" / program_name;
 }
 
 // Each pixel is one of the photo's: the finder looks at coarse edges.
 ColorImage smaller(ColorView photo, double share) {
-    ColorImage out({std::max(1, int(photo.size.width * share)),
-                    std::max(1, int(photo.size.height * share))});
+    ColorImage out(
+        {std::max(1, int(photo.size.width * share)), std::max(1, int(photo.size.height * share))});
     for (int y = 0; y < out.size.height; ++y) {
-        const Rgb* from =
-            photo.row(std::min(int((y + 0.5) / share), photo.size.height - 1));
+        const Rgb* from = photo.row(std::min(int((y + 0.5) / share), photo.size.height - 1));
         for (int x = 0; x < out.size.width; ++x)
             out.view().row(y)[x] = from[std::min(int((x + 0.5) / share), photo.size.width - 1)];
     }
@@ -80,8 +80,8 @@ Descriptor picture_file(const ColorImage& picture) {
     return file;
 }
 
-// What it writes until it closes its output, at most most_answer_bytes, within `patience`; nullopt:
-// it did not close it.
+// All that the program writes until it closes its output, at most most_answer_bytes, within
+// `patience`; nullopt: it did not close it.
 std::optional<std::string> read_answer(int output, Duration patience) {
     const TimePoint end = steady_now() + patience;
     std::string answer;

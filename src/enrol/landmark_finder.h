@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The landmarks of a photo, found by theatron-landmarks: a program of its own, so that this one needs
-// neither dlib nor its model, which not everybody may use (docs/face.md).
+// The landmarks of a photo, found by theatron-landmarks: a program of its own, so that this one
+// needs neither dlib nor its model, which not everybody may use (docs/face.md).
 #pragma once
 
 #include <filesystem>
@@ -32,7 +32,7 @@ public:
 
     // Why this machine finds none, with what to install; empty: it does.
     std::string problem() const;
-    // Of the largest face. Takes about a second. The photo is not empty.
+    // The landmarks are those of the largest face. It takes about a second. The photo is not empty.
     FoundLandmarks find(ColorView photo) const;
 
 private:

@@ -36,8 +36,8 @@ TEST_F(LandmarkFinderTest, LandmarksAreThoseOfTheWholePhoto) {
     for (std::size_t i = 0; i < landmarks.size(); ++i)
         landmarks[i] = {double(i), 2.0 * double(i)};
     std::ofstream(folder / "answer") << pts_text(landmarks);
-    const LandmarkFinder found = finder("cat > " + (folder / "photo").string() + "; cat " +
-                                        (folder / "answer").string());
+    const LandmarkFinder found =
+        finder("cat > " + (folder / "photo").string() + "; cat " + (folder / "answer").string());
     EXPECT_EQ(found.problem(), "");
     const auto small = found.find(photo({640, 480}).view());
     ASSERT_TRUE(small.landmarks_px) << small.problem;

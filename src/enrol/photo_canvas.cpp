@@ -60,10 +60,11 @@ void draw_photo(ColorView photo, const PhotoPlace& place, bool mirrored, Mutable
     for (int y = 0; y < canvas.size.height; ++y)
         for (int x = 0; x < canvas.size.width; ++x) {
             const Vec2 at = place.photo_of({x + 0.5, y + 0.5});
-            const bool is_inside = at.x >= 0 && at.y >= 0 && at.x < size.width && at.y < size.height;
-            canvas.row(y)[x] =
-                is_inside ? color_at(photo, mirrored ? size.width - at.x : at.x, at.y)
-                          : canvas_ground;
+            const bool is_inside =
+                at.x >= 0 && at.y >= 0 && at.x < size.width && at.y < size.height;
+            canvas.row(y)[x] = is_inside
+                                   ? color_at(photo, mirrored ? size.width - at.x : at.x, at.y)
+                                   : canvas_ground;
         }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the window shows below its texts: the photo, and the landmarks on it. Pure.
+// The picture of the window below its texts: the photo, and the landmarks on it. Pure.
 #pragma once
 
 #include <optional>

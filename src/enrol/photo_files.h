@@ -9,10 +9,10 @@
 
 namespace theatron::enrol {
 
-// JPEG or PNG. Throws Error, with a sentence that repeats nothing of the file's content; so does the
-// next.
+// JPEG or PNG. Throws Error, with a sentence that repeats nothing of the file's content; so does
+// the next.
 ColorImage read_photo(const std::string& file);
-// Of a .pts file, for a photo of this size.
+// The landmarks of a .pts file, for a photo of this size.
 face::Landmarks read_landmarks(const std::string& file, Size photo);
 
 std::string pts_text(const face::Landmarks& landmarks_px);

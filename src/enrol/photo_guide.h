@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The way through the photos of a person's own face: each is taken from a camera, or given, and then
-// its landmarks are found or marked.
+// The way through the photos of a person's own face: each is taken from a camera, or given, and
+// then its landmarks are found or marked.
 //
 // Neither window nor camera is known here: pictures, places and time come in, and photos come out.
 #pragma once

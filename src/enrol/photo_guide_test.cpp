@@ -184,10 +184,10 @@ TEST_F(PhotoGuideTest, APressOnNothingMovesNothing) {
 }
 
 TEST_F(PhotoGuideTest, GivenLandmarksAreLookedOver) {
-    PhotoGuide given = PhotoGuide::of_photos(
-        {{face::Emotion::neutral, picture(1), some_landmarks()},
-         {face::Emotion::anger, picture(2), {}}},
-        usual());
+    PhotoGuide given =
+        PhotoGuide::of_photos({{face::Emotion::neutral, picture(1), some_landmarks()},
+                               {face::Emotion::anger, picture(2), {}}},
+                              usual());
     EXPECT_EQ(given.step(), Step::mark);
     EXPECT_TRUE(given.can_go_on());
     EXPECT_FALSE(has_button(given, GuideCommand::again)) << "there is no camera";

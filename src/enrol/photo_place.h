@@ -30,8 +30,8 @@ public:
         return {(window.x - shift_.x) / scale_, (window.y - shift_.y) / scale_};
     }
 
-    // Comes closer by this factor (below 1: goes back, to the whole photo at most). What is at
-    // `window` stays there.
+    // The photo becomes larger by this factor (below 1: smaller, not below the whole photo). The
+    // place of the photo below `window` stays there.
     void zoom(double factor, Vec2 window) {
         const Vec2 fixed = photo_of(window);
         const double wanted = std::clamp(scale_ * factor, fitting_, most_zoom * fitting_);

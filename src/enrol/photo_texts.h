@@ -15,7 +15,7 @@ enum class GuideCommand { take = 1, stop, again, keep, undo, leave_out, finish }
 // `has_picture`: the camera has given one.
 window::OverlayContent guide_content(const PhotoGuide& guide, bool has_picture, TimePoint now);
 
-// What Return and the space bar do: the first button; nullopt: there is none.
+// The button that Return and the space bar press: the first one; nullopt: there is none.
 std::optional<GuideCommand> usual_command(const PhotoGuide& guide, bool has_picture);
 
 void obey(PhotoGuide& guide, GuideCommand command, TimePoint now);

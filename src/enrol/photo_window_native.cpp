@@ -129,9 +129,9 @@ private:
                 asked_leave_ = now;
                 break;
             case FormKey::tab:
-                focus_ = window::moved_focus(
-                    focus_, press.shift ? FocusStep::previous : FocusStep::next,
-                    overlay_.controls());
+                focus_ =
+                    window::moved_focus(focus_, press.shift ? FocusStep::previous : FocusStep::next,
+                                        overlay_.controls());
                 break;
             case FormKey::enter:
             case FormKey::space:

@@ -118,8 +118,8 @@ TEST(Enrol, LandmarksBesideTheJawLayNoBackgroundOnTheSkin) {
         if (map.shows_skin(i)) {
             ++skin;
             const Rgb pixel = texture.pixels[i];
-            dark += std::abs(pixel.r - background.r) < 12 && std::abs(pixel.g - background.g) < 12 &&
-                    std::abs(pixel.b - background.b) < 12;
+            dark += std::abs(pixel.r - background.r) < 12 &&
+                    std::abs(pixel.g - background.g) < 12 && std::abs(pixel.b - background.b) < 12;
         }
     EXPECT_LT(double(dark), 0.001 * double(skin));
 }

@@ -272,7 +272,7 @@ TextureMap::TextureMap(const MorphModel& model)
 
 namespace {
 
-// What is so near to the rim that only its colour tells skin from background: landmarks are a few
+// In this share of the face at its rim only colour tells skin from background: landmarks are a few
 // per cent of the face off, more so those of the jaw.
 constexpr double doubtful_rim_share = 4 * rim_share;
 // Natural logarithms of ratios: skin in shade and in light differs by less from the face's usual

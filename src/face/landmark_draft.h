@@ -69,11 +69,11 @@ public:
 
     // The landmark next to this place, within `reach_px` of the photo; of those that are shown.
     std::optional<std::size_t> near(Vec2 photo_px, double reach_px) const;
-    // What is shown: before all places are put, those alone; then all landmarks.
+    // Before all places are put, those alone are shown; then all landmarks.
     bool is_shown(std::size_t landmark) const;
     // nullopt while a place is asked for.
     std::optional<Landmarks> landmarks_px() const;
-    // Of one that is shown.
+    // The place of a landmark that is shown.
     Vec2 point(std::size_t landmark) const { return points_[landmark]; }
 
 private:

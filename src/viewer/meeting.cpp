@@ -131,6 +131,8 @@ bool Meeting::take(const client::Participant& participant) {
             if (const auto expression = track->second.at(now)) {
                 person.expression = channels_of(*expression);
                 person.shown_face = shown_face_of(*expression);
+                if (expression->state == wire::FaceExpression::State::voiced)
+                    person.name = say(Phrase::mouth_from_voice, person.name);
                 person.own_head = own_heads_.of(person.id);
                 if (const auto skin = skins_.find(person.id);
                     person.own_head && skin != skins_.end())

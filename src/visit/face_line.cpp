@@ -22,7 +22,7 @@ FacePort port_of(const std::string& source) {
     const char* const end = source.data() + source.size();
     const auto [rest, problem] = std::from_chars(source.data(), end, at.port);
     if (problem != std::errc() || rest != end || at.port < 1 || at.port > 65535)
-        throw Error("'" + source + "' is neither a UDP port (1 to 65535) nor actor.");
+        throw Error("'" + source + "' is no UDP port (1 to 65535), and neither actor nor voice.");
     return at;
 }
 
@@ -50,6 +50,13 @@ std::string sentence_of(face::Tracking tracking) {
             break;
     }
     return "";
+}
+
+face::EmotionNow at_rest() {
+    face::EmotionNow rest;
+    rest.weights[std::size_t(face::Emotion::neutral)] = 1;
+    rest.told = face::Emotion::neutral;
+    return rest;
 }
 
 std::string name_of(session::FaceUpload::State state) {
@@ -89,10 +96,11 @@ std::string sentence_of(session::FaceUpload::State state) {
 }  // namespace
 
 wire::FaceExpression expression_of(const face::FaceNow& face, const face::EmotionNow& told,
-                                   bool all_channels) {
+                                   bool all_channels, bool mouth_guessed) {
     wire::FaceExpression sent;
     const bool is_lost = face.tracking == face::Tracking::lost;
-    sent.state = is_lost ? wire::FaceExpression::State::lost : wire::FaceExpression::State::tracked;
+    using State = wire::FaceExpression::State;
+    sent.state = is_lost ? State::lost : mouth_guessed ? State::voiced : State::tracked;
     sent.emotions = told.weights;
     if (told.told != face::Emotion::anger) {
         float& anger = sent.emotions[std::size_t(face::Emotion::anger)];
@@ -108,8 +116,12 @@ wire::FaceExpression expression_of(const face::FaceNow& face, const face::Emotio
 }
 
 FaceLine::FaceLine(const Options& options)
-    : all_channels_(options.all_channels), own_face_(options.own_face) {
-    if (options.source != "actor")
+    : from_(options.source == "actor"   ? From::actor
+            : options.source == "voice" ? From::voice
+                                        : From::tracker),
+      all_channels_(options.all_channels),
+      own_face_(options.own_face) {
+    if (from_ == From::tracker)
         tracked_ = std::make_unique<TrackedFace>(port_of(options.source));
     if (!options.model.empty())
         network_ = read_face_network(options.model);
@@ -118,7 +130,7 @@ FaceLine::FaceLine(const Options& options)
 FaceLine::Sending::Sending(FaceLine& line, client::Participant& participant)
     : thread_([&line, &participant](const std::stop_token& stop) {
           if (!contain("face", [&] { line.send(participant, stop); }))
-              line.note("off", "");
+              line.note("off", "", "unseen");
       }) {}
 
 face::FaceNow FaceLine::next(TimePoint end) {
@@ -126,38 +138,57 @@ face::FaceNow FaceLine::next(TimePoint end) {
         return tracked_->next(end);
     std::this_thread::sleep_for(std::max(end - steady_now(), Duration::zero()));
     face::FaceNow face;
-    face.values = face::actor_channels(to_seconds(end - began_));
-    face.present.set();
     face.tracking = face::Tracking::tracked;
+    const double seconds = to_seconds(end - began_);
+    if (from_ == From::actor) {
+        face.values = face::actor_channels(seconds);
+        face.present.set();
+    } else {
+        face.values[face::eye_blink_left] = face.values[face::eye_blink_right] =
+            face::idle_blink(seconds);
+    }
     return face;
 }
 
+bool FaceLine::guess_mouth(face::FaceNow& face, TimePoint now) {
+    const int level_db = level_db_;
+    const bool is_seen = face.present[face::jaw_open];
+    if (is_seen || level_db == no_voice || face.tracking != face::Tracking::tracked)
+        return false;
+    face.values[face::jaw_open] = mouth_.put(level_db, now);
+    return true;
+}
+
 bool FaceLine::learn(const std::stop_token& stop) {
-    note("learning", "");
+    note("learning", "", "unseen");
     network_ = face::train_synthetic_until(tracked_ ? face::Source::unified : face::Source::arkit,
                                            {}, [&] { return stop.stop_requested(); });
     return network_.has_value();
 }
 
 void FaceLine::send(client::Participant& participant, const std::stop_token& stop) {
-    if (!network_ && !learn(stop))
+    if (from_ != From::voice && !network_ && !learn(stop))
         return;
-    face::EmotionReader reader(*network_);
+    // A voice tells no emotion.
+    std::optional<face::EmotionReader> reader;
+    if (from_ != From::voice)
+        reader.emplace(*network_);
     TimePoint due = began_ = steady_now(), send_at = due;
     auto tracking = face::Tracking::waiting;
-    bool is_calibrated = !tracked_;  // the actor is at rest where its channels are 0
-    wire::FaceExpression sent;       // the last one; at first as if it said that there is none
+    bool is_calibrated = from_ != From::tracker;  // the others are at rest where channels are 0
+    wire::FaceExpression sent;  // the last one; at first as if it said that there is none
     TimePoint sent_at;
     bool could_show = true;
     while (!stop.stop_requested()) {
         due = std::max(due + face_step, steady_now());
-        const face::FaceNow face = next(due);
+        face::FaceNow face = next(due);
         if (!is_calibrated && face.tracking == face::Tracking::tracked) {
             log::say("Rest your face for two seconds: that is what the network compares with.");
-            reader.calibrate(due);
+            reader->calibrate(due);
             is_calibrated = true;
         }
-        const face::EmotionNow told = reader.put(face, due);
+        const face::EmotionNow told = reader ? reader->put(face, due) : at_rest();
+        const bool is_guessed = guess_mouth(face, due);
         if (std::exchange(tracking, face.tracking) != face.tracking)
             if (const std::string sentence = sentence_of(face.tracking);
                 tracked_ && !sentence.empty())
@@ -167,14 +198,17 @@ void FaceLine::send(client::Participant& participant, const std::stop_token& sto
             log::say("Your role lets nobody see your face.");
         const bool shown = shown_ && may_show;
         note(shown ? std::string(to_text(face.tracking)) : "off",
-             shown ? std::string(to_text(told.told)) : "");
+             shown ? std::string(to_text(told.told)) : "",
+             is_guessed                     ? "guessed"
+             : face.present[face::jaw_open] ? "seen"
+                                            : "unseen");
         follow_own_face(participant, shown);
         if (due < send_at || !can_send(participant))
             continue;
         send_at = std::max(send_at + period, due);
         wire::FaceExpression now;  // of state none
         if (shown && face.tracking != face::Tracking::waiting)
-            now = expression_of(face, told, all_channels_);
+            now = expression_of(face, told, all_channels_, is_guessed);
         now.time = sent.time;
         const bool is_same = encode_face_expression(now) == encode_face_expression(sent);
         const bool is_fresh = now.state == wire::FaceExpression::State::none ||
@@ -202,15 +236,17 @@ void FaceLine::follow_own_face(client::Participant& participant, bool shown) {
     own_state_ = name_of(state);
 }
 
-void FaceLine::note(const std::string& state, const std::string& emotion) {
+void FaceLine::note(const std::string& state, const std::string& emotion,
+                    const std::string& mouth) {
     const std::lock_guard lock(mutex_);
     state_ = state;
     emotion_ = emotion;
+    mouth_state_ = mouth;
 }
 
 nlohmann::json FaceLine::json() const {
     const std::lock_guard lock(mutex_);
-    nlohmann::json json{{"state", state_}, {"emotion", emotion_}};
+    nlohmann::json json{{"state", state_}, {"emotion", emotion_}, {"mouth", mouth_state_}};
     if (own_face_)
         json["own"] = own_state_;
     return json;

@@ -140,6 +140,8 @@ std::vector<std::string> Stay::tick(TimePoint now) {
         if (std::string problem = ports_.face->take_problem(); !problem.empty())
             sentences.push_back(std::move(problem));
     }
+    if (ports_.expression)
+        ports_.expression->hear(ports_.voice ? ports_.voice->heard_level_db() : std::nullopt);
     if (ports_.cameras)
         for (std::string& text : sources_.take(*ports_.cameras, now))
             sentences.push_back(std::move(text));

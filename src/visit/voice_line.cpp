@@ -187,6 +187,12 @@ void VoiceLine::note(const wire::Standing& standing) {
                          "you another role.");
 }
 
+std::optional<int> VoiceLine::heard_level_db() const {
+    if (!has_microphone() || !switch_.talks() || !is_heard_)
+        return std::nullopt;
+    return input_->level_db();
+}
+
 std::set<ParticipantId> VoiceLine::speaking() const {
     return output_.speaking(steady_now());
 }

@@ -83,6 +83,8 @@ public:
     // with the newest standing while joined.
     void note(const wire::Standing& standing);
 
+    // How loud this person is for the others; nullopt: nobody hears them.
+    std::optional<int> heard_level_db() const;
     // The others who speak, known without a loudspeaker, too.
     std::set<ParticipantId> speaking() const;
     // For a window.

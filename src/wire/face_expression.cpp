@@ -50,7 +50,7 @@ Result<FaceExpression> decode_face_expression(ByteView bytes) {
     const auto us = in.get<std::int64_t>();
     const unsigned state = in.get<std::uint8_t>();
     if (us > max_expression_us || us < -max_expression_us ||
-        state > unsigned(FaceExpression::State::lost))
+        state > unsigned(FaceExpression::State::voiced))
         return Status::malformed;
     FaceExpression expression;
     expression.time = from_us(us);

@@ -20,6 +20,7 @@ struct FaceExpression {
         none,     // the face is no longer sent; the fields below are as in a new object
         tracked,  // a tracker sees the face
         lost,     // the tracker is silent, so the face is at rest
+        voiced,   // as tracked, but the mouth is guessed from the person's voice
     };
     TimePoint time;  // session time that the expression is for
     State state = State::none;

@@ -43,6 +43,16 @@ TEST(FaceExpression, ComesBackToTheNearestStep) {
     EXPECT_EQ(back->jaw_open, 0) << "it is in the channels";
 }
 
+TEST(FaceExpression, AGuessedMouthIsToldAndNoFurtherStateIsKnown) {
+    FaceExpression face = smiling();
+    face.state = FaceExpression::State::voiced;
+    Bytes bytes = encode_face_expression(face);
+    EXPECT_EQ(*decode_face_expression(bytes), face);
+    EXPECT_EQ(std::to_integer<int>(bytes[8]), 3);
+    bytes[8] = std::byte{4};
+    EXPECT_EQ(decode_face_expression(bytes).error(), Status::malformed);
+}
+
 TEST(FaceExpression, NoneHasNoValues) {
     FaceExpression none = smiling();
     none.state = FaceExpression::State::none;

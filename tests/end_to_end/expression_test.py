@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a person's face shows goes from the tracker to the others, and only with consent and right: docs/face.md."""
+import math
 import os
 import pathlib
 import shutil
@@ -8,6 +9,7 @@ import struct
 import tempfile
 import time
 import unittest
+import wave
 
 from face_test import free_port
 from raw_peer import STATES, RawPeer
@@ -39,6 +41,17 @@ class Person(RawPeer):
         smile = struct.pack("<qBB6B3B", now, 1, 3, 0, 0, 255, 0, 0, 0, 9, 0, 0)
         self.send_states((EXPRESSION, smile), (POSE, struct.pack("<qB3f4h", now, 1, 4, 1.5, 0, 32767, 0, 0, 0)))
         return smile
+
+    def receive_expression(self):
+        """State and open jaw (0 to 255) of the next expression of anybody."""
+        while True:
+            envelope = self.receive()
+            at = 1
+            while envelope[0] == STATES and at < len(envelope):
+                topic, _, size = struct.unpack_from("<BIH", envelope, at)
+                if topic == EXPRESSION and size > 16:
+                    return envelope[at + 7 + 8], envelope[at + 7 + 16]
+                at += 7 + size
 
     def receive_until_pose(self, number):
         """The expressions that came until the pose of this participant did."""
@@ -102,7 +115,29 @@ class Expressions(unittest.TestCase):
             self.assertEqual(tracker.end(), 0)
         ada.wait_for_error("silent")
         lost = bob.wait_for(lambda f: (face_of(f, "Ada") or {}).get("state") == "lost")
-        self.assertEqual(face_of(lost, "Ada"), {"state": "lost", "emotion": "neutral", "channels": True, "own": False})
+        self.assertEqual(face_of(lost, "Ada"), {"state": "lost", "mouth_guessed": False, "emotion": "neutral", "channels": True, "own": False})
+
+    def test_without_a_tracker_the_voice_moves_the_mouth_and_the_others_are_told(self):
+        with wave.open(str(self.folder / "said.wav"), "wb") as file:
+            file.setparams((1, 2, 48000, 0, "NONE", ""))
+            # A second of a tone and a second of silence, in turn.
+            tone = b"".join(struct.pack("<h", int(12000 * math.sin(i * 0.05))) for i in range(48000))
+            file.writeframes((tone + bytes(96000)) * 60)
+        links = self.host.greeting["links"]
+        watching = self.enterContext(Person(links["expert"]))
+        ada = self.member("Ada", "--face", "voice", "--microphone", self.folder / "said.wav")
+        bob = self.member("Bob")
+        seen = bob.wait_for(lambda f: (face_of(f, "Ada") or {}).get("mouth_guessed"))
+        self.assertEqual((face_of(seen, "Ada")["state"], face_of(seen, "Ada")["emotion"]), ("tracked", "neutral"))
+        ada.wait_for(lambda f: f["face"]["mouth"] == "guessed")
+        jaws = []
+        while not (jaws and max(jaws) > 60 and jaws[-1] < 10):  # it has opened, and closed again
+            state, jaw = watching.receive_expression()
+            self.assertEqual(state, 3)
+            jaws.append(jaw)
+        ada.say("microphone off")
+        ada.wait_for(lambda f: f["face"]["mouth"] == "unseen")
+        bob.wait_for(lambda f: face_of(f, "Ada") and not face_of(f, "Ada")["mouth_guessed"])
 
     def test_an_observer_shows_no_face(self):
         links = self.host.greeting["links"]
@@ -114,7 +149,7 @@ class Expressions(unittest.TestCase):
 
     def test_mistakes_are_one_sentence(self):
         link = self.host.greeting["link"]
-        for arguments, said in ((("--face", "mirror"), "neither a UDP port"), (("--face-model", self.network), "needs --face"),
+        for arguments, said in ((("--face", "mirror"), "neither actor nor voice"), (("--face-model", self.network), "needs --face"),
                                 (("--face", "actor", "--face-model", self.folder / "none"), "none"),
                                 (("--face", "actor", "--or-screen", "--offscreen", self.folder / "screen.png"), "without --or-screen")):
             code, _, errors = run("join", link, "--no-window", *arguments)

@@ -55,6 +55,7 @@ class FacePhotos(unittest.TestCase):
         scale = min(free / size[0], HEIGHT / size[1])
         left, top = WIDTH - free + (free - scale * size[0]) / 2, (HEIGHT - scale * size[1]) / 2
         truth = landmarks(photo.with_suffix(".pts"))
+        wait_until(lambda: screen.buttons(WIDTH, HEIGHT))  # "Undo": the photo is shown and can be marked
         for landmark in ASKED:
             x, y = truth[landmark]
             place = round(left + scale * x), round(top + scale * y)
@@ -79,7 +80,7 @@ class FacePhotos(unittest.TestCase):
             wait_until(process.has_ended, of=process)
         self.assertEqual(process.process.returncode, 0, process.errors)
         self.assertEqual(out.stat().st_mode & 0o777, 0o600)
-        # Of a face that is 440 px wide.
+        # The face is 290 px wide.
         self.assertLess(distance(landmarks(out), truth), 12)
 
     def test_a_camera_takes_the_photos_and_two_make_a_face(self):
