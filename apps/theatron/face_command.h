@@ -70,14 +70,20 @@ struct FacePhotos {
 };
 void run_face_photos(const FacePhotos& wanted);
 
+// The window in which photos are taken and marked.
+struct FaceWindow {
+    bool mark = false;
+    std::string language = "en", size = "1280x720", landmark_model = enrol::usual_landmark_model;
+};
+
 struct FaceEnrol {
     struct Photo {
         std::string picture, landmarks;
     };
     std::array<Photo, face::emotion_count> photos;
     std::string camera;  // takes the photos, if it is not empty
-    bool mark = false;   // in a window
-    std::string model, out, passphrase_file, landmark_model = enrol::usual_landmark_model;
+    FaceWindow window;
+    std::string model, out, passphrase_file;
     std::optional<double> eyes_apart_mm;
     double view_degrees = 65;
     bool overwrite = false, json = false;
@@ -85,8 +91,9 @@ struct FaceEnrol {
 void run_face_enrol(const FaceEnrol& wanted);
 
 struct FaceLandmarks {
-    std::string photo, out, emotion = "neutral", landmark_model = enrol::usual_landmark_model;
-    bool mark = false, overwrite = false;
+    std::string photo, out, emotion = "neutral";
+    FaceWindow window;
+    bool overwrite = false;
 };
 void run_face_landmarks(const FaceLandmarks& wanted);
 

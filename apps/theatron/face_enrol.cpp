@@ -18,6 +18,7 @@
 #include "files/file_bytes.h"
 #include "files/json_text.h"
 #include "files/private_file.h"
+#include "join_pictures.h"
 #include "net/sealed_bytes.h"
 #include "phrases/phrase.h"
 #include "video/jpeg_encoder_native.h"
@@ -28,7 +29,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int best_texture_quality = 90, least_texture_quality = 30;
-constexpr Size window_size{1280, 720};
 constexpr const char* by_hand = " Mark them yourself with --mark, or give a .pts file.";
 
 Bytes texture_bytes(const ColorImage& texture) {
@@ -80,7 +80,7 @@ void find_landmarks(std::vector<enrol::Photo>& photos, const enrol::LandmarkFind
 }
 
 // Throws Error where the person ends the window.
-std::vector<enrol::Photo> ask_photos(enrol::PhotoGuide guide,
+std::vector<enrol::Photo> ask_photos(const FaceWindow& wanted, enrol::PhotoGuide guide,
                                      std::unique_ptr<capture::Camera> camera,
                                      const enrol::LandmarkFinder& finder) {
     cli::catch_stop_signals();
@@ -88,7 +88,8 @@ std::vector<enrol::Photo> ask_photos(enrol::PhotoGuide guide,
         say_whose_model();
     else
         log::say(finder.problem() + " You mark eight places of each photo instead.");
-    window::DesktopWindow window(say(Phrase::enrol_title) + " - Theatron", window_size);
+    set_language(parse_language(wanted.language).value_or(Language::english));
+    window::DesktopWindow window(say(Phrase::enrol_title) + " - Theatron", parse_size(wanted.size));
     auto photos = enrol::ask_photos(window, std::move(guide), std::move(camera), finder,
                                     [] { return cli::stop_requested(); });
     if (!photos)
@@ -104,15 +105,16 @@ enrol::PhotoGuide::Usual usual_landmarks(const face::MorphModel& model) {
 }
 
 std::vector<enrol::Photo> photos_of(const FaceEnrol& wanted, const face::MorphModel& model) {
-    const enrol::LandmarkFinder finder(wanted.landmark_model);
+    const enrol::LandmarkFinder finder(wanted.window.landmark_model);
     if (!wanted.camera.empty()) {
         auto camera = capture::open_camera(capture::webcam_specification(wanted.camera));
-        return ask_photos(enrol::PhotoGuide::from_camera(usual_landmarks(model)), std::move(camera),
-                          finder);
+        return ask_photos(wanted.window, enrol::PhotoGuide::from_camera(usual_landmarks(model)),
+                          std::move(camera), finder);
     }
     std::vector<enrol::Photo> photos = read_photos(wanted);
-    if (wanted.mark)
-        return ask_photos(enrol::PhotoGuide::of_photos(std::move(photos), usual_landmarks(model)),
+    if (wanted.window.mark)
+        return ask_photos(wanted.window,
+                          enrol::PhotoGuide::of_photos(std::move(photos), usual_landmarks(model)),
                           nullptr, finder);
     find_landmarks(photos, finder, [&](face::Emotion emotion) {
         return wanted.photos[std::size_t(emotion)].picture;
@@ -199,9 +201,10 @@ void run_face_landmarks(const FaceLandmarks& wanted) {
     std::vector<enrol::Photo> photos(1);
     photos[0].emotion = *face::emotion_of(wanted.emotion);
     photos[0].picture = enrol::read_photo(wanted.photo);
-    const enrol::LandmarkFinder finder(wanted.landmark_model);
-    if (wanted.mark)
-        photos = ask_photos(enrol::PhotoGuide::of_photos(std::move(photos),
+    const enrol::LandmarkFinder finder(wanted.window.landmark_model);
+    if (wanted.window.mark)
+        photos = ask_photos(wanted.window,
+                            enrol::PhotoGuide::of_photos(std::move(photos),
                                                          usual_landmarks(face::generated_head())),
                             nullptr, finder);
     else

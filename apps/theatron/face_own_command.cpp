@@ -7,6 +7,7 @@
 #include "enrol/photo_guide.h"
 #include "face/face_fit.h"
 #include "face_command.h"
+#include "picture_options.h"
 
 namespace theatron::app {
 namespace {
@@ -61,13 +62,15 @@ void add_photos(CLI::App& face) {
     command->callback([wanted] { run_face_photos(*wanted); });
 }
 
-void add_landmark_options(CLI::App& command, bool& mark, std::string& model) {
-    command.add_flag("--mark", mark,
+void add_window_options(CLI::App& command, FaceWindow& window) {
+    command.add_flag("--mark", window.mark,
                      "Mark the landmarks in a window, or look over those that were found");
     command
-        .add_option("--landmark-model", model,
+        .add_option("--landmark-model", window.landmark_model,
                     "The model of dlib that finds landmarks (a shape_predictor of 68 points)")
         ->capture_default_str();
+    add_language_option(command, window.language);
+    command.add_option("--size", window.size, "Size of the window")->capture_default_str();
 }
 
 void add_enrol(CLI::App& face) {
@@ -109,7 +112,7 @@ void add_enrol(CLI::App& face) {
         "--camera", wanted->camera,
         "Takes the photos in a window, one emotion after the other: /dev/video0, or a video file");
     camera->excludes(neutral);
-    add_landmark_options(*command, wanted->mark, wanted->landmark_model);
+    add_window_options(*command, wanted->window);
     command->add_option("--model", wanted->model,
                         "Of 'theatron face model import' (default: the generated head)");
     command
@@ -151,7 +154,7 @@ void add_landmarks(CLI::App& face) {
                      "What the face shows: a guess of the landmarks begins with it")
         ->capture_default_str()
         ->check(cli::one_of({face::emotion_names.begin(), face::emotion_names.end()}));
-    add_landmark_options(*command, wanted->mark, wanted->landmark_model);
+    add_window_options(*command, wanted->window);
     command->add_flag("--overwrite", wanted->overwrite, "Replace a file that is there");
     command->callback([wanted] { run_face_landmarks(*wanted); });
 }

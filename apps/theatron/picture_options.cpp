@@ -34,12 +34,16 @@ std::string named_languages() {
 
 }  // namespace
 
-void add_picture_options(CLI::App& command, JoinFlags& flags) {
+void add_language_option(CLI::App& command, std::string& language) {
     command
-        .add_option("--language", flags.language,
+        .add_option("--language", language,
                     "Language of the texts in the window, and of news: " + named_languages())
         ->check(cli::one_of(language_codes()))
         ->capture_default_str();
+}
+
+void add_picture_options(CLI::App& command, JoinFlags& flags) {
+    add_language_option(command, flags.language);
     command.add_option("--offscreen", flags.offscreen,
                        "Without a window: draw the last picture into this PNG file");
     command.add_option("--depth", flags.depth_file,

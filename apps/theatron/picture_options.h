@@ -13,6 +13,9 @@ namespace theatron::app {
 // "a, b, c".
 std::string join_names(const std::vector<std::string>& names);
 
+// The code of a language (phrases/language.h); `language` must outlive `command`.
+void add_language_option(CLI::App& command, std::string& language);
+
 // `flags` must outlive `command`.
 void add_picture_options(CLI::App& command, JoinFlags& flags);
 

@@ -43,10 +43,10 @@ class FacePhotos(unittest.TestCase):
     def tearDownClass(cls):
         shutil.rmtree(cls.folder)
 
-    def begin(self, screen, *arguments):
+    def begin(self, screen, *arguments, title="Your own face"):
         process = Process("face", *arguments, env={**screen.environment})
         self.addCleanup(process.process.kill)
-        wait_until(lambda: "Your own face" in screen.title(), of=process)
+        wait_until(lambda: title in screen.title(), of=process)
         return process
 
     def mark(self, screen, photo, size):
@@ -125,7 +125,7 @@ class FacePhotos(unittest.TestCase):
         out = self.folder / "left.face"
         with VirtualScreen(WIDTH, HEIGHT) as screen:
             process = self.begin(screen, "enrol", "--photo", self.photos / "neutral.jpg", "--mark", "--out", out,
-                                 "--passphrase-file", self.passphrase, *self.none)
+                                 "--passphrase-file", self.passphrase, "--language", "de", "--size", "800x600", *self.none, title="Ihr eigenes Gesicht")
             screen.do("key", "Escape", "key", "Escape")
             wait_until(process.has_ended, of=process)
         self.assertEqual(process.process.returncode, 1)
