@@ -78,7 +78,7 @@ TEST(FaceExpression, AnythingElseIsRefused) {
     Bytes longer = good;
     longer.push_back({});
     EXPECT_EQ(decode_face_expression(longer).error(), Status::trailing_bytes);
-    for (const auto& [at, value] : {std::pair(8, 3), std::pair(9, 4), std::pair(7, 0x7f)}) {
+    for (const auto& [at, value] : {std::pair(8, 4), std::pair(9, 4), std::pair(7, 0x7f)}) {
         Bytes bad = good;
         bad[std::size_t(at)] = std::byte(value);
         EXPECT_EQ(decode_face_expression(bad).error(), Status::malformed) << "byte " << at;
