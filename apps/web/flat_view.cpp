@@ -205,7 +205,7 @@ void FlatView::add_screens(const viewer::Facts& facts, viewer::RoomPanel& panel,
     const auto room = participant_.room();
     screen_offer_.follow(room.objects, room.self, now);
     if (screen_offer_.is_open(now))
-        panel.panels.push_back({say(Phrase::shared_screen), {screen_offer_.row(panel)}});
+        panel.panels.push_back({say(Phrase::shared_screen), {screen_offer_.row(panel, now)}});
     viewer::RoomPanel screens;
     viewer::add_screen_panel({&room.objects, room.self, facts.received.status.standing.role, {}},
                              screens);
@@ -236,7 +236,7 @@ void FlatView::on(const viewer::Decide& decision, TimePoint now) {
 }
 
 void FlatView::on(const viewer::ShowScreen& shown, TimePoint now) {
-    screen_offer_.close();
+    screen_offer_.close(shown.screen);
     const auto screen = session::shared_screen_of(participant_.room().objects, shown.screen);
     if (!screen || !screen->camera || !seen_.contains(*screen->camera))
         return note(say(Phrase::not_in_room_any_more), now);

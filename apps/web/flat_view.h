@@ -77,7 +77,7 @@ private:
     void on(const viewer::ChangeMarks& change, TimePoint now);
     void on(const viewer::Decide& decision, TimePoint now);
     void on(const viewer::ShowScreen& shown, TimePoint now);
-    void on(const viewer::CloseScreenOffer&, TimePoint) { screen_offer_.close(); }
+    void on(const viewer::CloseScreenOffer& offer, TimePoint) { screen_offer_.close(offer.screen); }
     // Nothing has a button for the others.
     void on(const auto&, TimePoint) {}
     void show_marks();

@@ -67,6 +67,21 @@ TEST_F(ShownScreens, ComeAsJpegWhateverTheirReceiversWish) {
     EXPECT_TRUE(settings(alice).empty()) << "nothing has changed for the publisher";
 }
 
+TEST_F(ShownScreens, AreNotSentToAPersonWhoWishesForNoPictures) {
+    come(alice);
+    come(bob);
+    tell(bob, wire::ChooseCodecs{"none", "none", {}});
+    const wire::Published answer = offer(alice, {screen()});
+    ASSERT_EQ(answer.cameras.size(), 1u);
+    EXPECT_TRUE(settings(alice).empty()) << "nobody gets it";
+    tell(bob, wire::ChooseCodecs{"", "jpeg:quality=60", {answer.cameras[0]}});
+    const auto asked = settings(alice);
+    ASSERT_EQ(asked.size(), 1u) << "its colour alone";
+    EXPECT_EQ(asked[0].codec, screen_limits.color_codec);
+    tell(bob, wire::ChooseCodecs{"none", "none", {answer.cameras[0]}});
+    EXPECT_TRUE(settings(alice).empty());
+}
+
 TEST_F(ShownScreens, AreNotRecorded) {
     come(alice);
     come(bob, "secret", {}, true);

@@ -2,6 +2,7 @@
 #include "session/stream_receiver.h"
 
 #include "session/own_pictures.h"
+#include "wire/no_codec.h"
 
 namespace theatron::session {
 
@@ -49,10 +50,12 @@ void StreamReceiver::tell_delivery() {
 void StreamReceiver::request(CameraStreams& camera, ParticipantId id, bool depth) const {
     camera.receivers.try_emplace(id);
     SettingTable& table = camera.table(depth);
-    if (const OwnPictureLimits* own = own_picture_limits(camera.offered_as()))
+    const OwnPictureLimits* own = own_picture_limits(camera.offered_as());
+    const std::string& asked = wished(camera.description().id, depth);
+    if (own && asked != wire::no_codec)
         table.wish(id, std::string(depth ? own->depth_codec : own->color_codec));
     else
-        table.wish(id, wished(camera.description().id, depth));
+        table.wish(id, asked);
     if (records)
         table.pin(id);
 }

@@ -89,8 +89,10 @@ struct ChangeScreen {
 struct ShowScreen {  // that is shared
     session::ObjectId screen{};
 };
-struct CloseScreenOffer {};  // it is not wanted
-struct LookBackTo {          // for this person alone; 0: the present
+struct CloseScreenOffer {
+    session::ObjectId screen{};  // that is not wanted
+};
+struct LookBackTo {  // for this person alone; 0: the present
     Duration ago{};
 };
 struct StudyPress {  // in the panel of a study

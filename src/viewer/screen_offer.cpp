@@ -18,18 +18,28 @@ void ScreenOffer::follow(const session::RoomObjects& objects, ParticipantId self
         shared.insert(id);
         // Numbers of objects grow with time: the last one is the newest.
         if (!known_.contains(id))
-            offered_ = {id, screen->publisher, screen->name, now + offered_for};
+            offered_.push_back({id, screen->publisher, screen->name, now + offered_for});
     }
     known_ = std::move(shared);
-    if (offered_ && !known_.contains(offered_->screen))
-        offered_.reset();
+    std::erase_if(offered_, [&](const Offered& offered) {
+        return !known_.contains(offered.screen) || now >= offered.until;
+    });
 }
 
-window::PanelRow ScreenOffer::row(RoomPanel& panel) const {
-    return {say(Phrase::screen_offered, offered_->publisher, offered_->name),
+void ScreenOffer::close(session::ObjectId screen) {
+    std::erase_if(offered_, [&](const Offered& offered) { return offered.screen == screen; });
+}
+
+const ScreenOffer::Offered* ScreenOffer::newest(TimePoint now) const {
+    return offered_.empty() || now >= offered_.back().until ? nullptr : &offered_.back();
+}
+
+window::PanelRow ScreenOffer::row(RoomPanel& panel, TimePoint now) const {
+    const Offered& offered = *newest(now);
+    return {say(Phrase::screen_offered, offered.publisher, offered.name),
             "",
-            {panel.button(say(Phrase::show), ShowScreen{offered_->screen}),
-             panel.button(say(Phrase::not_now), CloseScreenOffer{})}};
+            {panel.button(say(Phrase::show), ShowScreen{offered.screen}),
+             panel.button(say(Phrase::not_now), CloseScreenOffer{offered.screen})}};
 }
 
 }  // namespace theatron::viewer

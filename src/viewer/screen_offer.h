@@ -5,9 +5,9 @@
 // Pure; the time is passed in. Not thread safe.
 #pragma once
 
-#include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "viewer/room_panel.h"
 
@@ -19,11 +19,12 @@ public:
 
     // The newest objects of the room.
     void follow(const session::RoomObjects& objects, ParticipantId self, TimePoint now);
-    // It was shown, or is not wanted.
-    void close() { offered_.reset(); }
-    bool is_open(TimePoint now) const { return offered_ && now < offered_->until; }
-    // "Ben shares a screen: monitor", with the buttons. Precondition: is_open().
-    window::PanelRow row(RoomPanel& panel) const;
+    // This one was shown, or is not wanted. One that was shared before it and was not answered is
+    // offered then.
+    void close(session::ObjectId screen);
+    bool is_open(TimePoint now) const { return newest(now) != nullptr; }
+    // "Ben shares a screen: monitor", with the buttons. Precondition: is_open(now).
+    window::PanelRow row(RoomPanel& panel, TimePoint now) const;
 
 private:
     struct Offered {
@@ -31,7 +32,9 @@ private:
         std::string publisher, name;
         TimePoint until;
     };
-    std::optional<Offered> offered_;
+    const Offered* newest(TimePoint now) const;
+
+    std::vector<Offered> offered_;  // the newest last
     std::set<session::ObjectId> known_;
 };
 

@@ -34,7 +34,7 @@ TEST_F(ScreenOfferTest, AScreenOfAnotherPersonIsOfferedForAWhile) {
     offer.follow(objects, self, begin);
     ASSERT_TRUE(offer.is_open(begin));
     RoomPanel panel;
-    const window::PanelRow row = offer.row(panel);
+    const window::PanelRow row = offer.row(panel, begin);
     EXPECT_EQ(row.text, "Ben shares a screen: scope");
     ASSERT_EQ(row.buttons.size(), 2u);
     EXPECT_EQ(std::get<ShowScreen>(panel.commands.at(0)).screen, first);
@@ -47,13 +47,34 @@ TEST_F(ScreenOfferTest, AScreenOfAnotherPersonIsOfferedForAWhile) {
 
 TEST_F(ScreenOfferTest, OnceClosedItComesBackOnlyForAnotherScreen) {
     offer.follow({{first, screen_of(ben)}}, self, begin);
-    offer.close();
+    offer.close(first);
     offer.follow({{first, screen_of(ben)}}, self, begin);
     EXPECT_FALSE(offer.is_open(begin));
     offer.follow({{first, screen_of(ben)}, {second, screen_of(ben, "monitor")}}, self, begin);
     ASSERT_TRUE(offer.is_open(begin));
     RoomPanel panel;
-    EXPECT_EQ(offer.row(panel).text, "Ben shares a screen: monitor");
+    EXPECT_EQ(offer.row(panel, begin).text, "Ben shares a screen: monitor");
+}
+
+TEST_F(ScreenOfferTest, OfTwoTheNewerIsOfferedAndThenTheOther) {
+    offer.follow({{first, screen_of(ben)}, {second, screen_of(ben, "monitor")}}, self, begin);
+    RoomPanel panel;
+    EXPECT_EQ(offer.row(panel, begin).text, "Ben shares a screen: monitor");
+    EXPECT_EQ(std::get<CloseScreenOffer>(panel.commands.at(1)).screen, second);
+    offer.close(second);
+    ASSERT_TRUE(offer.is_open(begin));
+    EXPECT_EQ(offer.row(panel, begin).text, "Ben shares a screen: scope");
+    offer.close(first);
+    EXPECT_FALSE(offer.is_open(begin));
+}
+
+TEST_F(ScreenOfferTest, AScreenThatWasShownElsewhereIsNotOfferedAnyMore) {
+    offer.follow({{first, screen_of(ben)}, {second, screen_of(ben, "monitor")}}, self, begin);
+    offer.close(first);  // by the panel of people
+    RoomPanel panel;
+    EXPECT_EQ(offer.row(panel, begin).text, "Ben shares a screen: monitor");
+    offer.close(second);
+    EXPECT_FALSE(offer.is_open(begin));
 }
 
 TEST_F(ScreenOfferTest, AnEndedShareIsNotOfferedAndNeitherAreOnesOwnAndTheHosts) {

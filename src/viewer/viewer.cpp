@@ -587,7 +587,7 @@ void Viewer::add_open_panels(const Facts& facts, RoomPanel& panel, TimePoint now
     }
     panel = joined(std::move(panel), call_panel(callers()));
     if (screen_offer_.is_open(now) && facts.past.empty())
-        panel.panels.push_back({say(Phrase::shared_screen), {screen_offer_.row(panel)}});
+        panel.panels.push_back({say(Phrase::shared_screen), {screen_offer_.row(panel, now)}});
     // Its buttons would change the present by what is shown of the past.
     if (shows_case_ && facts.past.empty())
         add_case(panel);

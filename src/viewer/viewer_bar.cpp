@@ -150,7 +150,7 @@ void Viewer::add_offers(Facts& facts, RoomPanel& panel, TimePoint now) const {
              {panel.button(say(Phrase::go_there), AnswerCall{person.id, true}),
               panel.button(say(Phrase::stay_here), AnswerCall{person.id, false})}});
     if (screen_offer_.is_open(now) && facts.past.empty())
-        facts.offers.push_back(screen_offer_.row(panel));
+        facts.offers.push_back(screen_offer_.row(panel, now));
     add_tour(facts, panel);
 }
 

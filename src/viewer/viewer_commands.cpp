@@ -180,7 +180,7 @@ void Viewer::on(const GoToPlace& place, TimePoint now) {
 }
 
 void Viewer::on(const ShowScreen& shown, TimePoint now) {
-    screen_offer_.close();
+    screen_offer_.close(shown.screen);
     const auto& objects = scene_.meeting().room().objects;
     const auto screen = session::shared_screen_of(objects, shown.screen);
     if (!screen)
@@ -189,8 +189,8 @@ void Viewer::on(const ShowScreen& shown, TimePoint now) {
     note(screen->name, now);
 }
 
-void Viewer::on(const CloseScreenOffer&, TimePoint) {
-    screen_offer_.close();
+void Viewer::on(const CloseScreenOffer& offer, TimePoint) {
+    screen_offer_.close(offer.screen);
 }
 
 void Viewer::on(const LookThrough& through, TimePoint now) {
