@@ -233,6 +233,8 @@ private:
         using window::Action;
         if (const auto command = visit::stay_command(action))
             return viewer_.note(stay_.obey(*command), now);
+        if (action == Action::leave && viewer_.give_up_mark())
+            return;
         if (action == Action::full_screen || (action == Action::leave && window_.is_full_screen()))
             return window_.toggle_full_screen();
         if (action == Action::save_picture || action == Action::save_points)

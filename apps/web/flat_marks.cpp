@@ -53,6 +53,7 @@ json to_json(const viewer::FlatDrawing& drawing) {
     }
     for (const viewer::FlatLabel& label : drawing.labels)
         labels.push_back({{"text", label.utf8},
+                          {"brief", label.brief},
                           {"x", rounded(label.place.x)},
                           {"y", rounded(label.place.y)},
                           {"color", text_of(label.color)},
@@ -92,6 +93,10 @@ void FlatMarks::on_key(const window::KeyPress& key, wire::Role role,
     if (key.action == window::Action::marks && session::may(role, session::Right::handle))
         tools_.choose(tools_.chosen() == viewer::ToolKind::none ? viewer::ToolKind::stroke
                                                                 : viewer::ToolKind::none);
+    const bool goes_back =
+        key.action == window::Action::undo_mark || key.action == window::Action::leave;
+    if (goes_back && tools_.give_up())
+        return;
     if (key.action == window::Action::undo_mark && !viewer::undo_mark(participant_))
         notes.push_back(say(Phrase::no_own_mark));
 }

@@ -40,6 +40,7 @@ std::optional<window::KeyPress> pressed(std::string_view key, std::string_view c
         {"home", Action::own_view},
         {"z", Action::marks},
         {"backspace", Action::undo_mark},
+        {"escape", Action::leave},  // what is being drawn
         {"0", Action::from_above},
         {"+", Action::larger_points},
         {"=", Action::larger_points},

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/log.h"
 #include "base/steady_clock.h"
 #include "enrol/photo_canvas.h"
 #include "enrol/photo_texts.h"
@@ -71,8 +72,15 @@ private:
 
     void look(TimePoint now) {
         capture::Capture got = camera_->next(camera_patience);
-        if (got.kind == capture::Capture::Kind::failed || got.kind == capture::Capture::Kind::end)
-            throw Error(got.problem.empty() ? "The camera gives no more pictures." : got.problem);
+        if (got.kind == capture::Capture::Kind::failed || got.kind == capture::Capture::Kind::end) {
+            const std::string problem =
+                got.problem.empty() ? "The camera gives no more pictures." : got.problem;
+            if (!guide_.can_finish())
+                throw Error(problem);
+            // The photos that are there make a face.
+            log::say(problem + " The face is made of the photos that were taken.");
+            return guide_.finish();
+        }
         if (got.kind != capture::Capture::Kind::frame)
             return;
         if (got.frame->color.pixels.empty())

@@ -86,6 +86,18 @@ std::string label_of(const Mark& mark) {
     return signed_text(decimal(text));
 }
 
+std::string short_label_of(const Mark& mark) {
+    if (mark.kind != MarkKind::distance || label_of(mark).empty())
+        return label_of(mark);
+    const double mm = 1000 * length(mark.points[1].position - mark.points[0].position);
+    const std::string whole = std::to_string(std::lround(mm));
+    // An uncertainty is not told smaller than it is.
+    return mark.deviation_m > 0
+               ? whole + " \u00b1 " +
+                     std::to_string(int(std::ceil(2000 * double(mark.deviation_m)))) + " mm"
+               : whole + " mm";
+}
+
 render::LabelRank rank_of(MarkKind kind) {
     return kind == MarkKind::distance ? render::LabelRank::number
            : kind == MarkKind::pin    ? render::LabelRank::name

@@ -59,6 +59,12 @@ TEST(MarkShape, LabelsSayNumberLengthAndAuthor) {
     distance.initials = "AB";
     distance.deviation_m = 0.0015f;
     EXPECT_EQ(label_of(distance), "12.3 mm \u00b1 3.0 mm AB");
+    EXPECT_EQ(short_label_of(distance), "12 \u00b1 3 mm");
+    distance.deviation_m = 0.0002f;
+    EXPECT_EQ(short_label_of(distance), "12 \u00b1 1 mm");
+    distance.deviation_m = 0;
+    EXPECT_EQ(short_label_of(distance), "12 mm");
+    EXPECT_EQ(short_label_of(pin()), "12 AB");
 }
 
 }  // namespace

@@ -180,8 +180,11 @@ void Viewer::carry_out(const window::KeyPress& key, Size picture, TimePoint now)
             scene_changed_ = true;
             break;
         case window::Action::undo_mark:
-            if (!undo_mark(participant_))
+            if (!give_up_mark() && !undo_mark(participant_))
                 note(say(Phrase::no_own_mark), now);
+            break;
+        case window::Action::leave:
+            (void)give_up_mark();
             break;
         case window::Action::slice_here:
             break;  // needs the mouse: show_slice_at()

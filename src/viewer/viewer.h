@@ -158,6 +158,8 @@ public:
     void set_voices(Voices voices);
     // Shows a line of text for some seconds.
     void note(const std::string& text, TimePoint now);
+    // Drops the mark that the person is drawing. False: none is.
+    bool give_up_mark();
     // The same for a remark of the participant; cameras that stand still again and again are only
     // counted (camera_unrest.h).
     void remark(const std::string& text, TimePoint now);

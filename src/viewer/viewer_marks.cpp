@@ -31,6 +31,14 @@ void Viewer::use_tool(window::WindowInput& input, Size picture, TimePoint now) {
         notice_.take_back(say(Phrase::press_at_other_end));
 }
 
+bool Viewer::give_up_mark() {
+    if (!tools_.give_up(scene_.meeting()))
+        return false;
+    notice_.take_back(say(Phrase::press_at_other_end));
+    scene_changed_ = true;
+    return true;
+}
+
 // A press on nothing does not turn the view while one draws: the drawing would go elsewhere.
 void Viewer::press_with_tool(window::WindowInput& input, const ToolScene& scene) {
     const render::PickRay ray = render::ray_through(scene.view, *input.grabbed);

@@ -7,6 +7,7 @@ const letter_share = 0.0165, least_letter_px = 11;  // capital letters
 const capitals = 0.72;  // of a font's size
 const plate = "rgba(16, 18, 22, 0.85)", edge_px = 2, padding = 0.6, apart = 1.2;
 const ranks = { author: 0 };
+const small_px = 520;  // a narrower picture has short labels
 
 // The part of an element that shows a picture of this size (object-fit: contain), in pixels of the page.
 export function picture_box({ clientWidth, clientHeight, width, height }) {
@@ -37,7 +38,9 @@ export class FlatMarks {
         this.drawn = place;
         Object.assign(canvas.style, { left: `${box.left}px`, top: `${box.top}px`, width: `${box.width}px`, height: `${box.height}px` });
         [canvas.width, canvas.height] = size;
-        paint(canvas.getContext("2d"), size, ratio, this.drawing);
+        const is_small = box.width < small_px;
+        const shown = paint(canvas.getContext("2d"), size, ratio, this.drawing, is_small);
+        canvas.dataset.labels = shown.join("; ");
     }
 
     // There is no picture.
@@ -57,8 +60,8 @@ export class FlatMarks {
     }
 }
 
-// `ratio`: pixels of the canvas for one of the page.
-function paint(to, [width, height], ratio, { lines, labels }) {
+// `ratio`: pixels of the canvas for one of the page. Returns the labels that are shown.
+function paint(to, [width, height], ratio, { lines, labels }, is_small = false) {
     const smaller = Math.min(width, height);
     const least = Math.max(least_line_px * ratio, line_share * smaller) / 2;
     const around = Math.max(least_outline_px * ratio, outline_part * 2 * least);
@@ -74,9 +77,11 @@ function paint(to, [width, height], ratio, { lines, labels }) {
             }
     };
     paint_lines(lines.filter(({ points }) => !points));
-    paint_labels(to, [width, height], Math.max(least_letter_px * ratio, letter_share * smaller), labels);
+    const letter = Math.max(least_letter_px * ratio, letter_share * smaller);
+    const shown = paint_labels(to, [width, height], letter, labels, is_small);
     // No label hides where somebody points.
     paint_lines(lines.filter(({ points }) => points));
+    return shown;
 }
 
 function paint_piece(to, from, end, more) {
@@ -107,11 +112,12 @@ function paint_piece(to, from, end, more) {
 }
 
 // No plate covers another one; an author's initials make room.
-function paint_labels(to, size, letter, labels) {
+function paint_labels(to, size, letter, labels, is_small) {
     to.font = `${letter / capitals}px system-ui, sans-serif`;
     to.textBaseline = "middle";
     const plates = [];
-    for (const { text, x, y, color, rank } of [...labels].sort((a, b) => b.rank - a.rank)) {
+    for (const { text: whole, brief, x, y, color, rank } of [...labels].sort((a, b) => b.rank - a.rank)) {
+        const text = is_small ? brief : whole;
         const at = [x * size[0], y * size[1]], far = apart * letter;
         const plate_size = [to.measureText(text).width + 2 * padding * letter, letter * (1 + 2 * padding)];
         const box = free_place(at, plate_size, far, size, plates);
@@ -141,6 +147,7 @@ function paint_labels(to, size, letter, labels) {
         to.fillStyle = "white";
         to.fillText(text, left + padding * letter, top + high / 2);
     }
+    return plates.map(({ text }) => text);
 }
 
 function place_beside([x, y], [wide, high], far, [width, height], right, below) {

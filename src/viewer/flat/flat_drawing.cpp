@@ -31,13 +31,14 @@ bool is_inside(Vec2 place) {
     return place.x >= 0 && place.x <= 1 && place.y >= 0 && place.y <= 1;
 }
 
-void add_label(const std::string& text, const std::vector<Vec3>& places, Rgb color,
-               render::LabelRank rank, const FlatPicture& picture, FlatDrawing& drawing) {
+void add_label(const std::string& text, const std::string& brief, const std::vector<Vec3>& places,
+               Rgb color, render::LabelRank rank, const FlatPicture& picture,
+               FlatDrawing& drawing) {
     if (text.empty())
         return;
     for (const Vec3 place : places)
         if (const auto seen = picture.seen_at(place); seen && is_inside(seen->place))
-            return drawing.labels.push_back({text, seen->place, color, rank});
+            return drawing.labels.push_back({text, brief, seen->place, color, rank});
 }
 
 }  // namespace
@@ -47,8 +48,8 @@ void add_mark(const session::Mark& mark, const FlatPicture& picture, FlatDrawing
         return;
     const Rgb color = room::srgb_of(room::color_of(ParticipantId{mark.color}));
     add_pieces(room::mark_line(mark), color, picture, drawing);
-    add_label(room::label_of(mark), room::label_places(mark), color, room::rank_of(mark.kind),
-              picture, drawing);
+    add_label(room::label_of(mark), room::short_label_of(mark), room::label_places(mark), color,
+              room::rank_of(mark.kind), picture, drawing);
 }
 
 void add_pointer(ParticipantId person, const std::string& name, Vec3 place,
@@ -58,7 +59,7 @@ void add_pointer(ParticipantId person, const std::string& name, Vec3 place,
     add_pieces({room::pointer_end(place)}, color, picture, drawing);
     if (drawing.lines.size() > before)
         drawing.lines.back().points = true;
-    add_label(name, {place}, color, render::LabelRank::name, picture, drawing);
+    add_label(name, name, {place}, color, render::LabelRank::name, picture, drawing);
 }
 
 }  // namespace theatron::viewer

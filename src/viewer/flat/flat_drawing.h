@@ -30,6 +30,7 @@ struct FlatLine {
 
 struct FlatLabel {
     std::string utf8;
+    std::string brief;  // the same for a small picture
     Vec2 place;
     Rgb color;  // of the plate's edge
     render::LabelRank rank = render::LabelRank::name;

@@ -57,6 +57,7 @@ TEST_F(FlatDrawingTest, ADistanceTellsItsLengthAlsoWhereItsMiddleIsOutside) {
     const FlatDrawing inside = drawn(mark(MarkKind::distance, {{0, 1.5, 0}, {0.1, 1.5, 0}}));
     ASSERT_EQ(inside.labels.size(), 1u);
     EXPECT_EQ(inside.labels[0].utf8, "100.0 mm AL");
+    EXPECT_EQ(inside.labels[0].brief, "100 mm");
     EXPECT_NEAR(inside.labels[0].place.x, 0.5 + 0.05 * 0.433, 1e-3);
     EXPECT_EQ(inside.lines[0].pieces.size(), 3u);
     // The right end is far outside.

@@ -38,6 +38,13 @@ void FlatTools::on_input(const window::WindowInput& input, const FlatPicture* pi
         draw(input, picture, measures);
 }
 
+bool FlatTools::give_up() {
+    if (!drawn())
+        return false;
+    draft_->drop();
+    return true;
+}
+
 void FlatTools::lift() {
     if (!draft_)
         return;

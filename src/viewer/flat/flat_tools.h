@@ -26,6 +26,8 @@ public:
     // The person points or draws, so that a surface is needed.
     bool are_used() const { return points_ || draft_.has_value(); }
 
+    // Drops the mark that is being drawn. False: none is.
+    bool give_up();
     // Ends what is drawn with the button down: the next picture shows another place there.
     void lift();
     // `picture`: that the person sees; null: none. `measures`: its camera has depth, although none

@@ -103,6 +103,22 @@ TEST_F(FlatToolsTest, ARestingPointerDrawsNothingWhereTheSurfaceMoves) {
     EXPECT_EQ(tools.take_advice(), Phrase::draw_by_dragging);
 }
 
+TEST_F(FlatToolsTest, WhatIsBeingDrawnCanBeGivenUp) {
+    EXPECT_FALSE(tools.give_up()) << "there is no tool";
+    tools.choose(ToolKind::distance);
+    EXPECT_FALSE(tools.give_up()) << "nothing is drawn";
+    press({0.4, 0.5});
+    release({0.4, 0.5});
+    ASSERT_TRUE(tools.drawn());
+    EXPECT_TRUE(tools.give_up());
+    EXPECT_FALSE(tools.drawn());
+    // The next press begins another one.
+    press({0.6, 0.5});
+    release({0.6, 0.5});
+    EXPECT_TRUE(tools.take_marks().empty());
+    EXPECT_TRUE(tools.drawn());
+}
+
 TEST_F(FlatToolsTest, ADistanceByTwoClicksHasItsUncertainty) {
     tools.choose(ToolKind::distance);
     press({0.4, 0.5});

@@ -85,6 +85,13 @@ public:
         return tool_ && tool_->on_pointer(pointer, scene);
     }
     bool follows_pointer() const { return tool_ && tool_->follows_pointer(); }
+    // Drops what is being drawn. False: nothing is.
+    bool give_up(Meeting& meeting) {
+        if (!follows_pointer())
+            return false;
+        tool_->end(meeting);
+        return true;
+    }
     std::optional<Phrase> take_advice() { return tool_ ? tool_->take_advice() : std::nullopt; }
 
 private:
