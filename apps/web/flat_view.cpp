@@ -248,6 +248,7 @@ nlohmann::json FlatView::state(const viewer::Facts& facts, const std::string& ad
     nlohmann::json state = state_of(facts, participant_, address);
     state["pictures"] = pictures_;
     state["flat_camera"] = shown_ ? shown_->camera : "";
+    state["draws"] = marks_.is_drawing();
     return state;
 }
 

@@ -153,6 +153,7 @@ json ear_json(const Pose& room_from_eye) {
 json page_state(const viewer::Viewer& viewer, const viewer::Facts& facts,
                 const client::Participant& participant, const std::string& address) {
     json state = state_of(facts, participant, address);
+    state["draws"] = viewer.is_drawing();
     state["pictures"] = viewer.pictures();
     // The choice of the person, or of the host; the rest of the state has what came of it.
     state["chosen"] = {{"renderer", viewer.renderer_choice().renderer()},

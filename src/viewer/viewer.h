@@ -160,6 +160,7 @@ public:
     void note(const std::string& text, TimePoint now);
     // Drops the mark that the person is drawing. False: none is.
     bool give_up_mark();
+    bool is_drawing() const { return tools_.follows_pointer(); }
     // The same for a remark of the participant; cameras that stand still again and again are only
     // counted (camera_unrest.h).
     void remark(const std::string& text, TimePoint now);

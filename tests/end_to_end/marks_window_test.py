@@ -123,6 +123,14 @@ class MarksWindow(unittest.TestCase):
                 self.assertEqual((arrow["kind"], len(arrow["points"])), ("arrow", 2))
                 do("key", "BackSpace")
                 anna.wait_for(lambda f: len(marks(f)) == 3)
+            with self.subTest("Escape gives up what is drawn, and does not leave"):
+                do("mousemove", *BOX, "sleep", 0.3, "click", 1, "sleep", 0.3, "key", "Escape", "sleep", 0.3, "key", "Escape")
+                # Each of them would be the other end, or leave; two presses make an arrow again.
+                for place in (BOX, BOX_BELOW):
+                    do("mousemove", *place, "sleep", 0.3, "mousedown", 1, "sleep", 0.15, "mouseup", 1, "sleep", 0.3)
+                anna.wait_for(lambda f: len(marks(f)) == 4)
+                do("key", "BackSpace")
+                anna.wait_for(lambda f: len(marks(f)) == 3)
             with self.subTest("a drag that begins on nothing neither draws nor turns the view"):
                 head = lambda f: next(p["head"] for p in f["room"]["people"] if p["name"] == "Wim Dow")
                 home = head(anna.newest_json())

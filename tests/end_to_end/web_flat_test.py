@@ -149,6 +149,13 @@ class WebFlat(unittest.TestCase):
             self.assertGreater(distance["deviation_m"], 0)
             if PICTURES:
                 ada.screenshot(pathlib.Path(PICTURES) / "flat_distance.png")
+        with self.subTest("Escape gives up what is drawn, and nothing else"):
+            self.tap(ada, self.at(ada, 26, 75))
+            ada.wait_for("theatron.state.draws && document.getElementById('notice').textContent.includes('other end')")
+            ada.evaluate("document.getElementById('flat').focus()")
+            ada.press("Escape")
+            ada.wait_for("!theatron.state.draws && !document.getElementById('notice').textContent.includes('other end')")
+            self.assertEqual(ada.evaluate("theatron.sheet.name"), "draw")
         with self.subTest("two clicks within one picture are two clicks"):
             begin, end = self.at(ada, 26, 70), self.at(ada, 54, 70)
             for place in (begin, end):
@@ -242,6 +249,13 @@ class WebFlat(unittest.TestCase):
         page.touch("touchEnd")
         stroke = marks(ben.wait_for(lambda f: len(marks(f)) == 1))[0]
         self.assertLess(apart(stroke["points"][-1], in_room(54, 60)), 0.01, stroke)
+        with self.subTest("lengths are short on a small picture"):
+            self.choose(page, "Distance")
+            for place in (self.at(page, 26, 80), self.at(page, 54, 80)):
+                page.touch("touchStart", place)
+                page.touch("touchEnd")
+            ben.wait_for(lambda f: len(marks(f)) == 2)
+            page.wait_for("/(^|; )\\d+ ± \\d+ mm(;|$)/.test(document.getElementById('flat_marks').dataset.labels)")
         if PICTURES:
             page.screenshot(pathlib.Path(PICTURES) / "flat_phone.png")
         self.assertEqual(page.problems, [])

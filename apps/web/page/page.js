@@ -208,6 +208,8 @@ function run({ client, voice, face, screen, module, flat }) {
             return;
         if (page.state.phase !== "joined" && !event.target.closest("input"))
             client.leave();
+        else if (page.state.draws)
+            return;  // the key gives up what is drawn
         else if (sheet.name)
             sheet.close();
         else if (tour.step)
