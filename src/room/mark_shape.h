@@ -17,7 +17,8 @@ std::vector<render::LinePiece> mark_line(const session::Mark& mark);
 // The text beside a mark: the author's initials, a pin's number before them, and a distance's
 // length with its expanded uncertainty (twice the deviation, about 95 %).
 std::string label_of(const session::Mark& mark);
-// The same for a small picture: a distance in whole millimetres, "306 \u00b1 5 mm", without initials.
+// The same for a small picture: a distance in whole millimetres, "306 \u00b1 5 mm", without
+// initials.
 std::string short_label_of(const session::Mark& mark);
 render::LabelRank rank_of(session::MarkKind kind);
 // The places beside which the text may stand, the best one first.

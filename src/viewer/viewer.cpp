@@ -242,7 +242,6 @@ void Viewer::carry_out(const window::KeyPress& key, Size picture, TimePoint now)
         case window::Action::new_brick:
         case window::Action::give:
         case window::Action::remove:
-        case window::Action::leave:
         case window::Action::full_screen:
         case window::Action::microphone:
         case window::Action::push_to_talk:

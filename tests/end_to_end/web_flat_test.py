@@ -153,7 +153,7 @@ class WebFlat(unittest.TestCase):
             self.tap(ada, self.at(ada, 26, 75))
             ada.wait_for("theatron.state.draws && document.getElementById('notice').textContent.includes('other end')")
             ada.evaluate("document.getElementById('flat').focus()")
-            ada.press("Escape")
+            ada.press("Escape", "Escape")
             ada.wait_for("!theatron.state.draws && !document.getElementById('notice').textContent.includes('other end')")
             self.assertEqual(ada.evaluate("theatron.sheet.name"), "draw")
         with self.subTest("two clicks within one picture are two clicks"):
