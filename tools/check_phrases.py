@@ -21,7 +21,7 @@ SPEAKING = ["src/client", "src/room", "src/viewer", "src/or_screen", "src/net/cl
             "src/net/connection.cpp", "src/receive/receiver.cpp", "apps/web"]
 # Texts for the command line, for files and for other programs.
 ENGLISH = {
-    "src/client/direct_reception_native.cpp", "src/client/direct_sender_native.cpp", "src/client/recent_links.cpp",
+    "src/client/relay_reception_native.cpp", "src/relay/relay_server_native.cpp", "src/client/recent_links.cpp",
     "src/client/session_recording.cpp", "src/client/settings.cpp", "src/viewer/head_text.cpp", "src/viewer/nothing_seen.cpp",
     "src/viewer/offscreen_view_native.cpp", "src/viewer/renderer_text.cpp", "src/viewer/view_choice.cpp",
 }

@@ -21,6 +21,7 @@ void add_link_command(CLI::App& app);
 void add_certificate_command(CLI::App& app);
 void add_join_command(CLI::App& app);
 void add_publish_command(CLI::App& app);
+void add_relay_command(CLI::App& app);
 void add_record_command(CLI::App& app);
 void add_inspect_command(CLI::App& app);
 void add_recover_command(CLI::App& app);

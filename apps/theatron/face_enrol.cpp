@@ -162,6 +162,7 @@ void run_face_enrol(const FaceEnrol& wanted) {
     files::require_new(wanted.out, wanted.overwrite);
     refuse_link_to_face(wanted.out);
     files::require_own_kind(wanted.out, net::sealed_magic, "a face of 'theatron face enrol'");
+    files::require_plain(wanted.out);
     files::require_writable(wanted.out);
     const face::MorphModel model = visit::read_face_model(wanted.model);
     if (model.vertex_count() > face::max_enrolled_vertices ||
@@ -197,6 +198,9 @@ void run_face_enrol(const FaceEnrol& wanted) {
 
 void run_face_landmarks(const FaceLandmarks& wanted) {
     files::require_new(wanted.out, wanted.overwrite);
+    files::require_other_file(wanted.out, wanted.photo);
+    files::require_own_kind(wanted.out, "version:", "a .pts file of landmarks");
+    files::require_plain(wanted.out);
     files::require_writable(wanted.out);
     std::vector<enrol::Photo> photos(1);
     photos[0].emotion = *face::emotion_of(wanted.emotion);

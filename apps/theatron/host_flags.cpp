@@ -43,8 +43,7 @@ void add_host_options(CLI::App& command, HostFlags& flags) {
                     "The session's name, which participants see. A second --session begins "
                     "another session of this host, with the options of a session behind it: "
                     "--camera, --places, --region, --cases, --recordings, --identifiers-for, "
-                    "--filter, --direct, "
-                    "--link-hours, --admit and --look-back")
+                    "--filter, --link-hours, --admit and --look-back")
         ->capture_default_str();
     command.add_option(
         "--link-host", flags.port.link_host,

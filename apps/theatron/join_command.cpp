@@ -346,10 +346,9 @@ void add_join_command(CLI::App& app) {
         ->allow_extra_args(false);
     add_share_option(*command, flags->shared);
     command
-        ->add_option("--direct", flags->direct,
-                     "on: pictures go directly between participants that can reach each other, "
-                     "those of --publish from a free port that the host tells them; off: through "
-                     "the host only")
+        ->add_option("--relay", flags->relay,
+                     "on: pictures come from a relay where the host names one ('theatron relay'); "
+                     "off: from the host only")
         ->capture_default_str()
         ->check(cli::one_of({"on", "off"}));
     command->add_flag("--may-record", flags->may_record,

@@ -134,7 +134,7 @@ client::Participant::Options participant_options(const JoinFlags& flags) {
     options.voice_may_record = flags.voice_may_record;
     options.takes_faces = !flags.or_screen;
     options.takes_own_faces = true;
-    options.direct = flags.direct == "on";
+    options.by_relay = flags.relay == "on";
     return options;
 }
 

@@ -49,7 +49,7 @@ struct JoinFlags {
     std::string echo_cancellation = "auto", spatial_voices = "auto";
     bool list_devices = false;
     bool or_screen = false;
-    std::string direct = "on";
+    std::string relay = "on";
     std::string render_scale = "auto";
     std::string microphone, speaker;
     std::string webcam;                     // empty: the face is not shown

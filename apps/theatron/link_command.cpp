@@ -154,8 +154,8 @@ void run(const LinkFlags& flags) {
     std::optional<files::UtcSeconds> expires;
     if (flags.hours > 0)
         expires = files::utc_now() + files::UtcSeconds(std::llround(flags.hours * 3600));
-    print(host::make_link(folder, *wire::parse_role(flags.role), expires, flags.label), address,
-          flags);
+    print(host::make_link(folder, *wire::parse_link_role(flags.role), expires, flags.label),
+          address, flags);
 }
 
 }  // namespace
@@ -175,9 +175,12 @@ void add_link_command(CLI::App& app) {
         "  theatron link --revoke 5f0c2a91\n"
         "  theatron link --session 'OR 4' --show expert");
     CLI::Option* role =
-        command->add_option("--role", flags->role, "operator, expert, observer or publisher")
+        command
+            ->add_option("--role", flags->role,
+                         "operator, expert, observer or publisher; relay: for "
+                         "'theatron relay'")
             ->capture_default_str()
-            ->check(cli::one_of({"operator", "expert", "observer", "publisher"}));
+            ->check(cli::one_of({"operator", "expert", "observer", "publisher", "relay"}));
     CLI::Option* hours =
         command
             ->add_option(

@@ -54,6 +54,7 @@ int run(int argc, char** argv) {
     theatron::app::add_certificate_command(app);
     theatron::app::add_join_command(app);
     theatron::app::add_publish_command(app);
+    theatron::app::add_relay_command(app);
     theatron::app::add_record_command(app);
     theatron::app::add_inspect_command(app);
     theatron::app::add_recover_command(app);

@@ -58,7 +58,7 @@ nlohmann::json position_json(const Calibration& calibration) {
 }
 
 nlohmann::json camera_json(const client::CameraFigures& figures, wire::Role reader) {
-    const auto& [camera, depth, color, direct, played] = figures;
+    const auto& [camera, depth, color, relayed, played] = figures;
     const auto age = [&](double ms) { return depth.frames > 0 ? nlohmann::json(ms) : nullptr; };
     return {{"id", int(camera.description.id)},
             {"publisher", int(camera.description.publisher)},
@@ -75,7 +75,7 @@ nlohmann::json camera_json(const client::CameraFigures& figures, wire::Role read
             {"newest_age_ms", age(depth.age_ms)},
             {"age_now_ms", depth.has_come ? nlohmann::json(depth.age_now_ms) : nullptr},
             {"past", depth.past},
-            {"direct", direct},
+            {"relayed", relayed},
             {"newest_frame", depth.newest},
             {"age_ms", age_json(age_of(depth))},
             {"color_age_ms", age_json(age_of(color))},

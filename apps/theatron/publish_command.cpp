@@ -34,7 +34,6 @@ struct PublishFlags {
     std::string places;
     double seconds = 0, every = 0;
     bool may_record = false;
-    std::string direct = "on";
 };
 
 nlohmann::json camera_json(const publish::CameraPublisher::Figures& camera) {
@@ -96,7 +95,6 @@ void run(const PublishFlags& flags) {
     options.link = parse_link_argument(flags.link);
     options.name = flags.name;
     options.sends_only = true;
-    options.direct = flags.direct == "on";
     options.person = client::load_or_make_person_id(files::state_folder());
     options.remark = [](const std::string& text) { log::say(text); };
     const auto publisher = open_published(cameras, flags.filters, flags.places,
@@ -167,12 +165,6 @@ void add_publish_command(CLI::App& app) {
     command->add_flag("--may-record", flags->may_record,
                       "Agree that other participants record these cameras; without it the host "
                       "sends them to no recorder");
-    command
-        ->add_option("--direct", flags->direct,
-                     "on: participants that can reach this machine get the pictures from it, at "
-                     "a free port that the host tells them; off: from the host only")
-        ->capture_default_str()
-        ->check(cli::one_of({"on", "off"}));
     command->add_option("--name", flags->name, "Name shown in the session")->capture_default_str();
     cli::add_seconds_option(*command, flags->seconds, "End by itself after this time");
     cli::add_seconds_option(*command, flags->every,

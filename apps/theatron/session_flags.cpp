@@ -136,12 +136,6 @@ void add_session_options(CLI::App& command, SessionFlags& flags) {
                 return seconds >= 0 && seconds <= to_seconds(session::Past::longest_reach);
             },
             "is not a number of seconds from 0 to 60"));
-    command
-        .add_option("--direct", flags.direct,
-                    "on: pictures of a participant's cameras go from it to those who can reach "
-                    "it; off: all pictures go through this host")
-        ->capture_default_str()
-        ->check(cli::one_of({"on", "off"}));
 }
 
 host::SessionOptions session_options(const SessionFlags& flags) {
@@ -153,7 +147,6 @@ host::SessionOptions session_options(const SessionFlags& flags) {
     options.asks = flags.admit == "ask";
     options.link_lifetime = seconds_to_duration(flags.link_hours * 3600);
     options.look_back = seconds_to_duration(flags.look_back_s);
-    options.direct = flags.direct == "on";
     return options;
 }
 
@@ -179,7 +172,6 @@ std::vector<std::string> words_of(const SessionFlags& flags, const fs::path& fol
     add("--admit", flags.admit);
     add("--link-hours", number_text(flags.link_hours));
     add("--look-back", number_text(flags.look_back_s));
-    add("--direct", flags.direct);
     return words;
 }
 
@@ -191,8 +183,12 @@ SessionFlags parse_session(const std::vector<std::string>& words) {
     // First, since options are read in this order and a problem names the session.
     session.add_option("--session,--name", flags.options.name)->required();
     add_session_options(session, flags);
+    std::vector<std::string> known = words;
+    // Sessions that earlier versions kept have it; there is nothing left to say with it.
+    if (const auto old = std::find(known.begin(), known.end(), "--direct"); old != known.end())
+        known.erase(old, std::min(old + 2, known.end()));
     try {
-        session.parse(std::vector<std::string>(words.rbegin(), words.rend()));
+        session.parse(std::vector<std::string>(known.rbegin(), known.rend()));
     } catch (const CLI::ParseError& error) {
         throw Error("Session '" + clean_text(flags.options.name, host::max_session_name) +
                     "': " + error.what() + ".");

@@ -15,8 +15,7 @@ namespace theatron::app {
 struct SessionFlags {
     host::SessionOptions options;  // as far as they need no reading
     std::vector<std::string> regions;
-    std::string places, cases, recordings, identifiers_for = "operator", admit = "all",
-                                           direct = "on";
+    std::string places, cases, recordings, identifiers_for = "operator", admit = "all";
     double link_hours = 0;
     double look_back_s = to_seconds(session::Past::longest_reach);
 };

@@ -87,7 +87,7 @@ json age_json(double age_ms) {
 }
 
 json camera_json(const client::CameraFigures& figures) {
-    const auto& [camera, depth, color, direct, played] = figures;
+    const auto& [camera, depth, color, relayed, played] = figures;
     const receive::StreamFigures* const seen = figures.seen();
     return {{"name", camera.description.name},
             {"state", client::state_text(figures)},

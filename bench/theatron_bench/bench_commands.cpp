@@ -19,6 +19,7 @@
 #include "bench_pipeline.h"
 #include "bench_plot.h"
 #include "bench_registration.h"
+#include "bench_relay.h"
 #include "bench_render.h"
 #include "bench_report.h"
 #include "bench_sequence.h"
@@ -523,6 +524,7 @@ void add_benchmarks(CLI::App& app) {
     add_slices_bench(app);
     add_table1_bench(app);
     add_voice_bench(app);
+    add_relay_bench(app);
     add_web_bench(app);
     add_view(app);
     add_compare_bench(app);

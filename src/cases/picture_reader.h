@@ -16,11 +16,4 @@ inline constexpr std::size_t max_picture_pixels = std::size_t(100) << 20;
 // side, transparent places on white; or why it cannot be shown. Takes at most 8 bytes a pixel.
 Answer read_picture(ByteView file, ColorImage& out);
 
-// The orientation in the EXIF data of a JPEG file, 1 (upright) to 8 (CIPA DC-008, 4.6.4); 1 where
-// it has none. Safe for any bytes.
-int exif_orientation(ByteView jpeg);
-
-// A picture as it is meant to be seen, out of the pixels of a file with this orientation.
-ColorImage upright(ColorImage picture, int orientation);
-
 }  // namespace theatron::cases

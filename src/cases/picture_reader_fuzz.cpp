@@ -3,12 +3,13 @@
 #include <cstdlib>
 
 #include "cases/picture_reader.h"
+#include "files/photo_orientation.h"
 #include "medical/picture.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace theatron;
     const ByteView file = std::as_bytes(std::span(data, size));
-    const int orientation = cases::exif_orientation(file);
+    const int orientation = files::exif_orientation(file);
     if (orientation < 1 || orientation > 8)
         std::abort();
     // Sizes that the reader takes and that only cost time are left out. Larger ones must be refused

@@ -6,6 +6,7 @@
 
 #include <cstdlib>
 
+#include "files/photo_orientation.h"
 #include "files/png_file.h"
 #include "medical/picture.h"
 
@@ -135,15 +136,16 @@ TEST(PictureReader, DamageIsNamed) {
 
 TEST(PictureReader, ExifDataThatAreWrongMeanUpright) {
     const Bytes file = with_orientation(jpeg(quarters({16, 16})), 6, true);
-    EXPECT_EQ(exif_orientation(file), 6);
+    EXPECT_EQ(files::exif_orientation(file), 6);
     for (std::size_t size = 0; size < 38; ++size)
-        EXPECT_EQ(exif_orientation(ByteView(file).first(size)), 1) << size;
+        EXPECT_EQ(files::exif_orientation(ByteView(file).first(size)), 1) << size;
     for (const int orientation : {0, 9, 200})
-        EXPECT_EQ(exif_orientation(with_orientation(jpeg(quarters({16, 16})), orientation, false)),
-                  1);
+        EXPECT_EQ(
+            files::exif_orientation(with_orientation(jpeg(quarters({16, 16})), orientation, false)),
+            1);
     Bytes far = file;
     far[14] = std::byte(0xff);  // the offset of the entries
-    EXPECT_EQ(exif_orientation(far), 1);
+    EXPECT_EQ(files::exif_orientation(far), 1);
 }
 
 }  // namespace

@@ -42,8 +42,8 @@ std::vector<wire::Feature> features_of(const Participant::Options& options) {
         features.push_back(wire::Feature::chat);
     if (options.draws_flat)
         features.push_back(wire::Feature::draws_flat);
-    if (options.direct && DirectReception::is_possible())
-        features.push_back(wire::Feature::direct);
+    if (options.by_relay && RelayReception::is_possible())
+        features.push_back(wire::Feature::relay);
     return features;
 }
 
@@ -57,8 +57,8 @@ Participant::Participant(Options options)
                 // Its connections have one number, so that the host knows them as its own.
                 options_.run ? options_.run : random_number()}),
       shared_(std::make_unique<Shared>()),
-      direct_reception_(options_.direct ? std::make_unique<DirectReception>(direct_events())
-                                        : nullptr),
+      relay_reception_(options_.by_relay ? std::make_unique<RelayReception>(relay_events())
+                                         : nullptr),
       decoders_(std::make_unique<Decoders>(decoded_events())),
       attempts_(options_.is_page, options_.records || options_.sends_only
                                       ? std::nullopt
@@ -122,8 +122,8 @@ Decoders::Events Participant::decoded_events() {
 
 // From a decoding thread; the participant's thread sends the acknowledgement.
 void Participant::on_taken(std::uint64_t connection, std::size_t bytes) {
-    if ((connection & direct_link) != 0)
-        return direct_reception_->taken(connection & ~direct_link, bytes);
+    if ((connection & relayed_link) != 0)
+        return relay_reception_->taken(connection & ~relayed_link, bytes);
     const std::lock_guard lock(shared_->mutex);
     if (connection != shared_->connection || !shared_->client)
         return;
@@ -212,7 +212,7 @@ std::optional<Duration> Participant::end_connection(const net::Client::End& end)
     lock.unlock();
     if (!again)
         give_up_chat();
-    end_direct();
+    end_relays();
     for (const Offer offer : all_offers)
         forget_numbers(offer);
     announce();
@@ -248,7 +248,7 @@ net::Client::Handler Participant::handler() {
 }
 
 bool Participant::on_media(Bytes& message) {
-    if (has_come_directly(message))
+    if (has_come_by_relay(message))
         return true;
     const auto header = wire::parse_media_header(message);
     if (header)
@@ -405,11 +405,8 @@ void Participant::on_control(ByteView message) {
         case Change::chat:
             on_chat();
             break;
-        case Change::direct:
-            on_direct_grants();
-            break;
-        case Change::direct_receivers:
-            on_direct_receivers();
+        case Change::relay_grants:
+            on_relay_grants();
             break;
         case Change::cases:
             if (cases_)
@@ -426,6 +423,7 @@ void Participant::on_control(ByteView message) {
             // A host closes the connection, too. The sentence is made of the refusal.
             shared_->client->end("");
             break;
+        case Change::relay_receivers:
         case Change::goodbye:
         case Change::nothing:
             break;
@@ -495,8 +493,8 @@ void Participant::on_tick() {
     for (const auto& f : figures)
         report.streams.push_back({f.stream, f.newest, std::uint32_t(f.frames), f.bytes,
                                   Duration(std::int64_t(f.age_ms * 1000)),
-                                  direct_setting(f.stream, local)});
-    note_direct_streams(local);
+                                  relayed_setting(f.stream, local)});
+    note_relayed_streams(local);
     {
         const std::lock_guard lock(shared_->mutex);
         shared_->figures = figures;

@@ -19,19 +19,17 @@
 #include "client/attempts.h"
 #include "client/case_keeper.h"
 #include "client/decoders.h"
-#include "client/direct_reception.h"
-#include "client/direct_sender.h"
 #include "client/face_keeper.h"
+#include "client/relay_reception.h"
 #include "geometry/calibration.h"
 #include "net/client.h"
 #include "session/camera_adjustment.h"
-#include "session/direct_arrivals.h"
 #include "session/face_upload.h"
-#include "session/key_gate.h"
 #include "session/key_requests.h"
 #include "session/member_chat.h"
 #include "session/member_room.h"
 #include "session/raised_hands.h"
+#include "session/relay_arrivals.h"
 #include "session/viewer_session.h"
 #include "wire/face_expression.h"
 #include "wire/person_pose.h"
@@ -114,9 +112,8 @@ public:
         bool shows_chat = false;
         // Shows the colour of one camera as it is, without depth and renderer.
         bool draws_flat = false;
-        // Takes pictures directly from their publishers, and sends its own directly, where the host
-        // allows it. Not in a browser.
-        bool direct = false;
+        // Takes pictures from a relay, where the host names one. Not in a browser.
+        bool by_relay = false;
         // Frames without depth, of cameras whose depth is not asked for (wire/no_codec.h), can be
         // taken, too.
         bool takes_color_alone = false;
@@ -190,8 +187,8 @@ public:
     // Figures of the pictures that have arrived, of the room's cameras, without the past.
     MomentFigures moments() const;
     void reset_figures();
-    // The streams whose frames come directly from their publisher now.
-    std::set<StreamId> direct_streams() const;
+    // The streams whose frames come from a relay now.
+    std::set<StreamId> relayed_streams() const;
 
     // Estimated session time, now and at a time of the steady clock.
     TimePoint now() const;
@@ -428,16 +425,14 @@ private:
     void on_encode_key(StreamId stream, SettingId setting);
     void on_encode_keys();
     void push_media(const wire::MediaHeader& header, std::shared_ptr<const Bytes> message);
-    // Direct sending.
-    void listen_for_receivers();
-    void end_direct();
-    void on_direct_receivers();
-    void on_direct_grants();
-    void on_direct_media(std::uint64_t link, ParticipantId publisher, Bytes& message);
-    DirectReception::Events direct_events();
-    bool has_come_directly(ByteView message);
-    SettingId direct_setting(StreamId stream, TimePoint now) const;
-    void note_direct_streams(TimePoint now);
+    // Relays.
+    void end_relays();
+    void on_relay_grants();
+    void on_relayed_media(std::uint64_t link, Bytes& message);
+    RelayReception::Events relay_events();
+    bool has_come_by_relay(ByteView message);
+    SettingId relayed_setting(StreamId stream, TimePoint now) const;
+    void note_relayed_streams(TimePoint now);
     void compare_cameras();
     void note_moment(const wire::MediaHeader& header);
     void on_welcome();
@@ -458,20 +453,18 @@ private:
     std::array<std::vector<CameraId>, offers> numbers_;  // of the cameras that it sends
     std::deque<Offer> offered_;                          // without an answer of the host
     session::KeyRequests missing_keys_;  // of its own streams, where frames could not be sent
-    session::DirectArrivals arrivals_;
+    session::RelayArrivals arrivals_;
     std::map<CameraId, ParticipantId> compared_;  // cameras in moments_, and their publishers
     MomentMeter moments_;
     session::FaceUpload upload_;
-    session::KeyGate to_host_;  // holds back the settings that the host does not need
 
     struct Shared;
     std::unique_ptr<Shared> shared_;
     // Their threads use shared_.
-    std::unique_ptr<DirectSender> direct_sender_;        // null: it does not listen
-    std::unique_ptr<DirectReception> direct_reception_;  // null without Options::direct
-    std::unique_ptr<Decoders> decoders_;                 // its threads use all above
-    std::unique_ptr<CaseKeeper> cases_;                  // its threads use all above; may be null
-    std::unique_ptr<FaceKeeper> faces_;                  // may be null
+    std::unique_ptr<RelayReception> relay_reception_;  // null without Options::by_relay
+    std::unique_ptr<Decoders> decoders_;               // its threads use all above
+    std::unique_ptr<CaseKeeper> cases_;                // its threads use all above; may be null
+    std::unique_ptr<FaceKeeper> faces_;                // may be null
     Attempts attempts_;
 
     // The thread, in a browser the page's events: participant_loop_native.cpp, _web.cpp.

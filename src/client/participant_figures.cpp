@@ -145,7 +145,7 @@ ParticipantFigures figures_of(const Participant& participant) {
     figures.moments = participant.moments();
     std::uint64_t generation = 0;
     const auto streams = participant.figures();
-    const std::set<StreamId> direct = participant.direct_streams();
+    const std::set<StreamId> relayed = participant.relayed_streams();
     const auto playback = participant.playback();
     for (auto& camera : participant.cameras(generation)) {
         CameraFigures of_camera{std::move(camera), {}, {}};
@@ -153,7 +153,7 @@ ParticipantFigures figures_of(const Participant& participant) {
         if (playback && description.publisher == ParticipantId{})
             of_camera.played =
                 playback->paused ? CameraFigures::Played::paused : CameraFigures::Played::goes_on;
-        of_camera.direct = direct.contains(description.depth_stream);
+        of_camera.relayed = relayed.contains(description.depth_stream);
         for (const auto& stream : streams) {
             if (stream.stream == description.depth_stream)
                 of_camera.depth = stream;

@@ -17,7 +17,7 @@ struct CameraFigures {
     Participant::Camera camera;
     receive::StreamFigures depth;
     receive::StreamFigures color;  // without frames where the camera has no colour
-    bool direct = false;           // its pictures come directly from their publisher
+    bool relayed = false;          // its pictures come from a relay
     // It shows the recording that the host plays, which is never live, however young its frames
     // are. The host does not say which of its cameras do: all of its own count as such.
     enum class Played { no, goes_on, paused } played = Played::no;

@@ -126,8 +126,6 @@ void Participant::on_published() {
     if (!is_wanted)
         return take_back(answer.cameras);
     numbers(offer) = answer.cameras;
-    if (offer == Offer::cameras)
-        listen_for_receivers();
     if (events(offer).published)
         events(offer).published(numbers(offer));
 }
@@ -198,14 +196,6 @@ void Participant::push_media(const wire::MediaHeader& header,
                      header.setting,     header.frame,
                      header.reference,   header.temporal_layer,
                      header.key,         {}};
-    if (direct_sender_) {
-        direct_sender_->send(header, media);
-        if (!to_host_.passes(header)) {
-            if (!to_host_.is_held(header.setting))
-                missing_keys_.request({header.stream, header.setting});
-            return;
-        }
-    }
     const auto pushed = shared_->client->send_media(std::move(media));
     if (pushed.dropped > 0) {
         const std::lock_guard lock(shared_->mutex);

@@ -19,8 +19,8 @@
 
 namespace theatron::client {
 
-// In the number of a connection to a publisher; see Decoders::on_media().
-inline constexpr std::uint64_t direct_link = std::uint64_t(1) << 63;
+// In the number of a connection to a relay; see Decoders::on_media().
+inline constexpr std::uint64_t relayed_link = std::uint64_t(1) << 63;
 
 // People whose poses and expressions are kept; a session has fewer.
 inline constexpr std::size_t max_poses = 256;
@@ -104,7 +104,7 @@ struct Participant::Shared {
     }
     bool own_hand_is_up() const { return hands.has(room.self()); }
     std::set<std::pair<StreamId, SettingId>> broken;  // frames of these were dropped
-    std::set<StreamId> direct_streams;                // at the last tick
+    std::set<StreamId> relayed_streams;               // at the last tick
 };
 
 }  // namespace theatron::client

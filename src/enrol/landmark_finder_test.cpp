@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class LandmarkFinderTest : public testing::Test {
+class LandmarkFinderTest : public ::testing::Test {
 protected:
     LandmarkFinderTest() { fs::create_directories(folder); }
     ~LandmarkFinderTest() override { fs::remove_all(folder); }

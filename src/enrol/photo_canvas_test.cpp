@@ -31,7 +31,7 @@ TEST(PhotoPlaceTest, AWindowWithoutSpaceGivesNumbers) {
     EXPECT_GT(PhotoPlace({400, 300}, {1, 1}, 5).scale(), 0);
 }
 
-class PhotoCanvasTest : public testing::Test {
+class PhotoCanvasTest : public ::testing::Test {
 protected:
     static constexpr Size size{40, 30};
     ColorImage photo{size}, canvas{size};

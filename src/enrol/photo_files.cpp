@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "face/face_fit.h"
 #include "files/file_bytes.h"
+#include "files/photo_orientation.h"
 #include "files/png_file.h"
 #include "video/jpeg_file_native.h"
 
@@ -32,10 +33,12 @@ ColorImage read_photo(const std::string& file) {
             throw Error("'" + file + "' " + problem + ".");
         return picture;
     }
-    if (const Status status = video::decode_jpeg_file(bytes, picture); status != Status::ok)
-        throw Error("'" + file + "' is no photo as JPEG or PNG: it is " +
-                    std::string(to_text(status)) + ".");
-    return picture;
+    const Status status = video::decode_jpeg_file(bytes, picture);
+    if (status == Status::too_large)
+        throw Error("'" + file + "' has too many pixels; make it smaller, and try again.");
+    if (status != Status::ok)
+        throw Error("'" + file + "' is no photo as JPEG or PNG, which is all that is read here.");
+    return files::upright(std::move(picture), files::exif_orientation(bytes));
 }
 
 face::Landmarks read_landmarks(const std::string& file, Size photo) {

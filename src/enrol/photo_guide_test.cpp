@@ -45,7 +45,7 @@ bool has_button(const PhotoGuide& guide, GuideCommand command) {
     return false;
 }
 
-class PhotoGuideTest : public testing::Test {
+class PhotoGuideTest : public ::testing::Test {
 protected:
     // From the camera's picture to landmarks that were found.
     void take_one(std::uint8_t red = 100) {

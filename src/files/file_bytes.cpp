@@ -106,6 +106,11 @@ void require_own_kind(const std::filesystem::path& path, std::string_view beginn
                     "; name another file.");
 }
 
+void require_plain(const std::filesystem::path& path) {
+    if (is_device_or_pipe(path))
+        refuse("write", path, "it is a device or a pipe, and would be replaced");
+}
+
 void require_other_file(const std::filesystem::path& output, const std::filesystem::path& input) {
     std::error_code ignored;
     if (std::filesystem::equivalent(output, input, ignored))

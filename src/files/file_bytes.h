@@ -28,6 +28,9 @@ void require_own_kind(const std::filesystem::path& path, std::string_view beginn
                       const char* kind);
 inline constexpr std::string_view png_beginning = "\x89PNG";
 
+// Throws Error if the path is a device or a pipe.
+void require_plain(const std::filesystem::path& path);
+
 // Throws Error if the two paths name the same file.
 void require_other_file(const std::filesystem::path& output, const std::filesystem::path& input);
 

@@ -136,8 +136,7 @@ void Host::Impl::open(const SessionOptions& options, const capture::Progress& pr
     config.name = name = options.name;
     config.patient_for = options.patient_for;
     config.past.reach = options.look_back;
-    if (options.direct)
-        config.make_secret = [] { return net::random_bytes(wire::direct_secret_size); };
+    config.make_secret = [] { return net::random_bytes(wire::relay_secret_size); };
     config.make_digest = net::make_content_digest;
     port->open_page();
     SavedRoom saved = room_file->load();

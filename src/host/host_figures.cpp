@@ -179,20 +179,23 @@ nlohmann::json to_json(const HostFigures& figures) {
         overlaps.push_back(
             {{"a", pair.a}, {"b", pair.b}, {"apart_mm", pair.apart_mm}, {"alarm", pair.is_alarm}});
     for (const auto& participant : figures.participants) {
-        nlohmann::json direct = nlohmann::json::array();
-        for (const CameraId camera : participant.direct)
-            direct.push_back(int(camera));
-        participants.push_back({{"id", int(participant.id)},
-                                {"name", participant.name},
-                                {"sent", participant.sent},
-                                {"renderer", participant.renderer},
-                                {"refused_requests", participant.refused},
-                                {"denied_messages", participant.denied},
-                                {"refused_pictures", participant.refused_pictures},
-                                {"role", wire::text_of(participant.role)},
-                                {"muted", participant.muted},
-                                {"direct", direct},
-                                {"age_ms", nullptr}});
+        nlohmann::json relayed = nlohmann::json::array();
+        for (const CameraId camera : participant.relayed)
+            relayed.push_back(int(camera));
+        participants.push_back(
+            {{"id", int(participant.id)},
+             {"name", participant.name},
+             {"sent", participant.sent},
+             {"renderer", participant.renderer},
+             {"refused_requests", participant.refused},
+             {"denied_messages", participant.denied},
+             {"refused_pictures", participant.refused_pictures},
+             {"role", wire::text_of(participant.role)},
+             {"muted", participant.muted},
+             {"relay",
+              participant.relay ? nlohmann::json(int(*participant.relay)) : nlohmann::json()},
+             {"relayed", relayed},
+             {"age_ms", nullptr}});
         if (const auto age = age_ms(participant))
             participants.back()["age_ms"] = *age;
     }

@@ -46,7 +46,8 @@ struct HostFigures {
         bool muted = false;
         std::string link = {};  // the name of the link by which it came
         bool hand_raised = false;
-        std::set<CameraId> direct = {};  // whose pictures come directly from their publisher
+        std::optional<ParticipantId> relay = {};  // that it was named
+        std::set<CameraId> relayed = {};          // whose pictures come from it
     };
     std::vector<Participant> participants;
     struct Published {
@@ -111,7 +112,7 @@ struct PortFigures {
 // {"name","utc","session_us","seconds","automatic_color","cameras":[{"name","state","problem","adjusted",
 // "color_gain":{"red","green","blue","estimated"},
 // "fps","age_ms","stages":[…],"dropped":{…},"lost_pictures",…}],"participants":[{"id","name","age_ms",
-// "renderer","refused_requests","denied_messages","refused_pictures","role","muted","direct",…}],"visitors":[{"id","name",
+// "renderer","refused_requests","denied_messages","refused_pictures","role","muted","relay","relayed",…}],"visitors":[{"id","name",
 // "person","role","records"}],"published":[{"id","name","publisher","whose","state",
 // "adjusted","dropped_slow","bytes",
 // "sync_offset_ms","filter","filter_device"}],"skew_ms":{"p50","max"},"unpaired","overlaps":[{"a","b","apart_mm","alarm"}],

@@ -158,7 +158,11 @@ void Host::Impl::carry_out(const session::action::End& a) {
 
 void Host::Impl::carry_out(const session::action::Joined& a) {
     // After Welcome.
-    server->post([this, id = a.participant] { send_poses_to(id, poses.all()); });
+    server->post([this, id = a.participant] {
+        const auto found = session->participants().find(id);
+        if (found != session->participants().end() && found->second.may(session::Right::see))
+            send_poses_to(id, poses.all());
+    });
     const std::string& address = addresses[peer_of(a.participant)];
     if (const auto left_out = joins.take(address + " " + a.name, steady_now()))
         log::info("host", "participant joined",
@@ -403,8 +407,9 @@ net::Media media_of(const wire::MediaHeader& header, std::shared_ptr<const Bytes
 
 void Host::Impl::distribute(const send::EncodedMedia& encoded) {
     const wire::MediaHeader& header = encoded.header;
-    send_media(media_of(header, encoded.message),
-               session->on_media(header, encoded.message->size(), steady_now()));
+    const auto to = session->on_media(header, encoded.message->size(), steady_now());
+    send_media(media_of(header, encoded.message), to.receivers);
+    send_sealed(header, *encoded.message, to);
     session->keep(header, *encoded.message, steady_now());
     hold_lane(std::size_t(camera_of(header.stream)));
 }
@@ -412,7 +417,7 @@ void Host::Impl::distribute(const send::EncodedMedia& encoded) {
 void Host::Impl::take_state(net::PeerId peer, const wire::State& state) {
     const ParticipantId sender{std::uint32_t(peer)};
     const auto found = session->participants().find(sender);
-    if (found == session->participants().end() || !found->second.takes_part())
+    if (found == session->participants().end() || !found->second.may(session::Right::see))
         return;
     if (state.key.topic == wire::StateTopic::object)
         return forward_object_pose(peer, state);
@@ -477,7 +482,7 @@ void Host::Impl::send_poses() {
     const auto entries = poses.gather(steady_now());
     std::vector<ParticipantId> receivers;
     for (const auto& [id, participant] : session->participants())
-        if (participant.takes_part())
+        if (participant.may(session::Right::see))
             receivers.push_back(id);
     for (const ParticipantId receiver : receivers)
         send_poses_to(receiver, entries);
@@ -495,19 +500,12 @@ void Host::Impl::send_poses_to(ParticipantId receiver,
 }
 
 void Host::Impl::forward(net::PeerId publisher, std::shared_ptr<const Bytes> message) {
-    const auto receivers =
+    const auto to =
         session->on_media_from(ParticipantId(std::uint32_t(publisher)), *message, steady_now());
     if (const auto header = wire::parse_media_header(*message)) {
         note_received(ParticipantId(std::uint32_t(publisher)), *header, message->size());
-        send_media({std::move(message),
-                    header->stream,
-                    header->setting,
-                    header->frame,
-                    header->reference,
-                    header->temporal_layer,
-                    header->key,
-                    {}},
-                   receivers);
+        send_sealed(*header, *message, to);
+        send_media(media_of(*header, std::move(message)), to.receivers);
     }
     carry_out();
     set_alarm();
@@ -539,6 +537,28 @@ void Host::Impl::send_media(const net::Media& encoded,
         dropped_slow[camera_of(encoded.stream)] += std::uint64_t(pushed.dropped);
         if (pushed.needs_key)
             session->on_broken_stream(encoded.stream, encoded.setting);
+    }
+}
+
+// Once for all relays. Each setting of a stream is a chain of its own for an outbox, since a relay
+// is sent several of them.
+void Host::Impl::send_sealed(const wire::MediaHeader& header, ByteView message,
+                             const session::HostSession::Recipients& to) {
+    if (to.relays.empty())
+        return;
+    const auto& key = session->relay_key(steady_now());
+    if (!sealer || sealer->key_number() != key.number)
+        sealer.emplace(key.number, key.bytes);
+    wire::MediaHeader told = header;
+    told.temporal_layer = std::uint8_t(to.layer);
+    net::Media sealed = media_of(
+        told, std::make_shared<const Bytes>(sealer->seal(told, wire::media_payload(message))));
+    sealed.stream = StreamId(std::uint16_t(header.setting));
+    for (const ParticipantId relay : to.relays) {
+        const auto pushed = server->send_media(peer_of(relay), sealed);
+        dropped_slow[camera_of(header.stream)] += std::uint64_t(pushed.dropped);
+        if (pushed.needs_key)
+            session->on_broken_stream(header.stream, header.setting);
     }
 }
 

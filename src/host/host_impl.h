@@ -29,6 +29,7 @@
 #include "host/session_audit.h"
 #include "host/session_port.h"
 #include "host/thumbnail.h"
+#include "net/sealed_media.h"
 #include "send/color_watch.h"
 #include "send/media_queue.h"
 #include "session/audit_budget.h"
@@ -96,6 +97,8 @@ struct Host::Impl {
     std::set<std::size_t> held;  // lanes; server's thread
     session::PoseBoard poses;    // server's thread
     session::VoiceFloor voices;  // server's thread
+    // Seals the pictures for relays; server's thread.
+    std::optional<net::MediaSealer> sealer;
     // Problems of the host that operators know, and when they were told; server's thread.
     std::map<std::pair<ParticipantId, std::string>, TimePoint> told_problems;
     std::optional<StateLock> state_lock;
@@ -231,6 +234,9 @@ struct Host::Impl {
     void forward(net::PeerId publisher, std::shared_ptr<const Bytes> message);
     void note_received(ParticipantId publisher, const wire::MediaHeader& header, std::size_t size);
     void send_media(const net::Media& encoded, const std::vector<ParticipantId>& receivers);
+    // To relays, if there are any.
+    void send_sealed(const wire::MediaHeader& header, ByteView message,
+                     const session::HostSession::Recipients& to);
     void on_camera_states();
     void take_state(net::PeerId peer, const wire::State& state);
     // The peer is told why.

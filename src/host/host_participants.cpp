@@ -23,11 +23,11 @@ wire::CameraCondition condition_here(const std::optional<wire::CameraState>& sai
 }  // namespace
 
 void Host::Impl::note_participants() {
-    const auto direct_cameras = [&](ParticipantId id,
-                                    const std::vector<wire::StreamReport>& report) {
+    const auto relayed_cameras = [&](ParticipantId id,
+                                     const std::vector<wire::StreamReport>& report) {
         std::set<CameraId> cameras;
         for (const wire::StreamReport& stream : report)
-            if (session->is_direct(id, stream.direct))
+            if (session->relays().is_by_relay(id, stream.relayed))
                 cameras.insert(camera_of(stream.stream));
         return cameras;
     };
@@ -38,7 +38,8 @@ void Host::Impl::note_participants() {
                             participant.renderer, participant.budget.refused(), participant.denied,
                             participant.refused_pictures, participant.role, participant.muted,
                             participant.link, participant.hand_raised,
-                            direct_cameras(id, participant.report)});
+                            session->relays().relay_of(id),
+                            relayed_cameras(id, participant.report)});
     participants = list.size();
     const auto& all = session->participants();
     media.keep_everything(std::any_of(all.begin(), all.end(), [](const auto& entry) {

@@ -34,6 +34,8 @@ const char* token_file(wire::Role role) {
             return "observer.token";
         case wire::Role::operator_:
             return "operator.token";
+        case wire::Role::relay:
+            break;  // its links are made, and have no file of a role
     }
     return "join.token";
 }
@@ -57,7 +59,7 @@ KnownLink read_link(const fs::path& path, const std::string& text) {
     words >> role >> expires >> link.token;
     std::getline(words >> std::ws, link.label);
     link.label = clean_text(link.label, max_label);
-    const auto known = wire::parse_role(role);
+    const auto known = wire::parse_link_role(role);
     const auto time = files::parse_utc(expires);
     if (!known || (!time && expires != never))
         throw Error("'" + path.string() + "' is no link; delete it.");

@@ -29,8 +29,6 @@ struct SessionOptions {
     std::vector<wire::Role> patient_for = {wire::Role::operator_};
     // How far participants may look back, at most session::Past::longest_reach; 0: nothing is kept.
     Duration look_back = session::Past::longest_reach;
-    // Pictures of participants' cameras may go directly to receivers (session/direct_paths.h).
-    bool direct = true;
 };
 
 }  // namespace theatron::host

@@ -2,13 +2,12 @@
 #include "net/sealed_bytes.h"
 
 #include <openssl/crypto.h>
-#include <openssl/evp.h>
 #include <openssl/rand.h>
 
 #include <algorithm>
-#include <memory>
 
 #include "base/error.h"
+#include "net/cipher.h"
 
 namespace theatron::net {
 namespace {
@@ -16,23 +15,11 @@ namespace {
 constexpr std::uint8_t sealed_version = 1;
 constexpr std::uint64_t block_size = 8, lanes = 1;
 
-struct FreeCipher {
-    void operator()(EVP_CIPHER_CTX* context) const { EVP_CIPHER_CTX_free(context); }
-};
-using Cipher = std::unique_ptr<EVP_CIPHER_CTX, FreeCipher>;
-
 // Forgotten when it is destroyed.
 struct SealKey {
     std::array<unsigned char, 32> bytes{};
     ~SealKey() { OPENSSL_cleanse(bytes.data(), bytes.size()); }
 };
-
-unsigned char* raw(std::byte* bytes) {
-    return reinterpret_cast<unsigned char*>(bytes);
-}
-const unsigned char* raw(const std::byte* bytes) {
-    return reinterpret_cast<const unsigned char*>(bytes);
-}
 
 void check(bool done) {
     if (!done)

@@ -15,6 +15,7 @@ using wire::TextCode;
 std::string name_of_guest(const std::string& given) {
     std::vector<std::string> facts{"recorded", "recorder", "records",    "host",      "muted",
                                    "you",      "Experte",  "Beobachter", "Gastgeber", "stumm"};
+    facts.push_back(wire::text_of(Role::relay));
     for (const Role role : wire::roles)
         facts.push_back(wire::text_of(role));
     const std::string name = person_name(given, facts, wire::max_name);
@@ -26,10 +27,6 @@ AdmissionMemory::Who who(const wire::Join& hello) {
 }
 AdmissionMemory::Who who(const Admission::Participant& there) {
     return {there.person, there.token, there.records};
-}
-
-bool asks_for(const wire::Join& hello, wire::Feature feature) {
-    return std::find(hello.features.begin(), hello.features.end(), feature) != hello.features.end();
 }
 
 bool is_silent(const Admission::Participant& there, TimePoint now) {
@@ -46,6 +43,10 @@ bool is_replaced(const Admission::Verdict& verdict, ParticipantId id) {
 }
 
 }  // namespace
+
+bool asks_for(const wire::Join& hello, wire::Feature feature) {
+    return std::find(hello.features.begin(), hello.features.end(), feature) != hello.features.end();
+}
 
 bool Admission::Participant::has(wire::Feature feature) const {
     return std::find(features.begin(), features.end(), feature) != features.end();
@@ -255,7 +256,8 @@ void Admission::note(Participant& participant, const wire::Join& hello,
     participant.run = hello.run;
     participant.since = verdict.since.value_or(participant.connected);
     participant.records = hello.records;
-    participant.sends_only = asks_for(hello, wire::Feature::sends_only);
+    participant.sends_only =
+        verdict.role == Role::relay || asks_for(hello, wire::Feature::sends_only);
     participant.given_name = name_of_guest(hello.name);
     // The audit log names whoever sits at the host's machine so.
     std::vector<std::string> others = names_beside(participant);
@@ -274,12 +276,15 @@ void Admission::admit(Participant& participant, const wire::Join& hello) {
 }
 
 std::vector<wire::Feature> Admission::features_of(const wire::Join& hello, Role role) {
+    // A relay has no part in the session, and sees nothing of it.
+    if (role == Role::relay)
+        return {wire::Feature::sends_only, wire::Feature::relays};
     std::vector<wire::Feature> features;
     for (const wire::Feature known :
          {wire::Feature::publish, wire::Feature::sends_only, wire::Feature::room,
           wire::Feature::cases, wire::Feature::voice_consent, wire::Feature::adjusting,
           wire::Feature::playback, wire::Feature::screens, wire::Feature::look_back,
-          wire::Feature::webcam, wire::Feature::patient, wire::Feature::direct,
+          wire::Feature::webcam, wire::Feature::patient, wire::Feature::relay,
           wire::Feature::asks_patient, wire::Feature::shows_screen, wire::Feature::study,
           wire::Feature::draws_flat, wire::Feature::chat}) {
         if (asks_for(hello, known) &&

@@ -23,6 +23,8 @@
 
 namespace theatron::session {
 
+bool asks_for(const wire::Join& hello, wire::Feature feature);
+
 class Admission {
 public:
     // Admits its bearer in this role, until it expires.

@@ -152,11 +152,4 @@ wire::Delivery Delivery::message(Duration delay) {
     return message;
 }
 
-bool Delivery::lets_through(StreamId stream, int layer, int highest) {
-    int& open = open_[stream];
-    if (layer == 0 || highest < open)
-        open = highest;
-    return layer <= open;
-}
-
 }  // namespace theatron::session

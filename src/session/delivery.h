@@ -11,6 +11,7 @@
 
 #include "base/ids.h"
 #include "session/ladder.h"
+#include "session/layer_gate.h"
 #include "session/sending_policy.h"
 #include "session/setting_table.h"
 #include "session/stream_rates.h"
@@ -52,11 +53,11 @@ public:
 
     wire::Delivery message(Duration delay);
 
-    // True if a frame of this layer is sent to the receiver. Call it for every frame,
-    // in order: a layer opens only with a frame of layer 0, because its frames refer to
-    // one another. `highest` is the highest layer of the receiver's step for that camera.
-    bool lets_through(StreamId stream, int layer, int highest);
-    void forget(StreamId stream) { open_.erase(stream); }
+    // See LayerGate. `highest` is the highest layer of the receiver's step for that camera.
+    bool lets_through(StreamId stream, int layer, int highest) {
+        return gate_.passes(stream, layer, highest);
+    }
+    void forget(StreamId stream) { gate_.forget(stream); }
 
     // True if late frames lead to a lower step of the ladder. Without a goal for their
     // age, late frames are only dropped.
@@ -75,7 +76,7 @@ private:
     bool layers_are_needed_ = false;
     SendingPolicy policy_;
     wire::ChooseDelivery goal_;
-    std::map<StreamId, int> open_;  // the highest layer that passes
+    LayerGate gate_;
 };
 
 // A layer, 0 to 2, for frames that do not refer to each other. It depends on the frame number

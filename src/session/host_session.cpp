@@ -22,9 +22,9 @@ HostSession::HostSession(Config config)
       membership_(config_.admission.asks),
       streams_(config_.streams, actions_),
       look_back_(config_.past, streams_, actions_),
-      direct_(config_.make_secret, actions_),
+      relays_(config_.make_secret, actions_),
       room_(config_.room, actions_, config_.authors),
-      shared_(config_.session, admission_, streams_, room_, look_back_, direct_, actions_),
+      shared_(config_.session, admission_, streams_, room_, look_back_, actions_),
       adjusting_(streams_, look_back_, actions_),
       renderers_(admission_, actions_),
       cases_(config_.patient_for, admission_, room_, actions_),
@@ -43,7 +43,7 @@ HostSession::HostSession(Config config)
 }
 
 void HostSession::on_connected(ParticipantId id, TimePoint now, const std::string& address) {
-    direct_.set_address(id, address);
+    relays_.set_address(id, address);
     admission_.on_connected(id, 2 * streams_.cameras().size(), now);
 }
 
@@ -51,7 +51,7 @@ void HostSession::on_control(ParticipantId id, ByteView bytes, TimePoint now) {
     Participant* participant = admission_.find(id);
     if (!participant || participant->closing)
         return;
-    participant->heard = now;
+    participant->heard = now_ = now;
     auto message = wire::decode_to_host(bytes);
     // A newer participant may send messages that this host does not know.
     if (!message && message.error() != Status::unsupported)
@@ -108,7 +108,7 @@ void HostSession::carry_out(ParticipantId id, const wire::Ping& ping, TimePoint 
 void HostSession::carry_out(ParticipantId id, const wire::Report& report, TimePoint now) {
     Participant& participant = *admission_.find(id);
     participant.report = report.streams;
-    direct_.report(id, report.streams);
+    relays_.report(id, report.streams, now);
     // Reports repeat it; a participant that changes it all the time must not fill the log.
     if (report.renderer == participant.renderer ||
         now - participant.renderer_noted < renderer_interval)
@@ -168,22 +168,35 @@ std::vector<ObjectPose> HostSession::replay_room(const RoomObjects& recorded, Ti
     return moved;
 }
 
-std::vector<ParticipantId> HostSession::on_media(const wire::MediaHeader& header, std::size_t size,
-                                                 TimePoint now) {
-    return streams_.on_media(header, size, now);
+HostSession::Recipients HostSession::on_media(const wire::MediaHeader& header, std::size_t size,
+                                              TimePoint now) {
+    return recipients(streams_.on_media(header, size, now), header, now);
 }
 
-std::vector<ParticipantId> HostSession::on_media_from(ParticipantId id, ByteView message,
-                                                      TimePoint now) {
+HostSession::Recipients HostSession::on_media_from(ParticipantId id, ByteView message,
+                                                   TimePoint now) {
     SharedCameras::Received received = shared_.on_media(id, message, now);
     if (!received.problem.empty())
         refuse(id, std::move(received.problem));
-    return std::move(received.receivers);
+    if (!received.header)
+        return {};
+    return recipients(std::move(received.receivers), *received.header, now);
+}
+
+HostSession::Recipients HostSession::recipients(std::vector<ParticipantId> receivers,
+                                                const wire::MediaHeader& header, TimePoint now) {
+    now_ = now;
+    if (!relays_.is_used())
+        return {std::move(receivers), {}, 0};
+    std::erase_if(receivers, [&](ParticipantId id) { return !relays_.goes_by_host(id, header); });
+    const int layer = streams_.layer_of(header);
+    return {std::move(receivers), relays_.relays_of(header, layer, now), layer};
 }
 
 void HostSession::on_link(ParticipantId id, const LinkMeasure& link, TimePoint now) {
     const Participant* participant = admission_.find(id);
-    if (participant && participant->takes_part())
+    // The relay of a receiver measures the link that its pictures take.
+    if (participant && participant->takes_part() && !relays_.is_reached(id))
         streams_.on_link(id, link, now);
 }
 
@@ -211,7 +224,7 @@ void HostSession::leave_everything(ParticipantId id, Removal cameras) {
     studies_.leave(id);
     renderers_.forget(id);
     look_back_.leave(id);
-    direct_.leave(id);
+    relays_.leave(id);
     streams_.leave(id);
     room_.leave(id);
     faces_.leave(id);
@@ -233,6 +246,8 @@ void HostSession::on_tick(TimePoint now) {
     studies_.on_tick(now);
     adjusting_.on_tick(now);
     look_back_.on_tick(now);
+    now_ = now;
+    relays_.on_tick(now);
     streams_.on_tick(now);
 }
 
@@ -244,7 +259,7 @@ void HostSession::resynchronise(ParticipantId id) {
     describe_session(id);
     renderers_.tell(id);
     streams_.tell_again(id);
-    direct_.tell_again(id);
+    relays_.tell_again(id);
     room_.send_snapshot(id);
     tell_playback(id);
     cases_.tell_again(id);
@@ -281,13 +296,15 @@ const std::vector<ActiveSetting>& HostSession::color_settings(CameraId camera) c
 }
 
 std::vector<Action> HostSession::take_actions() {
-    follow_paths();
+    follow_relays();
     return std::exchange(actions_, {});
 }
 
 void HostSession::refuse(ParticipantId id, wire::Text reason) {
     Participant& participant = *admission_.find(id);
     const bool has_waited = participant.waits();
+    if (participant.joined && participant.has(wire::Feature::relay))
+        relays_.renew_key();
     participant.refused_for_good = wire::is_for_good(reason.code);
     wire::Refused refusal = wire::refused(std::move(reason));
     std::string why = refusal.in_english;

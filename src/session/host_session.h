@@ -15,7 +15,6 @@
 #include "base/time.h"
 #include "session/admission.h"
 #include "session/camera_adjusting.h"
-#include "session/direct_paths.h"
 #include "session/host_actions.h"
 #include "session/host_chat.h"
 #include "session/host_room.h"
@@ -24,6 +23,7 @@
 #include "session/membership.h"
 #include "session/offered_cases.h"
 #include "session/own_faces.h"
+#include "session/relay_paths.h"
 #include "session/renderers.h"
 #include "session/shared_cameras.h"
 #include "session/streams.h"
@@ -55,9 +55,9 @@ public:
         HostRoom::Authors authors;  // of its marks
         // Those of them that may_know_patient() are told who the patient of the open case is.
         std::vector<Role> patient_for = {Role::operator_};
-        PastBounds past = {};                      // that participants may look back at
-        DirectPaths::MakeSecret make_secret = {};  // empty: nothing is sent directly
-        OwnFaces::MakeDigest make_digest = {};     // empty: nobody shows a face of their own
+        PastBounds past = {};                     // that participants may look back at
+        RelayPaths::MakeSecret make_secret = {};  // empty: there are no relays
+        OwnFaces::MakeDigest make_digest = {};    // empty: nobody shows a face of their own
     };
 
     explicit HostSession(Config config);
@@ -94,13 +94,19 @@ public:
     // The tokens of links by which those came who were removed and are kept out.
     std::vector<std::string> tokens_of_removed() const { return membership_.tokens_of_removed(); }
 
-    // A frame of a camera of the host was encoded, `size` bytes. Returns its receivers.
-    std::vector<ParticipantId> on_media(const wire::MediaHeader& header, std::size_t size,
-                                        TimePoint now);
-    // A participant has sent a media message. Returns its receivers. A message that belongs to no
-    // camera of this participant ends its connection with a reason.
-    std::vector<ParticipantId> on_media_from(ParticipantId publisher, ByteView message,
-                                             TimePoint now);
+    // Those who are sent a frame.
+    struct Recipients {
+        std::vector<ParticipantId> receivers;
+        std::vector<ParticipantId> relays;  // sealed, for their receivers
+        int layer = 0;                      // of the frame, for these
+    };
+    // A frame of a camera of the host was encoded, `size` bytes.
+    Recipients on_media(const wire::MediaHeader& header, std::size_t size, TimePoint now);
+    // A participant has sent a media message. A message that belongs to no camera of this
+    // participant ends its connection with a reason.
+    Recipients on_media_from(ParticipantId publisher, ByteView message, TimePoint now);
+    // The key with which the pictures for relays are sealed now.
+    const RelayPaths::Key& relay_key(TimePoint now) const { return relays_.key(now); }
 
     // A frame of a camera of the host was encoded: it may be kept for looking back.
     void keep(const wire::MediaHeader& header, ByteView message, TimePoint now) {
@@ -111,10 +117,8 @@ public:
     std::optional<TimePoint> past_due() const { return look_back_.due(); }
     std::size_t past_bytes() const { return look_back_.bytes(); }
 
-    // Frames of this setting come to the participant directly from their publisher.
-    bool is_direct(ParticipantId participant, SettingId setting) const {
-        return direct_.is_direct(participant, setting);
-    }
+    // The relays, and what comes from them.
+    const RelayPaths& relays() const { return relays_; }
 
     // A pose of an object in the room, to be sent to the receivers of the result at once.
     HostRoom::Forward on_object_pose(ParticipantId participant, const wire::State& state,
@@ -229,7 +233,8 @@ private:
     void carry_out(ParticipantId id, const wire::AdjustCamera& message, TimePoint now);
     void carry_out(ParticipantId id, const wire::Play& message, TimePoint now);
     void carry_out(ParticipantId id, const wire::LookBack& message, TimePoint now);
-    void carry_out(ParticipantId id, const wire::OfferDirect& message, TimePoint now);
+    void carry_out(ParticipantId id, const wire::OfferRelay& message, TimePoint now);
+    void carry_out(ParticipantId id, const wire::RelayReport& message, TimePoint now);
     void carry_out(ParticipantId id, const wire::AskPatient& message, TimePoint now);
     void carry_out(ParticipantId id, const wire::ShowStudy& message, TimePoint now);
     void carry_out(ParticipantId id, const wire::StudyReply& message, TimePoint now);
@@ -239,7 +244,9 @@ private:
     wire::ManageRefusal set_condition(ParticipantId by, const wire::SetCondition& condition);
     void end_condition(ParticipantId id);
     void end_leading(ParticipantId leader);
-    void follow_paths();
+    void follow_relays();
+    Recipients recipients(std::vector<ParticipantId> receivers, const wire::MediaHeader& header,
+                          TimePoint now);
     void carry_out_late(ParticipantId id, Participant& participant, TimePoint now);
     // `by`: the operator; 0: no participant. `by_name`: as in AuditEvent.
     wire::ManageRefusal manage(const wire::Manage& decision, ParticipantId by,
@@ -269,10 +276,11 @@ private:
     Admission admission_;
     LinkBudgets link_budgets_;
     TimePoint noted_here_;  // for the budgets
+    TimePoint now_;         // of the newest message, frame or tick
     Membership membership_;
     Streams streams_;
     LookBacks look_back_;
-    DirectPaths direct_;
+    RelayPaths relays_;
     std::uint64_t streams_seen_ = 0;  // Streams::changes() at the last follow_paths()
     HostRoom room_;
     SharedCameras shared_;

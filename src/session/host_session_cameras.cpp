@@ -29,8 +29,10 @@ void HostSession::carry_out(ParticipantId id, const wire::ChooseCodecs& wish, Ti
     streams_.choose(id, {depth.codec, color.codec}, wish.cameras);
 }
 
-void HostSession::carry_out(ParticipantId id, const wire::RequestKey& lost, TimePoint) {
-    streams_.request_key(id, lost.stream, lost.setting);
+void HostSession::carry_out(ParticipantId id, const wire::RequestKey& lost, TimePoint now) {
+    if (!relays_.is_by_relay(id, lost.setting) ||
+        relays_.may_request_key(lost.stream, lost.setting, now))
+        streams_.request_key(id, lost.stream, lost.setting);
 }
 
 void HostSession::carry_out(ParticipantId id, const wire::ChooseDelivery& goal, TimePoint) {
@@ -64,8 +66,21 @@ void HostSession::carry_out(ParticipantId id, const wire::CameraState& state, Ti
     shared_.on_state(id, state);
 }
 
-void HostSession::carry_out(ParticipantId id, const wire::OfferDirect& offer, TimePoint) {
-    direct_.offer(id, offer);
+void HostSession::carry_out(ParticipantId id, const wire::OfferRelay& offer, TimePoint) {
+    relays_.offer(id, offer);
+}
+
+// A relay speaks of its own receivers alone.
+void HostSession::carry_out(ParticipantId id, const wire::RelayReport& report, TimePoint now) {
+    for (const wire::RelayLink& link : report.links)
+        if (relays_.relay_of(link.participant) == id && relays_.is_reached(link.participant))
+            streams_.on_link(link.participant,
+                             {link.kbit_per_s * 125.0, link.round_trip, link.delay,
+                              int(std::min<std::uint32_t>(link.dropped, 1000)), link.takes_nothing},
+                             now);
+    for (const wire::RequestKey& key : report.keys)
+        if (relays_.is_relay(id) && relays_.may_request_key(key.stream, key.setting, now))
+            streams_.request_key(key.stream, key.setting);
 }
 
 void HostSession::carry_out(ParticipantId id, const wire::AdjustCamera& wish, TimePoint now) {
@@ -110,17 +125,16 @@ void HostSession::tell_playback(ParticipantId id) {
 }
 
 // In the same step as the change, so that a receiver that was removed gets nothing more.
-void HostSession::follow_paths() {
+void HostSession::follow_relays() {
     const bool have_streams_changed =
         std::exchange(streams_seen_, streams_.changes()) != streams_.changes();
-    if ((!direct_.take_change() && !have_streams_changed) || !direct_.is_used())
+    if ((!relays_.take_change() && !have_streams_changed) || !relays_.is_used())
         return;
-    std::vector<StreamUse> uses = streams_.uses();
-    if (!look_back_.is_possible())
-        for (StreamUse& use : uses)
-            use.is_kept = false;
-    for (const KeyRequests::Key& key : direct_.follow(uses))
+    for (const KeyRequests::Key& key : relays_.follow(streams_.uses(), now_))
         streams_.request_key(key.stream, key.setting);
+    for (const auto& [id, participant] : admission_.participants())
+        if (participant.has(wire::Feature::relay))
+            streams_.set_by_relay(id, relays_.is_reached(id));
 }
 
 }  // namespace theatron::session

@@ -48,12 +48,13 @@ wire::Camera camera(int number) {
     return camera;
 }
 
-constexpr const char* secrets[] = {"secret", "operator", "observer", "expert"};
+constexpr const char* secrets[] = {"secret", "operator", "observer", "expert", "relay"};
 
 // The first ones of them.
 std::vector<session::Admission::Token> tokens(std::size_t count) {
     using session::Role;
-    constexpr Role roles[] = {Role::publisher, Role::operator_, Role::observer, Role::expert};
+    constexpr Role roles[] = {Role::publisher, Role::operator_, Role::observer, Role::expert,
+                              Role::relay};
     std::vector<session::Admission::Token> tokens;
     for (std::size_t i = 0; i < count; ++i)
         tokens.push_back({secrets[i], roles[i], {}, secrets[i]});
@@ -67,7 +68,7 @@ HostSession::Config config(bool asks) {
         return HostSession::CheckedCodec{text.substr(0, 20), problem};
     };
     HostSession::Config config;
-    config.admission.tokens = tokens(4);
+    config.admission.tokens = tokens(5);
     config.admission.asks = asks;
     config.admission.equal_secrets = [](std::string_view a, std::string_view b) { return a == b; };
     config.name = "room";
@@ -76,7 +77,7 @@ HostSession::Config config(bool asks) {
     config.streams.codecs = steps();
     config.streams.usual = {"strata", "jpeg"};
     config.past = {30s, 4096};
-    config.make_secret = [] { return Bytes(wire::direct_secret_size, std::byte{1}); };
+    config.make_secret = [] { return Bytes(wire::relay_secret_size, std::byte{1}); };
     return config;
 }
 
@@ -85,14 +86,16 @@ constexpr std::uint32_t participants = 6;
 // The first message of an honest participant.
 Bytes hello(std::uint8_t choice) {
     static const char* const codecs[] = {"strata", "jpeg", "independent", "chain"};
-    session::ViewerSession::Wishes wishes{secrets[choice / 6 % 4], "someone", codecs[choice % 4],
+    session::ViewerSession::Wishes wishes{secrets[choice / 6 % 5], "someone", codecs[choice % 4],
                                           codecs[choice / 4 % 4]};
     wishes.delivery.target_latency_ms = choice % 32 < 16 ? 100 : 0;
     wishes.records = choice >= 200;
     wishes.features = {wire::Feature::publish, wire::Feature::room,         wire::Feature::cases,
                        wire::Feature::screens, wire::Feature::look_back,    wire::Feature::patient,
-                       wire::Feature::direct,  wire::Feature::asks_patient, wire::Feature::study,
+                       wire::Feature::relay,   wire::Feature::asks_patient, wire::Feature::study,
                        wire::Feature::chat};
+    if (choice / 6 % 5 == 4 || choice % 31 == 0)
+        wishes.features.push_back(wire::Feature::relays);
     if (choice % 5 != 0)
         wishes.person = Bytes(wire::person_id_size, std::byte(choice % 7));
     wishes.run = choice % 3;
@@ -168,17 +171,21 @@ wire::Patient patient_of(int number) {
     return {Bytes(facts.id.bytes.begin(), facts.id.bytes.end()), "Doe", "", "", ""};
 }
 
-// The receivers to whom a publisher sends directly are bounded; a recorder gets nothing directly.
-void check_direct(const HostSession& host, const session::action::Send& send) {
-    const auto* grants = std::get_if<wire::DirectGrants>(&send.message);
-    const auto* receivers = std::get_if<wire::DirectReceivers>(&send.message);
+// The receivers of a relay are bounded; a recorder gets nothing from a relay, and a relay nothing
+// of the session.
+void check_relays(const HostSession& host, const session::action::Send& send) {
+    const auto* grants = std::get_if<wire::RelayGrants>(&send.message);
+    const auto* receivers = std::get_if<wire::RelayReceivers>(&send.message);
     if (!grants && !receivers)
         return;
     const auto found = host.participants().find(send.participant);
     if (!wire::decode_to_participant(wire::encode(send.message)) ||
         (grants && !grants->grants.empty() &&
          (found == host.participants().end() || !found->second.takes_part() ||
-          found->second.records)))
+          found->second.records || found->second.role == session::Role::relay)))
+        std::abort();
+    if (receivers &&
+        (found == host.participants().end() || found->second.role != session::Role::relay))
         std::abort();
 }
 
@@ -394,7 +401,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                 const std::uint16_t port = choice % 7 == 0 ? 0 : choice;
                 host.on_control(
                     id,
-                    wire::encode(wire::OfferDirect{
+                    wire::encode(wire::OfferRelay{
                         {"192.0.2.1", "127.0.0.1"}, port, Bytes(wire::fingerprint_size)}),
                     now);
                 wire::Report report;
@@ -415,7 +422,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         for (const session::Action& action : host.take_actions())
             if (const auto* send = std::get_if<session::action::Send>(&action)) {
                 check_sent(host, *send);
-                check_direct(host, *send);
+                check_relays(host, *send);
                 (void)viewer.on_control(wire::encode(send->message));
             }
         check(host);

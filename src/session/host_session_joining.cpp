@@ -41,6 +41,12 @@ void HostSession::join(ParticipantId id, const wire::Join& hello, TimePoint now)
         return refuse_entry({TextCode::session_has_ended});
     if (hello.records && !may(judged.role, Right::record))
         return refuse_entry({TextCode::observer_records});
+    const bool is_relay = asks_for(hello, wire::Feature::relays);
+    if (is_relay != (verdict.role == Role::relay))
+        return refuse_entry(wire::as_written(
+            is_relay ? "A relay comes by a link of its own, which 'theatron link --role relay' "
+                       "prints at the host."
+                     : "This link is for a relay: give it to 'theatron relay'."));
     const bool waits = judged.entry == Membership::Entry::waits;
     if (waits)
         admission_.find_door_place(hello, verdict);
@@ -86,10 +92,11 @@ void HostSession::enter(ParticipantId id, const wire::Join& hello) {
     // Unseen by the others, only those who manage the session see the room.
     if (participant.has(wire::Feature::sends_only) && !participant.may(Right::manage))
         std::erase(participant.features, wire::Feature::room);
-    if (!direct_.is_possible())
-        std::erase(participant.features, wire::Feature::direct);
-    if (participant.has(wire::Feature::direct))
-        direct_.join(id);
+    // A recorder gets every frame, and one that only sends gets none.
+    if (!relays_.is_possible() || hello.records || participant.has(wire::Feature::sends_only))
+        std::erase(participant.features, wire::Feature::relay);
+    if (participant.has(wire::Feature::relay))
+        relays_.join(id, now_);
     actions_.push_back(action::Joined{id, participant.name, participant.person});
     audit(AuditEvent::What::joined, id, "", hello.records ? "records" : "");
     describe_session(id);
@@ -99,7 +106,8 @@ void HostSession::enter(ParticipantId id, const wire::Join& hello) {
         streams_.join(id,
                       {checked(config_.check_depth, hello.depth_codec).codec,
                        checked(config_.check_color, hello.color_codec).codec},
-                      hello.records, participant.has(wire::Feature::webcam));
+                      hello.records, participant.has(wire::Feature::webcam),
+                      relays_.is_reached(id));
         streams_.set_goal(id, {hello.target_latency_ms, hello.max_kbit_per_s});
     }
     renderers_.tell(id);

@@ -90,6 +90,10 @@ ManageRefusal HostSession::manage(const wire::Manage& decision, ParticipantId by
     if (id == by)
         return ManageRefusal::yourself;
     Participant& person = *found;
+    // A relay is nobody, and can only be sent away.
+    if (person.of_link == Role::relay && decision.action != ManageAction::remove &&
+        decision.action != ManageAction::revoke_link)
+        return ManageRefusal::no_such_participant;
     // A stranger may have got hold of the operator's id. So a decision on another connection of
     // one's own holds for that one alone, and does not shut out the operator at its next join.
     const Participant* decider = admission_.find(by);

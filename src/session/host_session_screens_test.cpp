@@ -97,7 +97,7 @@ TEST_F(SharedScreens, AnOlderPublisherIsNotToldAndItsPicturesAreIgnored) {
     header.captured = now;
     Bytes message(wire::media_header_size);
     wire::write_media_header(header, message.data());
-    EXPECT_TRUE(session.on_media_from(alice, message, now).empty());
+    EXPECT_TRUE(session.on_media_from(alice, message, now).receivers.empty());
     EXPECT_TRUE(all<action::Close>(session.take_actions()).empty());
 }
 

@@ -50,7 +50,8 @@ wire::ManageRefusal HostSession::set_condition(ParticipantId by,
         renderers_.begin_condition(id, {condition.renderer, condition.locked});
     streams_.fix(id, {depth.codec, color.codec});
     studies_.lock(id, condition.locked && has_codecs);
-    direct_.allow(id, condition.latency == Duration(0));
+    // Pictures of a relay would not be late.
+    relays_.allow(id, condition.latency == Duration(0));
     actions_.push_back(action::Delay{id, condition.latency});
     return ManageRefusal::none;
 }
@@ -60,7 +61,7 @@ void HostSession::end_condition(ParticipantId id) {
     renderers_.end_condition(id);
     streams_.fix(id, {});
     studies_.lock(id, false);
-    direct_.allow(id, true);
+    relays_.allow(id, true);
     actions_.push_back(action::Delay{id, Duration(0)});
 }
 

@@ -131,10 +131,10 @@ TEST_F(Host, AParticipantThatAsksForNoDepthGetsColorAlone) {
     wire::MediaHeader color;
     color.stream = StreamId{1};
     color.setting = session.color_settings()[0].id;
-    EXPECT_EQ(session.on_media(color, 100, now), (std::vector{alice, bob}));
+    EXPECT_EQ(session.on_media(color, 100, now).receivers, (std::vector{alice, bob}));
     wire::MediaHeader depth;
     depth.setting = session.depth_settings()[0].id;
-    EXPECT_EQ(session.on_media(depth, 100, now), std::vector{bob});
+    EXPECT_EQ(session.on_media(depth, 100, now).receivers, std::vector{bob});
 }
 
 TEST_F(Host, ABadWishKeepsTheOldCodecAndSaysSo) {

@@ -15,18 +15,20 @@ using std::chrono::seconds;
 enum class Way : std::uint8_t { closed, removed, ended };
 
 // Bob shares a camera, looks back, gets depth in a codec of his own, stands in the room, and gets
-// the camera of Carol directly.
+// the camera of Carol from a relay, Dave.
 class Leaving : public Host, public ::testing::WithParamInterface<Way> {
 protected:
     Leaving() {
         HostSession::Config c = config();
         c.admission.tokens.push_back({"boss", Role::operator_, {}});
+        c.admission.tokens.push_back({"relay", Role::relay, {}});
         c.past.reach = seconds(60);
-        c.make_secret = [] { return Bytes(wire::direct_secret_size, std::byte{7}); };
+        c.make_secret = [] { return Bytes(wire::relay_secret_size, std::byte{7}); };
         session_.emplace(std::move(c));
         come(alice, "boss", "trvl");
         come(carol, "publish", "trvl");
-        tell(carol, wire::OfferDirect{{"10.0.0.5"}, 4000, Bytes(wire::fingerprint_size)});
+        come(dave, "relay", "trvl");
+        tell(dave, wire::OfferRelay{{"10.0.0.5"}, 4000, Bytes(wire::fingerprint_size)});
         publish(carol);
         come(bob, "publish", "rvl");
         publish(bob);
@@ -34,7 +36,7 @@ protected:
         tell(bob, wire::LookBack{1, seconds(2)});
         const auto setting = session_->streams().cameras().find(of_carol)->receivers.at(bob).depth;
         tell(bob, wire::Report{{{depth_stream(of_carol), 0, 0, 0, {}, setting}}, ""});
-        direct_ = setting;
+        relayed_ = setting;
         (void)session_->take_actions();
     }
 
@@ -45,7 +47,7 @@ protected:
         hello.depth_codec = depth;
         hello.color_codec = "jpeg";
         hello.features = {wire::Feature::publish, wire::Feature::room, wire::Feature::look_back,
-                          wire::Feature::direct};
+                          token == "relay" ? wire::Feature::relays : wire::Feature::relay};
         tell(id, hello);
     }
     void tell(ParticipantId id, const wire::ToHost& message) {
@@ -104,7 +106,7 @@ protected:
 
     static constexpr CameraId of_carol{1}, of_bob{2};
     std::optional<HostSession> session_;
-    SettingId direct_{};
+    SettingId relayed_{};
     std::vector<Action> left_;
 };
 
@@ -154,10 +156,18 @@ TEST_P(Leaving, ItIsShownNoPast) {
     EXPECT_FALSE(session_->past_due());
 }
 
-TEST_P(Leaving, NothingGoesToItDirectly) {
-    ASSERT_TRUE(session_->is_direct(bob, direct_));
+TEST_P(Leaving, NothingGoesToItFromARelay) {
+    ASSERT_TRUE(session_->relays().is_by_relay(bob, relayed_));
     leave();
-    EXPECT_FALSE(session_->is_direct(bob, direct_));
+    EXPECT_FALSE(session_->relays().is_by_relay(bob, relayed_));
+    const auto told = messages_to<wire::RelayReceivers>(dave, left_);
+    const bool is_named = std::any_of(told.begin(), told.end(), [](const auto& list) {
+        return std::any_of(list.receivers.begin(), list.receivers.end(),
+                           [](const auto& receiver) { return receiver.participant == bob; });
+    });
+    EXPECT_FALSE(is_named);
+    if (GetParam() != Way::ended)
+        EXPECT_FALSE(told.empty()) << "the relay ends its connection";
 }
 
 TEST_P(Leaving, NothingOfItCountsAnyMore) {

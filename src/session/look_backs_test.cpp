@@ -73,7 +73,7 @@ protected:
                     is_depth ? session_->depth_settings({}) : session_->color_settings({});
                 const Bytes bytes = picture({}, is_depth, settings.at(0).id);
                 const auto header = wire::parse_media_header(bytes).value();
-                const auto to = session_->on_media(header, bytes.size(), now);
+                const auto to = session_->on_media(header, bytes.size(), now).receivers;
                 if (is_depth)
                     receivers = to;
                 session_->keep(header, bytes, now);
@@ -267,7 +267,7 @@ protected:
         const SettingId setting =
             messages_to<wire::Encode>(bob, last_).at(0).settings.at(0).setting;
         for (int i = 0; i < 50; ++i, ++frame_, now += milliseconds(100))
-            EXPECT_EQ(session_->on_media_from(bob, picture(camera_, true, setting), now),
+            EXPECT_EQ(session_->on_media_from(bob, picture(camera_, true, setting), now).receivers,
                       std::vector{alice});
         (void)session_->take_actions();
     }

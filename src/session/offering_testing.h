@@ -68,7 +68,7 @@ protected:
         header.payload_size = std::uint32_t(bytes - wire::media_header_size);
         Bytes message(bytes);
         wire::write_media_header(header, message.data());
-        return session_->on_media_from(id, message, now);
+        return session_->on_media_from(id, message, now).receivers;
     }
 
     std::optional<HostSession> session_;

@@ -23,25 +23,30 @@ enum class Right : std::uint8_t {
     be_seen,      // send the picture of the own face, or its expression
     show_screen,  // send the pictures of a screen (wire::CameraKind::screen)
     write,        // to all others; taken away by muting
+    take_part,    // ask for the session's time
+    relay,        // be sent the sealed pictures of the session, for receivers that the host names
 };
 
 constexpr bool may(Role role, Right right) {
     switch (role) {
         case Role::observer:
-            return right == Right::see || right == Right::write;
+            return right == Right::see || right == Right::write || right == Right::take_part;
         case Role::expert:
-            return right != Right::publish && right != Right::manage && right != Right::adjust;
+            return right != Right::publish && right != Right::manage && right != Right::adjust &&
+                   right != Right::relay;
         case Role::publisher:
-            return right != Right::manage && right != Right::adjust;
+            return right != Right::manage && right != Right::adjust && right != Right::relay;
         case Role::operator_:
-            return true;
+            return right != Right::relay;
+        case Role::relay:
+            return right == Right::take_part || right == Right::relay;
     }
     return false;
 }
 
 // Observers never learn who the patient is; a host chooses among the other roles.
 constexpr bool may_know_patient(Role role) {
-    return role != Role::observer;
+    return role != Role::observer && role != Role::relay;
 }
 
 // The rights of messages that depend on what they say; request_kinds.cpp has those of all.

@@ -27,7 +27,8 @@ struct KindOf {
     Kind operator()(const wire::AdjustCamera&) const { return Kind::manage; }
     Kind operator()(const wire::Play&) const { return Kind::manage; }
     Kind operator()(const wire::LookBack&) const { return Kind::manage; }
-    Kind operator()(const wire::OfferDirect&) const { return Kind::publish; }
+    Kind operator()(const wire::OfferRelay&) const { return Kind::publish; }
+    Kind operator()(const wire::RelayReport&) const { return Kind::report; }
     Kind operator()(const wire::AskPatient&) const { return Kind::other; }
     Kind operator()(const wire::ShowStudy&) const { return Kind::manage; }
     Kind operator()(const wire::StudyReply&) const { return Kind::room; }
@@ -43,7 +44,7 @@ struct RightOf {
     Right operator()(const wire::ChooseCodecs&) const { return Right::see; }
     Right operator()(const wire::ChooseDelivery&) const { return Right::see; }
     Right operator()(const wire::RequestKey&) const { return Right::see; }
-    Right operator()(const wire::Ping&) const { return Right::see; }
+    Right operator()(const wire::Ping&) const { return Right::take_part; }
     Right operator()(const wire::Report&) const { return Right::see; }
     Right operator()(const wire::Publish& offer) const { return needed_right(offer); }
     // These two concern the sender's own cameras only.
@@ -57,7 +58,8 @@ struct RightOf {
     Right operator()(const wire::AdjustCamera&) const { return Right::adjust; }
     Right operator()(const wire::Play&) const { return Right::play; }
     Right operator()(const wire::LookBack&) const { return Right::see; }
-    Right operator()(const wire::OfferDirect&) const { return Right::publish; }
+    Right operator()(const wire::OfferRelay&) const { return Right::relay; }
+    Right operator()(const wire::RelayReport&) const { return Right::relay; }
     // Those who may open a case; what they are told is decided by OfferedCases.
     Right operator()(const wire::AskPatient&) const { return Right::handle; }
     Right operator()(const wire::ShowStudy&) const { return Right::manage; }

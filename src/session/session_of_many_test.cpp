@@ -127,10 +127,10 @@ TEST_F(SessionOfMany, ACameraOfAParticipantReachesTheOthers) {
     actions = session.take_actions();
     EXPECT_EQ(sent<wire::EncodeKey>(alice).size(), 2u);
 
-    EXPECT_EQ(session.on_media_from(alice, picture(cameras[0], encode[0].setting), now),
+    EXPECT_EQ(session.on_media_from(alice, picture(cameras[0], encode[0].setting), now).receivers,
               std::vector{bob});
     join(carol);
-    EXPECT_EQ(session.on_media_from(alice, picture(cameras[0], encode[0].setting), now),
+    EXPECT_EQ(session.on_media_from(alice, picture(cameras[0], encode[0].setting), now).receivers,
               (std::vector{bob, carol}))
         << "that come later, too";
     actions = session.take_actions();
@@ -168,7 +168,8 @@ TEST_F(SessionOfMany, ARecorderGetsTheCamerasOfTheHostAndOfThoseWhoAgree) {
         const CameraId camera = may ? agreed.at(0) : refused.at(0);
         std::size_t receivers = 0;
         for (const auto& setting : session.depth_settings(camera))
-            receivers += session.on_media_from(alice, picture(camera, setting.id), now).size();
+            receivers +=
+                session.on_media_from(alice, picture(camera, setting.id), now).receivers.size();
         EXPECT_EQ(receivers, may ? 2u : 0u);
     }
     // A viewer gets both.
@@ -196,9 +197,10 @@ TEST_F(SessionOfMany, APictureUnderAnOldNumberGoesToNobodyThoughAnotherCameraHas
             reused = old;
     }
     ASSERT_EQ(reused, old);
-    EXPECT_TRUE(session.on_media_from(alice, picture(cameras[0], old), now).empty());
+    EXPECT_TRUE(session.on_media_from(alice, picture(cameras[0], old), now).receivers.empty());
     const SettingId present = session.depth_settings(cameras[0]).at(0).id;
-    EXPECT_EQ(session.on_media_from(alice, picture(cameras[0], present), now), std::vector{bob});
+    EXPECT_EQ(session.on_media_from(alice, picture(cameras[0], present), now).receivers,
+              std::vector{bob});
 }
 
 TEST_F(SessionOfMany, OnlyALinkForPublishersLetsCamerasIn) {
@@ -209,7 +211,8 @@ TEST_F(SessionOfMany, OnlyALinkForPublishersLetsCamerasIn) {
     EXPECT_EQ(sent<wire::Published>(alice).at(0).problem.code,
               wire::TextCode::link_without_cameras);
     EXPECT_EQ(session.streams().cameras().size(), 1u);
-    EXPECT_TRUE(session.on_media_from(alice, picture(CameraId{1}, SettingId{1}), now).empty());
+    EXPECT_TRUE(
+        session.on_media_from(alice, picture(CameraId{1}, SettingId{1}), now).receivers.empty());
     actions = session.take_actions();
     EXPECT_EQ(all<action::Close>().size(), 1u);
 }
@@ -269,14 +272,14 @@ TEST_F(SessionOfMany, NobodySendsPicturesOfAnothersCamera) {
     join(carol);
     const auto own = publish(alice, 1);
     const SettingId setting = sent<wire::Encode>(alice).at(0).settings.at(0).setting;
-    EXPECT_TRUE(session.on_media_from(bob, picture(own.at(0), setting), now).empty());
+    EXPECT_TRUE(session.on_media_from(bob, picture(own.at(0), setting), now).receivers.empty());
     actions = session.take_actions();
     ASSERT_EQ(sent<wire::Refused>(bob).size(), 1u);
     ASSERT_EQ(all<action::Close>().size(), 1u);
     EXPECT_EQ(all<action::Close>()[0].participant, bob);
-    EXPECT_FALSE(session.on_media_from(alice, picture(own.at(0), setting), now).empty());
+    EXPECT_FALSE(session.on_media_from(alice, picture(own.at(0), setting), now).receivers.empty());
     // Nor of the host's.
-    EXPECT_TRUE(session.on_media_from(alice, picture(CameraId{0}, setting), now).empty());
+    EXPECT_TRUE(session.on_media_from(alice, picture(CameraId{0}, setting), now).receivers.empty());
     actions = session.take_actions();
     EXPECT_EQ(all<action::Close>().size(), 1u);
 }
@@ -285,7 +288,7 @@ TEST_F(SessionOfMany, DamagedPicturesEndTheConnectionOfTheirPublisherOnly) {
     join(alice, "publish");
     join(bob);
     (void)publish(alice, 1);
-    EXPECT_TRUE(session.on_media_from(alice, Bytes(70, std::byte{0xff}), now).empty());
+    EXPECT_TRUE(session.on_media_from(alice, Bytes(70, std::byte{0xff}), now).receivers.empty());
     actions = session.take_actions();
     ASSERT_EQ(all<action::Close>().size(), 1u);
     EXPECT_EQ(all<action::Close>()[0].participant, alice);
@@ -310,7 +313,7 @@ TEST_F(SessionOfMany, CamerasLeaveWithTheirPublisherAndNumbersNeverComeAgain) {
     EXPECT_EQ(sent<wire::CamerasRemoved>(bob).at(0).cameras, std::vector{second[0]})
         << "others' cameras stay";
     // A picture that was in flight when the camera left is no fault.
-    EXPECT_TRUE(session.on_media_from(carol, picture(second[0], setting), now).empty());
+    EXPECT_TRUE(session.on_media_from(carol, picture(second[0], setting), now).receivers.empty());
     actions = session.take_actions();
     EXPECT_TRUE(all<action::Close>().empty());
 }

@@ -173,10 +173,7 @@ SharedCameras::Received SharedCameras::on_media(ParticipantId id, ByteView messa
     if (!lets_through(*participant, *camera, *header, message.size(), now))
         return {};
     look_back_.keep(*header, message, now);
-    std::vector<ParticipantId> receivers = streams_.on_media(*header, message.size(), now);
-    std::erase_if(receivers,
-                  [&](ParticipantId receiver) { return !direct_.is_relayed(receiver, *header); });
-    return {std::move(receivers), {}};
+    return {streams_.on_media(*header, message.size(), now), {}, *header};
 }
 
 // Pictures of settings that are gone are ignored later, as those of all cameras.

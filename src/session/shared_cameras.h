@@ -7,13 +7,13 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "base/bytes.h"
 #include "base/ids.h"
 #include "base/time.h"
 #include "session/admission.h"
-#include "session/direct_paths.h"
 #include "session/host_actions.h"
 #include "session/host_room.h"
 #include "session/look_backs.h"
@@ -27,13 +27,12 @@ namespace theatron::session {
 class SharedCameras {
 public:
     SharedCameras(wire::SessionId session, Admission& admission, Streams& streams, HostRoom& room,
-                  LookBacks& look_back, DirectPaths& direct, std::vector<Action>& actions)
+                  LookBacks& look_back, std::vector<Action>& actions)
         : session_(session),
           admission_(admission),
           streams_(streams),
           room_(room),
           look_back_(look_back),
-          direct_(direct),
           actions_(actions) {}
 
     // The numbers below this one are those of the host's own cameras. Before the first is added.
@@ -55,6 +54,7 @@ public:
     struct Received {
         std::vector<ParticipantId> receivers;
         wire::Text problem;  // the participant must be refused for this reason; empty: none
+        std::optional<wire::MediaHeader> header = {};  // of a frame that has receivers
     };
     // A media message of a participant. One that is late, for a camera or a setting that is gone,
     // has no receivers.
@@ -91,7 +91,6 @@ private:
     Streams& streams_;
     HostRoom& room_;
     LookBacks& look_back_;
-    DirectPaths& direct_;
     std::vector<Action>& actions_;
     std::map<SettingId, OwnPicturePace> paces_;  // of active settings of faces and shown screens
 };

@@ -27,8 +27,9 @@ struct StreamReceiver {
     std::map<CameraId, CodecWish> wishes;  // for single cameras; empty texts: as `wish`
     CodecWish fixed;                       // instead of both, by a study; empty texts: none
     bool records = false, takes_faces = false;
-    bool has_ceiling = false;
-    std::set<CameraId> past;  // that it is shown the past of
+    std::uint32_t max_kbit_per_s = 0;  // 0: no ceiling
+    bool is_by_relay = false;          // see Streams
+    std::set<CameraId> past;           // that it is shown the past of
     Delivery delivery;
 
     // True if it gets this camera, as the participant `id`.

@@ -9,11 +9,13 @@
 
 namespace theatron::session {
 
-void Streams::join(ParticipantId id, const CodecWish& wish, bool records, bool takes_faces) {
+void Streams::join(ParticipantId id, const CodecWish& wish, bool records, bool takes_faces,
+                   bool is_by_relay) {
     StreamReceiver& receiver = receivers_[id];
     receiver.wish = wish;
     receiver.records = records;
     receiver.takes_faces = takes_faces;
+    receiver.is_by_relay = is_by_relay;
     receiver.delivery.set_codecs(codecs_, region_is_drawn_);
     receiver.delivery.set_wish(wish.depth, wish.color);
     for (auto& [camera, streams] : cameras_)
@@ -22,6 +24,11 @@ void Streams::join(ParticipantId id, const CodecWish& wish, bool records, bool t
             receiver.request(streams, id, false);
         }
     apply();
+}
+
+void Streams::set_by_relay(ParticipantId id, bool is_by_relay) {
+    if (const auto found = receivers_.find(id); found != receivers_.end())
+        found->second.is_by_relay = is_by_relay;
 }
 
 void Streams::leave(ParticipantId id) {
@@ -110,7 +117,7 @@ void Streams::set_goal(ParticipantId id, const wire::ChooseDelivery& goal) {
     if (found == receivers_.end())
         return;
     found->second.delivery.set_goal(goal);
-    found->second.has_ceiling = goal.max_kbit_per_s > 0;
+    found->second.max_kbit_per_s = goal.max_kbit_per_s;
     ++changes_;
     actions_.push_back(action::SetCeiling{id, goal.max_kbit_per_s * 125ull});
 }
@@ -240,7 +247,8 @@ void Streams::tell_receiver(ParticipantId id, StreamReceiver& receiver) {
                 continue;
             const ActiveSetting& setting = is_depth ? depth : color;
             message.settings.push_back({camera.stream(is_depth), setting.id, setting.codec});
-            if (setting.id != before.of(is_depth) && setting.codec != wire::no_codec)
+            if (setting.id != before.of(is_depth) && setting.codec != wire::no_codec &&
+                !receiver.is_by_relay)
                 key_requests_.request({camera.stream(is_depth), setting.id});
         }
         if (message.note.empty())

@@ -190,28 +190,35 @@ std::vector<ParticipantId> Streams::receivers(StreamId stream, SettingId setting
 
 std::vector<StreamUse> Streams::uses() const {
     std::vector<StreamUse> result;
-    for (const auto& [id, camera] : cameras_) {
-        if (camera.publisher() == host_publisher || camera.has_one_encoding())
-            continue;
-        for (const bool depth : {true, false}) {
-            const ActiveSetting* kept = kept_setting(camera.stream(depth));
+    for (const auto& [id, camera] : cameras_)
+        for (const bool depth : {true, false})
             for (const ActiveSetting& setting : camera.table(depth).active()) {
-                StreamUse use{camera.publisher(),
-                              camera.stream(depth),
-                              setting.id,
-                              {},
-                              kept && kept->id == setting.id};
+                StreamUse use{camera.stream(depth), setting.id, {}};
                 for (const auto& [number, announced] : camera.receivers) {
                     const StreamReceiver& receiver = receivers_.at(number);
                     if (announced.of(depth) == setting.id && !receiver.past.contains(id))
                         use.receivers.push_back(
-                            {number, !receiver.records && !receiver.has_ceiling});
+                            {number, announced.highest_layer, receiver.max_kbit_per_s});
                 }
                 result.push_back(std::move(use));
             }
-        }
-    }
     return result;
+}
+
+int Streams::layer_of(const wire::MediaHeader& header) const {
+    const CameraStreams* camera = cameras_.find(camera_of(header.stream));
+    const bool depth = is_depth(header.stream);
+    const ActiveSetting* setting = camera ? camera->table(depth).find(header.setting) : nullptr;
+    // All frames of a chain go to everybody.
+    if (!setting || setting->traits.chain)
+        return 0;
+    if (depth)
+        return camera->color_layer(header.frame, header.setting);
+    // Those who see a colour setting have the same depth setting, but for few.
+    for (const auto& [id, announced] : camera->receivers)
+        if (announced.color == header.setting)
+            return camera->color_layer(header.frame, announced.depth);
+    return 0;
 }
 
 void Streams::request_key(StreamId stream, SettingId setting) {

@@ -22,17 +22,16 @@
 
 namespace theatron::session {
 
-// A stream of a participant's camera in one of its settings, and those who get it.
+// A stream in one of its settings, and those who get its present.
 struct StreamUse {
     struct Receiver {
         ParticipantId id{};
-        bool may_be_direct = false;  // it needs not every frame, and has no ceiling
+        int highest_layer = 0;             // that it is sent
+        std::uint32_t max_kbit_per_s = 0;  // of all that it is sent; 0: no ceiling
     };
-    ParticipantId publisher{};
     StreamId stream{};
     SettingId setting{};
     std::vector<Receiver> receivers;
-    bool is_kept = false;  // for looking back
 };
 
 // Why cameras leave: it was decided, by their publisher or by somebody else, or their publisher's
@@ -79,8 +78,10 @@ public:
 
     // Receivers. One that records gets everything, and others do not change its encodings. Faces go
     // to receivers that take them, in codecs of their own (own_pictures.h).
-    void join(ParticipantId receiver, const CodecWish& wish, bool records,
-              bool takes_faces = false);
+    void join(ParticipantId receiver, const CodecWish& wish, bool records, bool takes_faces = false,
+              bool is_by_relay = false);
+    // Its frames come from a relay, or no longer: the relay sees to its key frames.
+    void set_by_relay(ParticipantId receiver, bool is_by_relay);
     void leave(ParticipantId receiver);
     // An empty text keeps the codec. Empty `cameras`: for all, also for later ones.
     void choose(ParticipantId receiver, const CodecWish& wish,
@@ -111,8 +112,10 @@ public:
     const ActiveSetting* kept_setting(StreamId stream) const;
     // The receivers of this stream in this setting.
     std::vector<ParticipantId> receivers(StreamId stream, SettingId setting) const;
-    // All streams of participants' cameras, without faces, whose frames have limits at the host.
+    // All streams that are encoded.
     std::vector<StreamUse> uses() const;
+    // The layer of a frame after its on_media(), for receivers of its setting.
+    int layer_of(const wire::MediaHeader& header) const;
     // Grows whenever uses() may have changed.
     std::uint64_t changes() const { return changes_; }
     // The stream needs a key frame.

@@ -48,8 +48,8 @@ Bytes ViewerSession::begin() {
     playback_.reset();
     patient_ = asked_patient_ = {};
     visitors_.clear();
-    direct_grants_.clear();
-    direct_receivers_ = {};
+    relay_grants_.clear();
+    relay_receivers_ = {};
     study_step_ = {};
     study_reply_ = {};
     wire::Join join;
@@ -193,13 +193,13 @@ ViewerSession::Change ViewerSession::on_people(wire::ToParticipant message) {
         asked_patient_ = std::move(answer->patient);
         return Change::asked_patient;
     }
-    if (auto* grants = std::get_if<wire::DirectGrants>(&message)) {
-        direct_grants_ = std::move(grants->grants);
-        return Change::direct;
+    if (auto* grants = std::get_if<wire::RelayGrants>(&message)) {
+        relay_grants_ = std::move(grants->grants);
+        return Change::relay_grants;
     }
-    if (auto* receivers = std::get_if<wire::DirectReceivers>(&message)) {
-        direct_receivers_ = std::move(*receivers);
-        return Change::direct_receivers;
+    if (auto* receivers = std::get_if<wire::RelayReceivers>(&message)) {
+        relay_receivers_ = std::move(*receivers);
+        return Change::relay_receivers;
     }
     if (auto* step = std::get_if<wire::StudyStep>(&message)) {
         study_step_ = std::move(*step);

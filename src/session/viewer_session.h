@@ -57,13 +57,13 @@ public:
         content,     // content(): a piece of what this participant has asked for
         playback,    // playback(): where the recording is that the host plays
         patient,     // patient(): who the patient of the open case is
-        asked_patient,     // asked_patient(): the answer to wire::AskPatient
-        study,             // study_step(): what this participant of a study is to be shown
-        study_reply,       // study_reply(): of a participant whom this program leads
-        chat,              // chat(): what people have written
-        direct,            // direct_grants(): the publishers that this participant may connect to
-        direct_receivers,  // direct_receivers(): who may connect to this participant
-        goodbye,           // goodbye() says why: the session is over, the connection will end
+        asked_patient,    // asked_patient(): the answer to wire::AskPatient
+        study,            // study_step(): what this participant of a study is to be shown
+        study_reply,      // study_reply(): of a participant whom this program leads
+        chat,             // chat(): what people have written
+        relay_grants,     // relay_grants(): the relays that this participant may connect to
+        relay_receivers,  // relay_receivers(): who may connect to this relay
+        goodbye,          // goodbye() says why: the session is over, the connection will end
     };
     // Safe for untrusted input: damaged and unknown messages change nothing.
     Change on_control(ByteView message);
@@ -120,8 +120,8 @@ public:
     const wire::Patient& patient() const { return patient_; }
     // The newest answer, without texts if this participant may not know them; as patient().
     const wire::Patient& asked_patient() const { return asked_patient_; }
-    const std::vector<wire::DirectGrant>& direct_grants() const { return direct_grants_; }
-    const wire::DirectReceivers& direct_receivers() const { return direct_receivers_; }
+    const std::vector<wire::RelayGrant>& relay_grants() const { return relay_grants_; }
+    const wire::RelayReceivers& relay_receivers() const { return relay_receivers_; }
     const wire::StudyStep& study_step() const { return study_step_; }
     const wire::StudyReplied& study_reply() const { return study_reply_; }
     const wire::ChatMessages& chat() const { return chat_; }
@@ -161,8 +161,8 @@ private:
     wire::Content content_;
     std::optional<wire::Playback> playback_;
     wire::Patient patient_, asked_patient_;
-    std::vector<wire::DirectGrant> direct_grants_;
-    wire::DirectReceivers direct_receivers_;
+    std::vector<wire::RelayGrant> relay_grants_;
+    wire::RelayReceivers relay_receivers_;
     wire::StudyStep study_step_;
     wire::StudyReplied study_reply_;
     wire::ChatMessages chat_;

@@ -67,10 +67,10 @@ window::Fact cameras_fact(const std::vector<client::CameraFigures>& cameras) {
         text += (text.empty() ? "" : ", ") + say(state, std::to_string(count));
         trouble = trouble || state != Phrase::live_count;
     }
-    const auto direct = std::count_if(cameras.begin(), cameras.end(),
-                                      [](const auto& camera) { return camera.direct; });
-    if (direct > 0)
-        text += ", " + say(Phrase::direct_count, std::to_string(direct));
+    const auto relayed = std::count_if(cameras.begin(), cameras.end(),
+                                       [](const auto& camera) { return camera.relayed; });
+    if (relayed > 0)
+        text += ", " + say(Phrase::relayed_count, std::to_string(relayed));
     return {say(Phrase::cameras), text.empty() ? say(Phrase::none) : text, trouble};
 }
 

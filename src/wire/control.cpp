@@ -164,7 +164,7 @@ bool is_sound(const Camera& camera) {
 }
 bool is_sound(const Manage& decision) {
     return decision.action >= ManageAction::admit && decision.action <= ManageAction::lower_hand &&
-           is_known(decision.role);
+           is_of_person(decision.role);
 }
 bool is_sound(const Play& play) {
     return play.action >= PlayAction::pause && play.action <= PlayAction::seek;
@@ -199,15 +199,20 @@ bool is_sound(const Patient& patient) {
 bool is_sound(const AskedPatient& answer) {
     return answer.patient.of_case.size() == content_hash_size;
 }
-bool is_sound(const OfferDirect& offer) {
+bool is_sound(const OfferRelay& offer) {
     return offer.port == 0 || offer.fingerprint.size() == fingerprint_size;
 }
-bool is_sound(const DirectGrant& grant) {
+bool is_sound(const RelayGrant& grant) {
     return grant.fingerprint.size() == fingerprint_size &&
-           grant.secret.size() == direct_secret_size;
+           grant.secret.size() == relay_secret_size &&
+           (grant.key.empty() || grant.key.size() == media_key_size);
 }
-bool is_sound(const DirectReceiver& receiver) {
-    return receiver.secret.size() == direct_secret_size;
+bool is_sound(const RelayReceiver& receiver) {
+    return receiver.secret.size() == relay_secret_size &&
+           (receiver.layers.empty() || receiver.layers.size() == receiver.settings.size());
+}
+bool is_sound(const RelayLink& link) {
+    return link.round_trip >= Duration(0) && link.delay >= Duration(0);
 }
 bool is_sound(const StudyStep& step) {
     return step.kind <= StudyKind::over && step.step_size > 0 && step.lowest <= step.highest &&

@@ -22,14 +22,14 @@ namespace theatron::wire {
 // In the order of the unions in control.fbs.
 using ToHost = std::variant<Join, ChooseCodecs, RequestKey, Ping, Report, ChooseDelivery, Publish,
                             Unpublish, CameraState, RoomRequest, Manage, RequestContent,
-                            VoiceConsent, AdjustCamera, Play, LookBack, OfferDirect, AskPatient,
-                            ShowStudy, StudyReply, SetCondition, WriteChat, RaiseHand>;
+                            VoiceConsent, AdjustCamera, Play, LookBack, OfferRelay, AskPatient,
+                            ShowStudy, StudyReply, SetCondition, WriteChat, RaiseHand, RelayReport>;
 using ToParticipant =
     std::variant<Welcome, Settings, CameraState, Pong, Delivery, SetRenderer, Refused, Goodbye,
                  CamerasAdded, CamerasRemoved, Published, Encode, EncodeKey, RoomSnapshot,
                  RoomChange, RoomDecision, Waiting, Standing, Visitors, Managed, OfferedCases,
-                 Content, CameraChanged, Playback, ShareEnded, Patient, DirectGrants,
-                 DirectReceivers, AskedPatient, StudyStep, StudyReplied, ChatMessages>;
+                 Content, CameraChanged, Playback, ShareEnded, Patient, RelayGrants, RelayReceivers,
+                 AskedPatient, StudyStep, StudyReplied, ChatMessages>;
 
 // A refusal with its English sentence.
 Refused refused(Text reason);

@@ -45,12 +45,14 @@ enum class Feature : std::uint16_t {
     look_back = 9,      // may look back at the last minute: LookBack
     webcam = 10,        // is told of faces (CameraKind::face), and may send its own
     patient = 11,       // shows who the patient of the open case is, to a person who may know it
-    direct = 12,        // pictures go from publisher to receiver: OfferDirect, DirectGrants
+    // 12: pictures that went from publisher to receiver; of earlier versions
     asks_patient = 13,  // may ask whose case it is before it is opened: AskPatient, AskedPatient
     shows_screen = 14,  // may offer a screen as JPEG pictures: CameraKind::screen
     study = 15,         // shows steps of a study: StudyStep, StudyReply
     draws_flat = 16,  // shows the colour of one camera as it is: it has neither depth nor renderer
     chat = 17,        // shows what people write, and hands that they raise: WriteChat, ChatMessages
+    relay = 18,       // takes sealed pictures from a relay: RelayGrants
+    relays = 19,      // is a relay: OfferRelay, RelayReceivers, RelayReport
 };
 inline constexpr std::size_t max_features = 32;
 inline constexpr std::size_t person_id_size = 16;
@@ -68,12 +70,15 @@ inline constexpr Duration max_added_latency = std::chrono::seconds(5);
 inline constexpr std::size_t max_content_piece = 16 * 1024;      // bytes of content in one message
 inline constexpr std::size_t max_content_request = 1024 * 1024;  // bytes that one request asks for
 
-// Direct sending (docs/decisions/direct-sending.md): addresses of one publisher, receivers of one
-// publisher, publishers that one receiver may connect to.
-inline constexpr std::size_t max_direct_addresses = 6;
-inline constexpr std::size_t max_direct_receivers = 32;
-inline constexpr std::size_t max_direct_grants = 32;
-inline constexpr std::size_t direct_secret_size = 32;
+// Relays (docs/decisions/relays.md): addresses of one relay, the networks that it is for, receivers
+// of one relay, relays that one receiver may connect to.
+inline constexpr std::size_t max_relay_addresses = 6;
+inline constexpr std::size_t max_relay_networks = 16;
+inline constexpr std::size_t max_relay_receivers = 128;
+inline constexpr std::size_t max_relay_grants = 4;
+inline constexpr std::size_t max_relay_settings = max_streams;  // of one receiver
+inline constexpr std::size_t relay_secret_size = 32;
+inline constexpr std::size_t media_key_size = 32;    // of the session's sealed pictures
 inline constexpr std::size_t fingerprint_size = 32;  // SHA-256 of a certificate
 
 // A run of a host; random. Numbers of cameras and participants are of one session.

@@ -32,6 +32,8 @@ inline std::string spoken(Role role) {
             return say(Phrase::observer);
         case Role::operator_:
             return say(Phrase::operator_);
+        case Role::relay:
+            break;
     }
     return say(Phrase::unknown);
 }
@@ -45,6 +47,8 @@ inline std::string spoken_with_article(Role role) {
             return say(Phrase::an_observer);
         case Role::operator_:
             return say(Phrase::an_operator);
+        case Role::relay:
+            break;
     }
     return say(Phrase::unknown);
 }

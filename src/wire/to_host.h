@@ -141,8 +141,8 @@ struct StreamReport {
     std::uint32_t frames = 0;
     std::uint64_t bytes = 0;
     Duration age{};  // of the newest frame when it was decoded
-    // The setting whose frames come directly from the publisher now; {}: none.
-    SettingId direct{};
+    // The setting whose frames come from a relay now; {}: none.
+    SettingId relayed{};
 
     static void fields(auto& m, auto&& field) {
         field(m.stream);
@@ -150,7 +150,7 @@ struct StreamReport {
         field(m.frames);
         field(m.bytes);
         field(m.age);
-        field(m.direct);
+        field(m.relayed);
     }
 };
 
@@ -291,17 +291,50 @@ struct VoiceConsent {
     static void fields(auto& m, auto&& field) { field(m.may_record); }
 };
 
-// The participant listens for receivers of its cameras. The host sends receivers there, and answers
-// with DirectReceivers. Port 0: it no longer listens.
-struct OfferDirect {
-    std::vector<std::string> addresses;  // IPv4 or IPv6, of its machine
+// A relay listens for receivers. The host sends receivers there, and answers with RelayReceivers.
+// Port 0: it no longer listens.
+struct OfferRelay {
+    std::vector<std::string> addresses;  // under which receivers reach it: names, IPv4 or IPv6
     std::uint16_t port = 0;
     Bytes fingerprint;  // of the certificate that it shows
+    // IPv4 networks ("10.2.0.0/16") of the receivers that it is for; empty: of all.
+    std::vector<std::string> networks;
 
     static void fields(auto& m, auto&& field) {
-        field(m.addresses, max_direct_addresses);
+        field(m.addresses, max_relay_addresses);
         field(m.port);
         field(m.fingerprint, fingerprint_size);
+        field(m.networks, max_relay_networks);
+    }
+};
+
+// The link of one receiver, since the report before: see session::LinkMeasure.
+struct RelayLink {
+    ParticipantId participant{};
+    std::uint32_t kbit_per_s = 0;
+    Duration round_trip{}, delay{};
+    std::uint32_t dropped = 0;  // frames
+    bool takes_nothing = false;
+    bool operator==(const RelayLink&) const = default;
+
+    static void fields(auto& m, auto&& field) {
+        field(m.participant);
+        field(m.kbit_per_s);
+        field(m.round_trip);
+        field(m.delay);
+        field(m.dropped);
+        field(m.takes_nothing);
+    }
+};
+
+// Sent by a relay ten times a second, and when it needs a key frame.
+struct RelayReport {
+    std::vector<RelayLink> links;
+    std::vector<RequestKey> keys;
+
+    static void fields(auto& m, auto&& field) {
+        field(m.links, max_relay_receivers);
+        field(m.keys, max_encodings);
     }
 };
 

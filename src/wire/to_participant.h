@@ -461,53 +461,63 @@ struct ChatMessages {
     static void fields(auto& m, auto&& field) { field(m.messages, max_chat_messages); }
 };
 
-// To a receiver: the permission to connect to this publisher for the pictures of its cameras.
-struct DirectGrant {
-    ParticipantId publisher{};
+// To a receiver: the permission to connect to this relay for all pictures, which come sealed
+// (net/sealed_media.h).
+struct RelayGrant {
+    ParticipantId relay{};
     std::vector<std::string> addresses;  // to be tried in this order
     std::uint16_t port = 0;
-    Bytes fingerprint;  // of the certificate that the publisher shows
+    Bytes fingerprint;  // of the certificate that the relay shows
     Bytes secret;       // that the receiver shows
-    bool operator==(const DirectGrant&) const = default;
+    std::uint32_t key_number = 0;
+    Bytes key;  // of the session; pictures sealed with the one before may still be on the way
+    bool operator==(const RelayGrant&) const = default;
 
     static void fields(auto& m, auto&& field) {
-        field(m.publisher);
-        field(m.addresses, max_direct_addresses + 1);
+        field(m.relay);
+        field(m.addresses, max_relay_addresses);
         field(m.port);
         field(m.fingerprint, fingerprint_size);
-        field(m.secret, direct_secret_size);
+        field(m.secret, relay_secret_size);
+        field(m.key_number);
+        field(m.key, media_key_size);
     }
 };
 
 // All permissions of the receiver from now on.
-struct DirectGrants {
-    std::vector<DirectGrant> grants;
-    bool operator==(const DirectGrants&) const = default;
+struct RelayGrants {
+    std::vector<RelayGrant> grants;
+    bool operator==(const RelayGrants&) const = default;
 
-    static void fields(auto& m, auto&& field) { field(m.grants, max_direct_grants); }
+    static void fields(auto& m, auto&& field) { field(m.grants, max_relay_grants); }
 };
 
-struct DirectReceiver {
+struct RelayReceiver {
     Bytes secret;                     // that it shows
     std::vector<SettingId> settings;  // whose frames it is sent
-    bool operator==(const DirectReceiver&) const = default;
+    ParticipantId participant{};
+    Bytes layers;                      // for each of `settings` the highest that it is sent
+    std::uint32_t max_kbit_per_s = 0;  // 0: no ceiling
+    bool operator==(const RelayReceiver&) const = default;
 
     static void fields(auto& m, auto&& field) {
-        field(m.secret, direct_secret_size);
-        field(m.settings, max_encodings);
+        field(m.secret, relay_secret_size);
+        field(m.settings, max_relay_settings);
+        field(m.participant);
+        field(m.layers, max_relay_settings);
+        field(m.max_kbit_per_s);
     }
 };
 
-// To a publisher: all receivers that may connect to it from now on.
-struct DirectReceivers {
-    std::vector<DirectReceiver> receivers;
-    // Nobody needs the frames of these settings from the host: they are not to be sent to it.
-    std::vector<SettingId> not_to_host;
-    bool operator==(const DirectReceivers&) const = default;
+// To a relay: all receivers that may connect to it from now on.
+struct RelayReceivers {
+    std::vector<RelayReceiver> receivers;
+    std::vector<SettingId> retired;  // of earlier versions; empty
+    bool operator==(const RelayReceivers&) const = default;
 
     static void fields(auto& m, auto&& field) {
-        field(m.receivers, max_direct_receivers);
-        field(m.not_to_host, max_encodings);
+        field(m.receivers, max_relay_receivers);
+        field(m.retired, max_encodings);
     }
 };
 

@@ -441,26 +441,26 @@ TEST(Control, EveryMessageRoundTrips) {
     EXPECT_EQ(decode_to_participant(encode(ToParticipant(AskedPatient{}))).error(),
               theatron::Status::malformed)
         << "an answer says to which case it belongs";
-    const OfferDirect listening =
-        round_trip(OfferDirect{{"192.0.2.7", "2001:db8::7"}, 40123, numbered(fingerprint_size)});
+    const OfferRelay listening =
+        round_trip(OfferRelay{{"192.0.2.7", "2001:db8::7"}, 40123, numbered(fingerprint_size)});
     EXPECT_EQ(listening.addresses, (std::vector<std::string>{"192.0.2.7", "2001:db8::7"}));
     EXPECT_EQ(listening.port, 40123);
     EXPECT_EQ(listening.fingerprint, numbered(fingerprint_size));
-    const DirectGrants grants{{{ParticipantId{4},
-                                {"192.0.2.7"},
-                                40123,
-                                numbered(fingerprint_size),
-                                numbered(direct_secret_size)}}};
+    const RelayGrants grants{{{ParticipantId{4},
+                               {"192.0.2.7"},
+                               40123,
+                               numbered(fingerprint_size),
+                               numbered(relay_secret_size)}}};
     EXPECT_EQ(round_trip(grants), grants);
-    const DirectReceivers receivers{{{numbered(direct_secret_size), {SettingId{3}, SettingId{9}}}},
-                                    {SettingId{9}}};
+    const RelayReceivers receivers{{{numbered(relay_secret_size), {SettingId{3}, SettingId{9}}}},
+                                   {SettingId{9}}};
     EXPECT_EQ(round_trip(receivers), receivers);
-    EXPECT_FALSE(decoded_again(OfferDirect{{"192.0.2.7"}, 40123, Bytes(31)}));
-    EXPECT_FALSE(decoded_again(DirectReceivers{{{Bytes(31), {}}}, {}}));
-    EXPECT_FALSE(decoded_again(DirectGrants{{{{}, {}, 1, numbered(32), Bytes(33)}}}));
+    EXPECT_FALSE(decoded_again(OfferRelay{{"192.0.2.7"}, 40123, Bytes(31)}));
+    EXPECT_FALSE(decoded_again(RelayReceivers{{{Bytes(31), {}}}, {}}));
+    EXPECT_FALSE(decoded_again(RelayGrants{{{{}, {}, 1, numbered(32), Bytes(33)}}}));
     EXPECT_EQ(round_trip(Report{{{StreamId{2}, 7, 8, 9, Duration(5), SettingId{3}}}, ""})
                   .streams.at(0)
-                  .direct,
+                  .relayed,
               SettingId{3});
     CameraChanged change;
     change.camera.id = CameraId{3};

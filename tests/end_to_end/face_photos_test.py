@@ -64,6 +64,25 @@ class FacePhotos(unittest.TestCase):
             wait_until(lambda: screen.has((255, 200, 70), 5, place[0] - 4, place[1] - 4, 9, 9))
         return truth
 
+    def test_no_output_replaces_a_photo_a_pipe_or_a_foreign_file(self):
+        photo = self.folder / "own.jpg"
+        shutil.copy(self.photos / "neutral.jpg", photo)
+        before = photo.read_bytes()
+        pipe, notes = self.folder / "pipe", self.folder / "notes.txt"
+        os.mkfifo(pipe)
+        notes.write_text("of somebody")
+        for out in (photo, pipe, notes):
+            code, _, errors = run("face", "landmarks", photo, "--out", out, "--overwrite", *self.none)
+            self.assertNotEqual(code, 0)
+            self.assertIn(str(out), errors)
+        code, _, errors = run("face", "enrol", "--photo", photo, "--out", pipe, "--overwrite",
+                              "--passphrase-file", self.passphrase, *self.none)
+        self.assertNotEqual(code, 0)
+        self.assertIn("pipe", errors)
+        self.assertTrue(pipe.is_fifo())
+        self.assertEqual(photo.read_bytes(), before)
+        self.assertEqual(notes.read_text(), "of somebody")
+
     def save(self, screen, name):
         if PICTURES:
             screen.save(pathlib.Path(PICTURES) / f"{name}.png", WIDTH, HEIGHT)

@@ -61,7 +61,7 @@ class Moments(unittest.TestCase):
         with host(self.folder / "published", CAMERA.format(0)) as h, \
                 Process("publish", h.greeting["publish_link"], "--every", "0.2",
                         "--camera", CAMERA.format(0), "--camera", CAMERA.format(1) + ",late_ms=8") as cart, \
-                self.viewer(h.greeting["link"], "--every", "0.2", "--direct", "off") as viewer:
+                self.viewer(h.greeting["link"], "--every", "0.2") as viewer:
             told = viewer.wait_for(lambda f: middle_skew(f) is not None)
             sent = cart.wait_for(lambda f: middle_skew(f) is not None)
             truth = apart(sent["cameras"])

@@ -115,7 +115,7 @@ class Output(unittest.TestCase):
         programs = {
             "recorder": self.start(make_output, "record", link, self.folder / "session.mkv", "--name", "recorder"),
             "sender": self.start(make_output, "publish", publish_link, "--name", "sender", "--camera",
-                                 self.camera, "--every", "0.05", "--direct", "off"),
+                                 self.camera, "--every", "0.05"),
             "listener": self.start(make_output, "join", link, "--no-window", "--name", "listener", "--every", "0.05"),
         }
         if shutil.which("Xvfb"):

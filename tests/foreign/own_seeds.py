@@ -293,7 +293,7 @@ def seeds():
         "room_bytes_fuzz": room_bytes(),
         "room_track_fuzz": [("key_and_later", room_track())],
         "voice_fuzz": [("spoken", spoken())],
-        "direct_greeting_fuzz": [("greeting", b"TDIR\1" + bytes(range(32)))],
+        "relay_greeting_fuzz": [("greeting", b"TREL\1" + bytes(range(32)))],
     }
     for target, ones in by_target.items():
         for name, data in ones:

@@ -185,7 +185,7 @@ private:
         header.payload_size = std::uint32_t(size);
         auto message = std::make_shared<Bytes>(wire::media_header_size + header.payload_size);
         wire::write_media_header(header, message->data());
-        for (const ParticipantId id : host_.on_media(header, message->size(), now)) {
+        for (const ParticipantId id : host_.on_media(header, message->size(), now).receivers) {
             ASSERT_EQ(id, viewer_id);
             const auto pushed =
                 outbox_.push_media({message, header.stream, header.setting, number,

@@ -207,7 +207,8 @@ private:
                 if (message[0] == std::byte{0}) {
                     host_.on_control(peer.id, content, now);
                 } else {
-                    for (const ParticipantId receiver : host_.on_media_from(peer.id, content, now))
+                    for (const ParticipantId receiver :
+                         host_.on_media_from(peer.id, content, now).receivers)
                         find(receiver)->down.send(message, now);
                 }
                 obey();

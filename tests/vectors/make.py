@@ -81,7 +81,7 @@ def make_session(file, work):
         ada.say("brick 0.5 1 0.25")
         ada.wait_for(lambda f: f["room"]["objects"])
         wait_until(lambda: file.exists() and file.stat().st_size > 10000, of=recorder)
-        with Process("publish", h.greeting["links"]["publisher"], "--camera", own, "--may-record", "--name", "Ben", "--direct", "off"):
+        with Process("publish", h.greeting["links"]["publisher"], "--camera", own, "--may-record", "--name", "Ben"):
             second = file.with_name(file.stem + ".002.mkv")
             wait_until(lambda: second.exists() and second.stat().st_size > 12000, of=recorder)
             recorder.process.terminate()
