@@ -91,11 +91,10 @@ std::string short_label_of(const Mark& mark) {
         return label_of(mark);
     const double mm = 1000 * length(mark.points[1].position - mark.points[0].position);
     const std::string whole = std::to_string(std::lround(mm));
-    // An uncertainty is not told smaller than it is.
-    return mark.deviation_m > 0
-               ? whole + " \u00b1 " +
-                     std::to_string(int(std::ceil(2000 * double(mark.deviation_m)))) + " mm"
-               : whole + " mm";
+    // An uncertainty is not told smaller than the long label tells it, in tenths.
+    const long tenths = std::lround(20'000 * double(mark.deviation_m));
+    return mark.deviation_m > 0 ? whole + " \u00b1 " + std::to_string((tenths + 9) / 10) + " mm"
+                                : whole + " mm";
 }
 
 render::LabelRank rank_of(MarkKind kind) {
