@@ -166,6 +166,12 @@ def lattice(bar=6, cell=12):
     return bytes(251 if x % (bar + cell) < bar or y % (bar + cell) < bar else 252 for y in range(48) for x in range(64))
 
 
+def sealed_media():
+    """A sealed media message of the key 1, whose tag is none."""
+    payload = bytes(range(40)) + struct.pack("<IQ", 1, 1) + bytes(16)
+    return struct.pack("<4B2H2I2HI2q4IQ", 1, 66, 1, 0, 1, 2, 7, 7, 0, 1, len(payload), 33_333, 33_000, 100, 200, 2000, 2000, 0) + payload
+
+
 def received_h264():
     """A first byte that chooses settings with colour as h264, and a key frame of the colour stream behind its length."""
     payload = (ROOT / "tests/corpus/color_h264_fuzz/key").read_bytes()
@@ -294,6 +300,7 @@ def seeds():
         "room_track_fuzz": [("key_and_later", room_track())],
         "voice_fuzz": [("spoken", spoken())],
         "relay_greeting_fuzz": [("greeting", b"TREL\1" + bytes(range(32)))],
+        "sealed_media_fuzz": [("sealed", sealed_media())],
     }
     for target, ones in by_target.items():
         for name, data in ones:
