@@ -74,6 +74,7 @@ set(THEATRON_COMPILED_ALONE
   src/net/door.cpp
   src/net/link_test.cpp
   src/net/sha256.cpp
+  src/net/tcp_path.cpp
   src/net/way_to_host.cpp
   src/record/intake_test.cpp
   src/record/remarks.cpp

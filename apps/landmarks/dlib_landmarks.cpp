@@ -22,8 +22,7 @@ dlib::array2d<dlib::rgb_pixel> picture_of(const Photo& photo) {
 
 }  // namespace
 
-Outcome find(const Photo& photo, const std::string& file,
-             std::vector<std::pair<long, long>>& points) {
+Outcome find(const Photo& photo, const std::string& file, Found& found) {
     dlib::shape_predictor model;
     try {
         dlib::deserialize(file) >> model;
@@ -35,14 +34,16 @@ Outcome find(const Photo& photo, const std::string& file,
     const auto picture = picture_of(photo);
     dlib::frontal_face_detector finder = dlib::get_frontal_face_detector();
     dlib::rectangle largest;
-    for (const dlib::rectangle& face : finder(picture))
+    for (const dlib::rectangle& face : finder(picture)) {
+        ++found.faces;
         if (face.area() > largest.area())
             largest = face;
+    }
     if (largest.is_empty())
         return Outcome::no_face;
-    const dlib::full_object_detection found = model(picture, largest);
+    const dlib::full_object_detection landmarks = model(picture, largest);
     for (unsigned long i = 0; i < landmark_count; ++i)
-        points.emplace_back(found.part(i).x(), found.part(i).y());
+        found.points.emplace_back(landmarks.part(i).x(), landmarks.part(i).y());
     return Outcome::found;
 }
 

@@ -16,9 +16,12 @@ struct Photo {
 
 enum class Outcome { found, no_face, no_model };
 
-// `file` is a shape_predictor of dlib; `points` gets x and y of each landmark. May throw what dlib
-// throws.
-Outcome find(const Photo& photo, const std::string& file,
-             std::vector<std::pair<long, long>>& points);
+struct Found {
+    int faces = 0;                              // in the photo
+    std::vector<std::pair<long, long>> points;  // x and y of each landmark of the largest one
+};
+
+// `file` is a shape_predictor of dlib. May throw what dlib throws.
+Outcome find(const Photo& photo, const std::string& file, Found& found);
 
 }  // namespace theatron::landmarks

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// theatron-landmarks MODEL < photo.ppm > face.pts
+// theatron-landmarks MODEL < photo.ppm
 //
+// Writes "faces: " and their number, then the landmarks of the largest one as a .pts file.
 // Theatron starts it (src/enrol/landmark_finder.h). Exit codes: 3 no face, 4 no model, 1 anything
 // else.
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 
@@ -29,8 +31,8 @@ int run(const char* model) {
     Photo photo;
     if (!read_photo(photo))
         return failed;
-    std::vector<std::pair<long, long>> points;
-    switch (find(photo, model, points)) {
+    Found found;
+    switch (find(photo, model, found)) {
         case Outcome::no_face:
             return no_face;
         case Outcome::no_model:
@@ -38,8 +40,9 @@ int run(const char* model) {
         case Outcome::found:
             break;
     }
-    std::printf("version: 1\nn_points: %zu\n{\n", points.size());
-    for (const auto& [x, y] : points)
+    std::printf("faces: %d\nversion: 1\nn_points: %zu\n{\n", std::min(found.faces, 999),
+                found.points.size());
+    for (const auto& [x, y] : found.points)
         std::printf("%ld %ld\n", x, y);
     std::printf("}\n");
     return std::fflush(stdout) == 0 ? 0 : failed;
@@ -52,7 +55,7 @@ int main(int count, char** words) {
     const rlimit none{0, 0};
     setrlimit(RLIMIT_CORE, &none);
     if (count != 2) {
-        std::fputs("usage: theatron-landmarks MODEL < photo.ppm > face.pts\n", stderr);
+        std::fputs("usage: theatron-landmarks MODEL < photo.ppm\n", stderr);
         return failed;
     }
     try {

@@ -12,6 +12,7 @@
 #include "capture/face_camera.h"
 #include "cli/stop_signal.h"
 #include "enrol/photo_files.h"
+#include "enrol/photo_texts.h"
 #include "enrol/photo_window_native.h"
 #include "face/enrol.h"
 #include "face_command.h"
@@ -40,7 +41,8 @@ Bytes texture_bytes(const ColorImage& texture) {
     }
 }
 
-std::vector<enrol::Photo> read_photos(const FaceEnrol& wanted) {
+std::vector<enrol::Photo> read_photos(const FaceEnrol& wanted,
+                                      const enrol::PhotoGuide::Usual& usual) {
     std::vector<enrol::Photo> photos;
     for (const face::Emotion emotion : enrol::photo_order) {
         const auto& files = wanted.photos[std::size_t(emotion)];
@@ -50,7 +52,8 @@ std::vector<enrol::Photo> read_photos(const FaceEnrol& wanted) {
         photo.emotion = emotion;
         photo.picture = enrol::read_photo(files.picture);
         if (!files.landmarks.empty())
-            photo.landmarks_px = enrol::read_landmarks(files.landmarks, photo.picture.size);
+            photo.landmarks_px = enrol::read_landmarks(files.landmarks, photo.picture.size,
+                                                       usual[std::size_t(emotion)]);
     }
     return photos;
 }
@@ -64,8 +67,8 @@ void say_whose_model() {
 
 // For photos that came without landmarks. `file` names a photo in sentences.
 template <class NameOf>
-void find_landmarks(std::vector<enrol::Photo>& photos, const enrol::LandmarkFinder& finder,
-                    const NameOf& name_of) {
+void find_landmarks(std::vector<enrol::Photo>& photos, const enrol::PhotoGuide::Usual& usual,
+                    const enrol::LandmarkFinder& finder, const NameOf& name_of) {
     bool is_said = false;
     for (enrol::Photo& photo : photos) {
         if (photo.landmarks_px)
@@ -75,6 +78,13 @@ void find_landmarks(std::vector<enrol::Photo>& photos, const enrol::LandmarkFind
         const enrol::FoundLandmarks found = finder.find(photo.picture.view());
         if (!found.landmarks_px)
             throw Error("'" + name_of(photo.emotion) + "': " + found.problem + by_hand);
+        if (const auto fault = face::landmark_fault(
+                *found.landmarks_px, usual[std::size_t(photo.emotion)], photo.picture.size))
+            throw Error("'" + name_of(photo.emotion) + "': what was found is no face. " +
+                        enrol::reason_of(*fault) + "." + by_hand);
+        if (found.faces > 1)
+            log::say("'" + name_of(photo.emotion) + "' shows " + std::to_string(found.faces) +
+                     " faces; the largest one is taken.");
         photo.landmarks_px = found.landmarks_px;
     }
 }
@@ -89,7 +99,8 @@ std::vector<enrol::Photo> ask_photos(const FaceWindow& wanted, enrol::PhotoGuide
     else
         log::say(finder.problem() + " You mark eight places of each photo instead.");
     set_language(parse_language(wanted.language).value_or(Language::english));
-    window::DesktopWindow window(say(Phrase::enrol_title) + " - Theatron", parse_size(wanted.size));
+    window::DesktopWindow window(say(Phrase::enrol_title) + " - Theatron", parse_size(wanted.size),
+                                 "Give each photo its landmarks in a .pts file instead.");
     auto photos = enrol::ask_photos(window, std::move(guide), std::move(camera), finder,
                                     [] { return cli::stop_requested(); });
     if (!photos)
@@ -106,17 +117,17 @@ enrol::PhotoGuide::Usual usual_landmarks(const face::MorphModel& model) {
 
 std::vector<enrol::Photo> photos_of(const FaceEnrol& wanted, const face::MorphModel& model) {
     const enrol::LandmarkFinder finder(wanted.window.landmark_model);
+    const enrol::PhotoGuide::Usual usual = usual_landmarks(model);
     if (!wanted.camera.empty()) {
         auto camera = capture::open_camera(capture::webcam_specification(wanted.camera));
-        return ask_photos(wanted.window, enrol::PhotoGuide::from_camera(usual_landmarks(model)),
-                          std::move(camera), finder);
+        return ask_photos(wanted.window, enrol::PhotoGuide::from_camera(usual), std::move(camera),
+                          finder);
     }
-    std::vector<enrol::Photo> photos = read_photos(wanted);
+    std::vector<enrol::Photo> photos = read_photos(wanted, usual);
     if (wanted.window.mark)
-        return ask_photos(wanted.window,
-                          enrol::PhotoGuide::of_photos(std::move(photos), usual_landmarks(model)),
+        return ask_photos(wanted.window, enrol::PhotoGuide::of_photos(std::move(photos), usual),
                           nullptr, finder);
-    find_landmarks(photos, finder, [&](face::Emotion emotion) {
+    find_landmarks(photos, usual, finder, [&](face::Emotion emotion) {
         return wanted.photos[std::size_t(emotion)].picture;
     });
     return photos;
@@ -206,13 +217,12 @@ void run_face_landmarks(const FaceLandmarks& wanted) {
     photos[0].emotion = *face::emotion_of(wanted.emotion);
     photos[0].picture = enrol::read_photo(wanted.photo);
     const enrol::LandmarkFinder finder(wanted.window.landmark_model);
+    const enrol::PhotoGuide::Usual usual = usual_landmarks(face::generated_head());
     if (wanted.window.mark)
-        photos = ask_photos(wanted.window,
-                            enrol::PhotoGuide::of_photos(std::move(photos),
-                                                         usual_landmarks(face::generated_head())),
+        photos = ask_photos(wanted.window, enrol::PhotoGuide::of_photos(std::move(photos), usual),
                             nullptr, finder);
     else
-        find_landmarks(photos, finder, [&](face::Emotion) { return wanted.photo; });
+        find_landmarks(photos, usual, finder, [&](face::Emotion) { return wanted.photo; });
     files::write_private_file(wanted.out, enrol::pts_text(*photos[0].landmarks_px));
     output::result(wanted.out + ": 68 landmarks\n");
 }

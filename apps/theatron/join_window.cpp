@@ -19,6 +19,9 @@
 namespace theatron::app {
 namespace {
 
+constexpr const char* without_display =
+    "Use --offscreen FILE.png for a picture, or --no-window to receive without one.";
+
 // Those that the last windows have entered. A problem is said.
 client::RecentLinks recent_links() {
     std::string problem;
@@ -63,7 +66,7 @@ void join_in_window(const JoinFlags& flags) {
                                flags.voice_may_record || shown.settings.now.voice_may_record,
                                !flags.webcam.empty()};
     cli::catch_stop_signals();
-    window::DesktopWindow window("Theatron", parse_size(flags.size));
+    window::DesktopWindow window("Theatron", parse_size(flags.size), without_display);
     WindowWatch watch(window);
     const auto expression = open_face(flags);
     for (std::string problem;;) {
@@ -147,7 +150,7 @@ void join_as_or_screen(const JoinFlags& flags) {
                             flags.push_to_talk, parse_cleaning(flags.echo_cancellation),
                             parse_spatial(flags.spatial_voices)});
     cli::catch_stop_signals();
-    window::DesktopWindow window("Theatron", parse_size(flags.size));
+    window::DesktopWindow window("Theatron", parse_size(flags.size), without_display);
     show_or_screen(window, {waits ? flags.link : "", std::move(options), voice, flags.seconds});
 }
 

@@ -321,6 +321,9 @@ void add_interaction(CLI::App& bench) {
             std::printf("  poses, beyond the link's delay: p50 %.1f ms, p99 %.1f ms, max %.1f ms\n",
                         r["p50_ms"].get<double>(), r["p99_ms"].get<double>(),
                         r["max_ms"].get<double>());
+            std::printf("  the same at one who takes no pictures: p50 %.1f ms, p99 %.1f ms\n",
+                        r["poses_without_pictures_ms"]["p50"].get<double>(),
+                        r["poses_without_pictures_ms"]["p99"].get<double>());
             std::printf("  round trips, the same: p50 %.1f ms, p99 %.1f ms\n",
                         r["round_trip_ms"]["p50"].get<double>(),
                         r["round_trip_ms"]["p99"].get<double>());

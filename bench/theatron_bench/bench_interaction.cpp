@@ -89,10 +89,27 @@ private:
     ChildProcess child_;
 };
 
-// Written by the viewer's network thread.
-struct Ages {
-    std::mutex mutex;
-    std::vector<double> ms;
+// Written by a participant's network thread.
+class Ages {
+public:
+    void note(const wire::PersonPose& pose) {
+        // One machine has one clock, which is the session's.
+        const double age = to_ms(steady_now() - pose.time);
+        const std::lock_guard lock(mutex_);
+        ms_.push_back(age);
+    }
+    void clear() {
+        const std::lock_guard lock(mutex_);
+        ms_.clear();
+    }
+    std::vector<double> all() {
+        const std::lock_guard lock(mutex_);
+        return ms_;
+    }
+
+private:
+    std::mutex mutex_;
+    std::vector<double> ms_;
 };
 
 enum class Part { mover, viewer, actor };
@@ -106,17 +123,13 @@ std::unique_ptr<Participant> join(const InteractionBench& bench, const net::Link
     options.color_codec = bench.color_codec;
     if (part == Part::actor) {
         options.delivery = {std::uint32_t(bench.target_latency_ms), 0};
+        options.pose = [&ages](ParticipantId, const wire::PersonPose& pose) { ages.note(pose); };
         grabs.prepare_actor(options);
     } else if (part == Part::viewer) {
         grabs.prepare_partner(options);
         options.keeps_cases = !bench.cases.empty();
         options.delivery = {std::uint32_t(bench.target_latency_ms), 0};
-        options.pose = [&ages](ParticipantId, const wire::PersonPose& pose) {
-            // One machine has one clock, which is the session's.
-            const double age = to_ms(steady_now() - pose.time);
-            const std::lock_guard lock(ages.mutex);
-            ages.ms.push_back(age);
-        };
+        options.pose = [&ages](ParticipantId, const wire::PersonPose& pose) { ages.note(pose); };
     } else {
         constexpr std::uint32_t hardly_any_kbit = 100;
         options.delivery = {0, hardly_any_kbit};
@@ -173,14 +186,14 @@ nlohmann::json bench_interaction(const InteractionBench& bench) {
         throw Error("The host did not start; its message is above.");
     const net::Link link = net::parse_link(greeting["link"].get<std::string>());
 
-    Ages ages;
+    Ages ages, ages_of_actor;
     Grabs grabs;  // longer than the participants
     std::vector<std::unique_ptr<Participant>> people;
     for (int i = 0; i < bench.people; ++i)
         people.push_back(join(bench, link, ages, grabs, Part::mover));
     enter_namespace(bench.viewer_namespace);
     const auto viewer = join(bench, link, ages, grabs, Part::viewer);
-    const auto actor = join(bench, link, ages, grabs, Part::actor);
+    const auto actor = join(bench, link, ages_of_actor, grabs, Part::actor);
     for (const auto& person : people)
         wait_for(*person);
     wait_for(*viewer);
@@ -216,8 +229,8 @@ nlohmann::json bench_interaction(const InteractionBench& bench) {
             grabs.reset();
             fetched = case_progress(*viewer);
             host_cpu = usage_of(host.pid()).cpu_seconds;
-            const std::lock_guard lock(ages.mutex);
-            ages.ms.clear();
+            ages.clear();
+            ages_of_actor.clear();
         } else if (measuring && status.pongs != pongs) {
             round_trips.push_back(to_ms(status.newest_round_trip));
         }
@@ -229,8 +242,8 @@ nlohmann::json bench_interaction(const InteractionBench& bench) {
     (void)viewer->figures();
     std::this_thread::sleep_for(50ms);
     const auto figures = viewer->figures();
-    const std::lock_guard lock(ages.mutex);
-    if (ages.ms.empty() || round_trips.empty() || figures.empty())
+    const std::vector<double> ages_ms = ages.all(), actor_ms = ages_of_actor.all();
+    if (ages_ms.empty() || actor_ms.empty() || round_trips.empty() || figures.empty())
         throw Error("Nothing came to the viewer.");
     double fps = 1e9, mbit = 0, age_p50 = 0, age_p99 = 0;
     for (const auto& stream : figures) {
@@ -247,7 +260,7 @@ nlohmann::json bench_interaction(const InteractionBench& bench) {
     nlohmann::json drawn;
     if (drawing)
         drawn = drawing->end();
-    const nlohmann::json late = percentiles(ages.ms, bench.link_delay_ms);
+    const nlohmann::json late = percentiles(ages_ms, bench.link_delay_ms);
     return {{"p50_ms", late["p50"]},
             {"p99_ms", late["p99"]},
             {"max_ms", late["max"]},
@@ -255,7 +268,8 @@ nlohmann::json bench_interaction(const InteractionBench& bench) {
             {"grabs", grabs.result()},
             {"host_cores", host_cpu / bench.seconds},
             {"cameras", bench.cameras.size()},
-            {"poses", ages.ms.size()},
+            {"poses", ages_ms.size()},
+            {"poses_without_pictures_ms", percentiles(actor_ms, bench.link_delay_ms)},
             {"link_delay_ms", bench.link_delay_ms},
             {"crowd", bench.crowd},
             {"round_trip_ms", percentiles(round_trips, 2 * bench.link_delay_ms)},

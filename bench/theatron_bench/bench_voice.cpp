@@ -116,6 +116,18 @@ nlohmann::json follow(ChildProcess& member, TimePoint end) {
     return newest;
 }
 
+// Sound that the listener's decoder made up, since it began.
+nlohmann::json concealed_of(const nlohmann::json& voices) {
+    double seconds = 0, concealed_ms = 0, longest_ms = 0;
+    for (const nlohmann::json& voice : voices) {
+        seconds += voice["seconds"].get<double>();
+        concealed_ms += voice["concealed_ms"].get<double>();
+        longest_ms = std::max(longest_ms, voice["longest_concealed_ms"].get<double>());
+    }
+    return {{"percent", seconds > 0 ? concealed_ms / (10 * seconds) : 0},
+            {"longest_ms", longest_ms}};
+}
+
 double us_of(const nlohmann::json& voice, const char* key) {
     if (!voice.contains(key) || !voice[key].is_number())
         throw Error("A participant did not open its sound file; its message is above.");
@@ -192,7 +204,8 @@ nlohmann::json mouth_to_ear(const VoiceBench& bench) {
     nlohmann::json result{{"p50", percentile(delays, 0.5)},
                           {"p95", percentile(delays, 0.95)},
                           {"max", percentile(delays, 1)},
-                          {"count", delays.size()}};
+                          {"count", delays.size()},
+                          {"concealed", concealed_of(heard["voice"]["voices"])}};
     if (!bench.own_camera.empty()) {
         const auto own =
             std::find_if(heard["cameras"].begin(), heard["cameras"].end(),
@@ -311,6 +324,9 @@ void add_voice_bench(CLI::App& bench) {
             std::printf("mouth to ear, packets of %d ms: p50 %.1f ms, p95 %.1f ms, max %.1f ms\n",
                         b.frame_ms, delay["p50"].get<double>(), delay["p95"].get<double>(),
                         delay["max"].get<double>());
+            std::printf("  concealed: %.2f %%, at most %.0f ms in a row\n",
+                        delay["concealed"]["percent"].get<double>(),
+                        delay["concealed"]["longest_ms"].get<double>());
             if (delay.contains("after_color"))
                 std::printf("the speaker's colour: age p50 %.1f ms, the voice is %.1f ms later\n",
                             delay["color_age_p50"].get<double>(),

@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdio>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -132,12 +134,12 @@ std::string LandmarkFinder::problem() const {
 
 FoundLandmarks LandmarkFinder::find(ColorView photo) const {
     if (std::string none = problem(); !none.empty())
-        return {std::nullopt, std::move(none)};
+        return {std::nullopt, 0, std::move(none)};
     const double share =
         std::min(1.0, double(longest_side) / std::max(photo.size.width, photo.size.height));
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0)
-        return {std::nullopt, "Too many files are open to look for landmarks."};
+        return {std::nullopt, 0, "Too many files are open to look for landmarks."};
     const Descriptor output(ends[0]);
     Descriptor input(ends[1]);
     pid_t child = 0;
@@ -149,7 +151,7 @@ FoundLandmarks LandmarkFinder::find(ColorView photo) const {
         plan.close_from(STDERR_FILENO + 1);
         child = plan.start(program_.c_str(), {program_name, model_.string()}, environ);
     } catch (const Error& error) {
-        return {std::nullopt, error.what()};
+        return {std::nullopt, 0, error.what()};
     }
     input.close();
     const auto answer = read_answer(output.get(), patience_);
@@ -157,17 +159,21 @@ FoundLandmarks LandmarkFinder::find(ColorView photo) const {
         kill(child, SIGKILL);
     const int code = exit_code(child);
     if (!answer)
-        return {std::nullopt, std::string(program_name) + " did not end; it was ended."};
+        return {std::nullopt, 0, std::string(program_name) + " did not end; it was ended."};
     if (code == no_face)
-        return {std::nullopt, "No face was found in the photo."};
+        return {std::nullopt, 0, "No face was found in the photo.", true};
     if (code == no_model)
-        return {std::nullopt, "'" + model_.string() + "' is no model of 68 landmarks."};
-    auto landmarks = face::parse_pts(*answer);
-    if (code != 0 || !landmarks)
-        return {std::nullopt, std::string(program_name) + " failed."};
+        return {std::nullopt, 0, "'" + model_.string() + "' is no model of 68 landmarks."};
+    // A line with the number of faces, then the landmarks of the largest one.
+    int faces = 0, end_of_line = 0;
+    const bool is_counted =
+        std::sscanf(answer->c_str(), "faces: %3d\n%n", &faces, &end_of_line) == 1;
+    auto landmarks = face::parse_pts(std::string_view(*answer).substr(std::size_t(end_of_line)));
+    if (code != 0 || !is_counted || !landmarks)
+        return {std::nullopt, 0, std::string(program_name) + " failed."};
     for (Vec2& point : *landmarks)
         point = {point.x / share, point.y / share};
-    return {*landmarks, {}};
+    return {*landmarks, faces, {}, true};
 }
 
 }  // namespace theatron::enrol

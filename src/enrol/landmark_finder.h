@@ -19,7 +19,9 @@ inline constexpr const char* usual_landmark_model =
 
 struct FoundLandmarks {
     std::optional<face::Landmarks> landmarks_px;
-    std::string problem;  // why there are none: one sentence that names no photo
+    int faces = 0;             // in the photo, where one was looked for
+    std::string problem;       // why there are none: one sentence that names no photo
+    bool is_searched = false;  // false: nothing could be looked for
 };
 
 // From any thread.

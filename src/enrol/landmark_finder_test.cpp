@@ -35,13 +35,14 @@ TEST_F(LandmarkFinderTest, LandmarksAreThoseOfTheWholePhoto) {
     face::Landmarks landmarks{};
     for (std::size_t i = 0; i < landmarks.size(); ++i)
         landmarks[i] = {double(i), 2.0 * double(i)};
-    std::ofstream(folder / "answer") << pts_text(landmarks);
+    std::ofstream(folder / "answer") << "faces: 2\n" << pts_text(landmarks);
     const LandmarkFinder found =
         finder("cat > " + (folder / "photo").string() + "; cat " + (folder / "answer").string());
     EXPECT_EQ(found.problem(), "");
     const auto small = found.find(photo({640, 480}).view());
     ASSERT_TRUE(small.landmarks_px) << small.problem;
     EXPECT_EQ((*small.landmarks_px)[67].y, 134);
+    EXPECT_EQ(small.faces, 2);
     EXPECT_EQ(fs::file_size(folder / "photo"), 15u + 640 * 480 * 3);
     // A large photo is looked at smaller.
     const auto large = found.find(photo({2560, 1920}).view());
@@ -61,6 +62,7 @@ TEST_F(LandmarkFinderTest, EachFailureIsOneSentence) {
     EXPECT_EQ(problem_of("exit 1"), "theatron-landmarks failed.");
     EXPECT_EQ(problem_of("kill -SEGV $$"), "theatron-landmarks failed.");
     EXPECT_EQ(problem_of("echo no landmarks"), "theatron-landmarks failed.");
+    EXPECT_EQ(problem_of("echo faces: 1"), "theatron-landmarks failed.");
     EXPECT_EQ(problem_of("exec yes"), "theatron-landmarks did not end; it was ended.");
 }
 

@@ -2,9 +2,13 @@
 #include "enrol/photo_canvas.h"
 
 #include <cmath>
+#include <utility>
 
 namespace theatron::enrol {
 namespace {
+
+// A dark edge keeps points and lines visible on skin of any colour.
+constexpr Rgb edge{10, 20, 24};
 
 std::uint8_t mixed(double from, double to, double share) {
     return std::uint8_t(std::lround(from + (to - from) * share));
@@ -70,8 +74,6 @@ void draw_photo(ColorView photo, const PhotoPlace& place, bool mirrored, Mutable
 
 void draw_landmarks(const face::LandmarkDraft& draft, std::optional<std::size_t> chosen,
                     const PhotoPlace& place, double dot_px, MutableColorView canvas) {
-    // A dark edge keeps them visible on skin of any colour.
-    constexpr Rgb edge{10, 20, 24};
     const auto at = [&](std::size_t landmark) { return place.window_of(draft.point(landmark)); };
     if (!draft.next())
         for (const face::LandmarkLine& line : face::landmark_lines)
@@ -86,6 +88,13 @@ void draw_landmarks(const face::LandmarkDraft& draft, std::optional<std::size_t>
         draw_stroke(at(i), at(i), is_chosen ? 1.5 * dot_px : dot_px + 1, edge, canvas);
         draw_stroke(at(i), at(i), is_chosen ? 1.5 * dot_px - 1 : dot_px,
                     is_chosen ? chosen_color : landmark_color, canvas);
+    }
+}
+
+void draw_cross(Vec2 at, double size_px, MutableColorView canvas) {
+    for (const auto& [radius, color] : {std::pair(2.5, edge), std::pair(1.0, chosen_color)}) {
+        draw_stroke({at.x - size_px, at.y}, {at.x + size_px, at.y}, radius, color, canvas);
+        draw_stroke({at.x, at.y - size_px}, {at.x, at.y + size_px}, radius, color, canvas);
     }
 }
 

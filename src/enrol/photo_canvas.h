@@ -21,4 +21,7 @@ void draw_photo(ColorView photo, const PhotoPlace& place, bool mirrored, Mutable
 void draw_landmarks(const face::LandmarkDraft& draft, std::optional<std::size_t> chosen,
                     const PhotoPlace& place, double dot_px, MutableColorView canvas);
 
+// The cross of PhotoGuide::cross_px(), in pixels of the window.
+void draw_cross(Vec2 at, double size_px, MutableColorView canvas);
+
 }  // namespace theatron::enrol

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "enrol/photo_files.h"
 
-#include <algorithm>
 #include <cstdio>
 
 #include "base/error.h"
+#include "enrol/photo_texts.h"
 #include "face/face_fit.h"
+#include "face/landmark_check.h"
 #include "files/file_bytes.h"
 #include "files/photo_orientation.h"
 #include "files/png_file.h"
@@ -16,8 +17,6 @@ namespace {
 
 constexpr std::size_t max_photo_bytes = std::size_t(64) << 20;
 constexpr std::size_t max_landmarks_bytes = 64 * 1024;
-// Beyond the photo's border by this share of its side, a landmark is of another photo.
-constexpr double outside_share = 0.1;
 
 std::string_view text_of(const Bytes& bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
@@ -41,17 +40,17 @@ ColorImage read_photo(const std::string& file) {
     return files::upright(std::move(picture), files::exif_orientation(bytes));
 }
 
-face::Landmarks read_landmarks(const std::string& file, Size photo) {
+face::Landmarks read_landmarks(const std::string& file, Size photo, const face::Landmarks& usual) {
     const auto landmarks = face::parse_pts(text_of(files::read_file(file, max_landmarks_bytes)));
     if (!landmarks)
         throw Error("'" + file + "' has no 68 landmarks as a .pts file: it is " +
                     std::string(to_text(landmarks.error())) + ".");
-    const double margin = outside_share * std::max(photo.width, photo.height);
-    for (const Vec2 point : *landmarks)
-        if (point.x < -margin || point.y < -margin || point.x > photo.width + margin ||
-            point.y > photo.height + margin)
-            throw Error("Landmarks in '" + file +
-                        "' are outside of their photo; mark the photo as it is stored, upright.");
+    const auto fault = face::landmark_fault(*landmarks, usual, photo);
+    if (fault == face::LandmarkFault::outside)
+        throw Error("Landmarks in '" + file +
+                    "' are outside of their photo; mark the photo as it is stored, upright.");
+    if (fault)
+        throw Error("'" + file + "' is not used: " + reason_of(*fault) + ".");
     return *landmarks;
 }
 

@@ -12,8 +12,9 @@ namespace theatron::enrol {
 // JPEG or PNG. Throws Error, with a sentence that repeats nothing of the file's content; so does
 // the next.
 ColorImage read_photo(const std::string& file);
-// The landmarks of a .pts file, for a photo of this size.
-face::Landmarks read_landmarks(const std::string& file, Size photo);
+// The landmarks of a .pts file, for a photo of this size. Such that cannot be a face's are refused
+// (face/landmark_check.h, with its `usual`).
+face::Landmarks read_landmarks(const std::string& file, Size photo, const face::Landmarks& usual);
 
 std::string pts_text(const face::Landmarks& landmarks_px);
 

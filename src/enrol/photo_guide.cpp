@@ -28,7 +28,9 @@ void PhotoGuide::begin() {
     ++turn_;
     draft_.reset();
     dragged_ = chosen_ = std::nullopt;
-    found_ = false;
+    cross_px_.reset();
+    search_ = Search::none;
+    asks_finish_ = false;
     if (index_ >= photos_.size()) {
         step_ = Step::done;
         return;
@@ -41,7 +43,7 @@ void PhotoGuide::begin() {
     draft_.emplace(usual_[std::size_t(photo.emotion)]);
     step_ = photo.landmarks_px ? Step::mark : Step::find;
     if (photo.landmarks_px)
-        on_found(photo.landmarks_px);
+        on_found(photo.landmarks_px, Search::given);
 }
 
 void PhotoGuide::next() {
@@ -59,11 +61,34 @@ bool PhotoGuide::can_leave_out() const {
 }
 
 bool PhotoGuide::can_finish() const {
-    return has_camera_ && step_ != Step::done && index_ > 0 && photos_[0].landmarks_px.has_value();
+    return has_camera_ && step_ != Step::done && photos_[0].landmarks_px.has_value();
+}
+
+std::optional<face::LandmarkFault> PhotoGuide::fault() const {
+    const auto landmarks = step_ == Step::mark ? draft_->landmarks_px() : std::nullopt;
+    if (!landmarks)
+        return std::nullopt;
+    return face::landmark_fault(*landmarks, usual_[std::size_t(emotion())], photo().picture.size);
 }
 
 bool PhotoGuide::can_go_on() const {
-    return step_ == Step::mark && draft_->landmarks_px().has_value();
+    return step_ == Step::mark && draft_->landmarks_px() && !fault();
+}
+
+bool PhotoGuide::can_go_back() const {
+    return index_ > 0 && step_ != Step::done && step_ != Step::count;
+}
+
+std::vector<face::Emotion> PhotoGuide::missing() const {
+    std::vector<face::Emotion> none;
+    for (std::size_t i = 0; i < photos_.size(); ++i)
+        if (!photos_[i].landmarks_px && !(i == index_ && can_go_on()))
+            none.push_back(photos_[i].emotion);
+    return none;
+}
+
+std::optional<Vec2> PhotoGuide::cross_px() const {
+    return step_ == Step::mark && draft_->next() ? cross_px_ : std::nullopt;
 }
 
 void PhotoGuide::take_photo(TimePoint now) {
@@ -100,6 +125,22 @@ void PhotoGuide::go_on() {
     next();
 }
 
+// The photo stays, and its turn comes again.
+void PhotoGuide::go_back() {
+    if (!can_go_back())
+        return;
+    --index_;
+    begin();
+}
+
+void PhotoGuide::ask_finish() {
+    asks_finish_ = can_finish();
+}
+
+void PhotoGuide::keep_taking() {
+    asks_finish_ = false;
+}
+
 void PhotoGuide::finish() {
     if (!can_finish())
         return;
@@ -114,6 +155,7 @@ void PhotoGuide::undo() {
     if (step_ != Step::mark)
         return;
     dragged_ = chosen_ = std::nullopt;
+    cross_px_.reset();
     draft_->undo();
 }
 
@@ -127,10 +169,10 @@ bool PhotoGuide::on_picture(ColorView picture, TimePoint now) {
     return true;
 }
 
-void PhotoGuide::on_found(const std::optional<face::Landmarks>& landmarks_px) {
+void PhotoGuide::on_found(const std::optional<face::Landmarks>& landmarks_px, Search search) {
     if (!draft_ || (step_ != Step::find && step_ != Step::mark))
         return;
-    found_ = landmarks_px.has_value();
+    search_ = search;
     if (landmarks_px)
         draft_->take(*landmarks_px);
     step_ = Step::mark;
@@ -150,6 +192,7 @@ void PhotoGuide::press(Vec2 photo_px, double reach_px) {
         dragged_ = draft_->near(photo_px, 0.5);
     }
     chosen_ = dragged_;
+    cross_px_.reset();
 }
 
 void PhotoGuide::drag(Vec2 photo_px) {
@@ -158,10 +201,24 @@ void PhotoGuide::drag(Vec2 photo_px) {
 }
 
 void PhotoGuide::nudge(Vec2 by_px) {
-    if (step_ != Step::mark || !chosen_ || !draft_->is_shown(*chosen_))
+    if (step_ != Step::mark)
+        return;
+    if (draft_->next() && !chosen_) {
+        const Size size = photo().picture.size;
+        const Vec2 from = cross_px_.value_or(Vec2{size.width / 2.0, size.height / 2.0});
+        cross_px_ = {std::clamp(from.x + by_px.x, 0.0, double(size.width)),
+                     std::clamp(from.y + by_px.y, 0.0, double(size.height))};
+        return;
+    }
+    if (!chosen_ || !draft_->is_shown(*chosen_))
         return;
     const Vec2 at = draft_->point(*chosen_);
     draft_->move(*chosen_, {at.x + by_px.x, at.y + by_px.y}, true);
+}
+
+void PhotoGuide::put_at_cross() {
+    if (const auto cross = cross_px())
+        draft_->put(*cross);
 }
 
 std::vector<Photo> PhotoGuide::take_photos() {

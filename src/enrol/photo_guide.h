@@ -12,6 +12,7 @@
 
 #include "base/time.h"
 #include "face/enrol.h"
+#include "face/landmark_check.h"
 #include "face/landmark_draft.h"
 
 namespace theatron::enrol {
@@ -57,16 +58,26 @@ public:
     const Photo& photo() const { return photos_[std::min(index_, photos_.size() - 1)]; }
     // Its landmarks; at step `mark`.
     const face::LandmarkDraft& draft() const { return *draft_; }
-    // They were found by the program: the person only looks at them.
-    bool was_found() const { return found_; }
+    // The outcome of the search for them in this photo. `given`: they came with it.
+    enum class Search { none, given, found, found_largest, no_face };
+    Search search() const { return search_; }
+    // Why the landmarks cannot be kept; nullopt: they can, or they are not all there yet.
+    std::optional<face::LandmarkFault> fault() const;
     // The landmark that the person moved last.
     std::optional<std::size_t> chosen() const { return chosen_; }
+    // The cross with which a person without a mouse sets the place that is asked for.
+    std::optional<Vec2> cross_px() const;
     // Seconds until the photo is taken, at step `count`: 3, 2, 1.
     int seconds_left(TimePoint now) const;
 
     bool can_leave_out() const;  // this photo
     bool can_finish() const;     // the neutral photo is done, and others need not be taken
-    bool can_go_on() const;      // from step `mark`: all landmarks are there
+    bool can_go_on() const;      // from step `mark`: all landmarks are there, and can be a face's
+    bool can_go_back() const;    // to the photo before
+    // finish() has asked whether the photos that are there are enough.
+    bool asks_finish() const { return asks_finish_; }
+    // Emotions without a photo, in the order of the photos.
+    std::vector<face::Emotion> missing() const;
 
     // The person's choices. One that is not possible at this step does nothing.
     void take_photo(TimePoint now);
@@ -74,22 +85,26 @@ public:
     void take_again();
     void leave_out();
     void go_on();
-    void finish();
+    void go_back();
+    void ask_finish();
+    void keep_taking();  // the answer: no
+    void finish();       // the answer: yes
     void undo();
 
     // The picture of the camera that is shown now. Takes the photo when it is time. True: it was
     // taken.
     bool on_picture(ColorView picture, TimePoint now);
     // The landmarks that were found in the photo; nullopt: none. At step `find`.
-    void on_found(const std::optional<face::Landmarks>& landmarks_px);
+    void on_found(const std::optional<face::Landmarks>& landmarks_px, Search search);
 
     // The mouse was pressed at this place of the photo: takes the landmark there, or puts the place
     // that is asked for.
     void press(Vec2 photo_px, double reach_px);
     void drag(Vec2 photo_px);
     void release() { dragged_.reset(); }
-    // Moves the landmark that was moved last.
+    // Moves the landmark that was moved last; while a place is asked for and none was, the cross.
     void nudge(Vec2 by_px);
+    void put_at_cross();
 
     // Those with landmarks; at step `done`.
     std::vector<Photo> take_photos();
@@ -107,8 +122,10 @@ private:
     Step step_ = Step::look;
     TimePoint photo_at_;  // at step `count`
     std::optional<face::LandmarkDraft> draft_;
-    bool found_ = false;
+    Search search_ = Search::none;
+    bool asks_finish_ = false;
     std::optional<std::size_t> dragged_, chosen_;
+    std::optional<Vec2> cross_px_;
 };
 
 }  // namespace theatron::enrol

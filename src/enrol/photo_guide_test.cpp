@@ -24,7 +24,7 @@ PhotoGuide::Usual usual() {
 }
 
 ColorImage picture(std::uint8_t red) {
-    ColorImage made({64, 48});
+    ColorImage made({640, 480});
     std::fill(made.pixels.begin(), made.pixels.end(), Rgb{red, 0, 0});
     return made;
 }
@@ -53,7 +53,7 @@ protected:
         now += PhotoGuide::count_down;
         ASSERT_TRUE(guide.on_picture(picture(red).view(), now));
         ASSERT_EQ(guide.step(), Step::find);
-        guide.on_found(some_landmarks(red));
+        guide.on_found(some_landmarks(red), PhotoGuide::Search::found);
         ASSERT_EQ(guide.step(), Step::mark);
     }
 
@@ -66,7 +66,7 @@ TEST_F(PhotoGuideTest, SixPhotosFromACamera) {
         EXPECT_EQ(guide.index(), i);
         EXPECT_EQ(guide.emotion(), photo_order[i]);
         take_one(std::uint8_t(i + 1));
-        EXPECT_TRUE(guide.was_found());
+        EXPECT_EQ(guide.search(), PhotoGuide::Search::found);
         guide.go_on();
     }
     EXPECT_EQ(guide.step(), Step::done);
@@ -140,7 +140,7 @@ TEST_F(PhotoGuideTest, APhotoThatWasKeptAndLeftOutLaterIsNotThere) {
 TEST_F(PhotoGuideTest, EightClicksMarkAPhoto) {
     PhotoGuide marking = PhotoGuide::of_photos({{face::Emotion::neutral, picture(1), {}}}, usual());
     EXPECT_EQ(marking.step(), Step::find);
-    marking.on_found(std::nullopt);
+    marking.on_found(std::nullopt, PhotoGuide::Search::none);
     const face::Landmarks truth = some_landmarks();
     for (const std::size_t landmark : {36, 39, 42, 45, 30, 48, 54, 8}) {
         EXPECT_FALSE(marking.can_go_on());
@@ -209,7 +209,111 @@ TEST_F(PhotoGuideTest, ButtonsAreThoseThatDoSomething) {
         EXPECT_TRUE(has_button(guide, command));
     obey(guide, GuideCommand::keep, now);
     EXPECT_TRUE(has_button(guide, GuideCommand::leave_out));
-    EXPECT_TRUE(has_button(guide, GuideCommand::finish));
+    EXPECT_TRUE(has_button(guide, GuideCommand::ask_finish));
+}
+
+TEST_F(PhotoGuideTest, TheWayBackKeepsWhatWasTaken) {
+    EXPECT_FALSE(guide.can_go_back());
+    take_one(1);
+    guide.go_on();
+    take_one(2);
+    EXPECT_TRUE(has_button(guide, GuideCommand::back));
+    obey(guide, GuideCommand::back, now);
+    EXPECT_EQ(guide.index(), 0u);
+    EXPECT_EQ(guide.step(), Step::mark);
+    EXPECT_EQ(guide.photo().picture.pixels[0].r, 1);
+    EXPECT_EQ(guide.draft().point(0).x, some_landmarks(1)[0].x);
+    guide.take_again();
+    take_one(3);
+    guide.go_on();
+    EXPECT_EQ(guide.photo().picture.pixels[0].r, 2) << "the second photo is still there";
+    EXPECT_EQ(guide.step(), Step::find);
+}
+
+TEST_F(PhotoGuideTest, FewPhotosAreAskedAbout) {
+    take_one();
+    guide.go_on();
+    obey(guide, GuideCommand::ask_finish, now);
+    EXPECT_TRUE(guide.asks_finish());
+    EXPECT_EQ(guide.step(), Step::look) << "nothing has ended yet";
+    EXPECT_EQ(guide.missing().size(), face::emotion_count - 1);
+    const auto rows = guide_content(guide, true, now).panels[0].rows;
+    EXPECT_NE(rows[0].text.find("1 of 6"), std::string::npos) << rows[0].text;
+    EXPECT_NE(rows[0].detail.find("Sadness"), std::string::npos) << rows[0].detail;
+    EXPECT_FALSE(has_button(guide, GuideCommand::take)) << "one question at a time";
+    obey(guide, GuideCommand::keep_taking, now);
+    EXPECT_TRUE(has_button(guide, GuideCommand::take));
+    obey(guide, GuideCommand::ask_finish, now);
+    EXPECT_EQ(usual_command(guide, true), GuideCommand::finish);
+    obey(guide, GuideCommand::finish, now);
+    EXPECT_EQ(guide.step(), Step::done);
+    EXPECT_EQ(guide.take_photos().size(), 1u);
+}
+
+TEST_F(PhotoGuideTest, APhotoThatWasMarkedAndNotKeptCountsWhenFinishing) {
+    take_one();
+    guide.go_on();
+    take_one();
+    guide.ask_finish();
+    EXPECT_EQ(guide.missing().size(), face::emotion_count - 2);
+}
+
+TEST_F(PhotoGuideTest, ThePersonIsToldWhatWasFound) {
+    const auto said = [](const PhotoGuide& shown) {
+        return guide_content(shown, true, {}).panels[0].rows[0].detail;
+    };
+    using Search = PhotoGuide::Search;
+    PhotoGuide none = PhotoGuide::of_photos({{face::Emotion::neutral, picture(1), {}}}, usual());
+    none.on_found(std::nullopt, Search::no_face);
+    EXPECT_NE(said(none).find("No face was found"), std::string::npos) << said(none);
+    PhotoGuide many = PhotoGuide::of_photos({{face::Emotion::neutral, picture(1), {}}}, usual());
+    many.on_found(some_landmarks(), Search::found_largest);
+    EXPECT_NE(said(many).find("several faces"), std::string::npos) << said(many);
+}
+
+TEST_F(PhotoGuideTest, LandmarksThatCannotBeAFacesAreNotKept) {
+    PhotoGuide marking = PhotoGuide::of_photos({{face::Emotion::neutral, picture(1), {}}}, usual());
+    marking.on_found(std::nullopt, PhotoGuide::Search::none);
+    const face::Landmarks truth = some_landmarks();
+    // Left and right eye and mouth exchanged.
+    for (const std::size_t landmark : {45, 42, 39, 36, 30, 54, 48, 8})
+        marking.press(truth[landmark], 1), marking.release();
+    EXPECT_TRUE(marking.fault().has_value());
+    EXPECT_FALSE(marking.can_go_on());
+    EXPECT_FALSE(has_button(marking, GuideCommand::keep));
+    EXPECT_EQ(guide_content(marking, true, {}).panels[0].rows[0].text, reason_of(*marking.fault()));
+    marking.go_on();
+    EXPECT_EQ(marking.step(), Step::mark);
+    for (int i = 0; i < 8; ++i)
+        marking.undo();
+    for (const std::size_t landmark : {36, 39, 42, 45, 30, 48, 54, 8})
+        marking.press(truth[landmark], 1), marking.release();
+    EXPECT_TRUE(marking.can_go_on());
+}
+
+TEST_F(PhotoGuideTest, EightPlacesAreSetByKeysAlone) {
+    PhotoGuide marking = PhotoGuide::of_photos({{face::Emotion::neutral, picture(1), {}}}, usual());
+    marking.on_found(std::nullopt, PhotoGuide::Search::none);
+    EXPECT_EQ(marking.cross_px(), std::nullopt);
+    const face::Landmarks truth = some_landmarks();
+    for (const std::size_t landmark : {36, 39, 42, 45, 30, 48, 54, 8}) {
+        const Vec2 from = marking.cross_px().value_or(Vec2{320, 240});
+        marking.nudge({truth[landmark].x - from.x, truth[landmark].y - from.y});
+        ASSERT_EQ(usual_command(marking, true), GuideCommand::put);
+        obey(marking, GuideCommand::put, now);
+    }
+    EXPECT_EQ(marking.cross_px(), std::nullopt);
+    ASSERT_TRUE(marking.can_go_on());
+    for (std::size_t i = 0; i < face::landmark_count; ++i)
+        EXPECT_NEAR(marking.draft().point(i).x, truth[i].x, 1e-6);
+}
+
+TEST_F(PhotoGuideTest, TheCrossStaysInThePhoto) {
+    PhotoGuide marking = PhotoGuide::of_photos({{face::Emotion::neutral, picture(1), {}}}, usual());
+    marking.on_found(std::nullopt, PhotoGuide::Search::none);
+    marking.nudge({-1e6, 1e6});
+    EXPECT_EQ(marking.cross_px()->x, 0);
+    EXPECT_EQ(marking.cross_px()->y, 480);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "enrol/photo_guide.h"
 #include "window/overlay_content.h"
@@ -10,7 +11,22 @@
 namespace theatron::enrol {
 
 // The commands of the panel's buttons.
-enum class GuideCommand { take = 1, stop, again, keep, undo, leave_out, finish };
+enum class GuideCommand {
+    take = 1,
+    stop,
+    again,
+    keep,
+    put,
+    undo,
+    back,
+    leave_out,
+    ask_finish,
+    finish,
+    keep_taking
+};
+
+// One sentence, without its full stop.
+std::string reason_of(face::LandmarkFault fault);
 
 // `has_picture`: the camera has given one.
 window::OverlayContent guide_content(const PhotoGuide& guide, bool has_picture, TimePoint now);

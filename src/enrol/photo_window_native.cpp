@@ -102,7 +102,7 @@ private:
         if (guide_.step() != Step::find || search_.valid())
             return;
         if (!problem_.empty())
-            return on_found({});
+            return on_found({});  // nothing is looked for
         searched_turn_ = guide_.turn();
         search_ = std::async(std::launch::async, [this, photo = guide_.photo().picture] {
             return finder_.find(photo.view());
@@ -111,7 +111,11 @@ private:
     }
 
     void on_found(const FoundLandmarks& found) {
-        guide_.on_found(found.landmarks_px);
+        using Search = PhotoGuide::Search;
+        guide_.on_found(found.landmarks_px, !found.is_searched ? Search::none
+                                            : found.faces == 0 ? Search::no_face
+                                            : found.faces == 1 ? Search::found
+                                                               : Search::found_largest);
         must_draw_ = true;
     }
 
@@ -225,6 +229,8 @@ private:
         if (guide_.step() == Step::mark)
             draw_landmarks(guide_.draft(), guide_.chosen(), *place_, 0.14 * window_.text_pixels(),
                            canvas_.view());
+        if (const auto cross = guide_.cross_px())
+            draw_cross(place_->window_of(*cross), window_.text_pixels(), canvas_.view());
         picture_.show(canvas_.view(), size);
         window::OverlayContent content = guide_content(guide_, has_picture(), now);
         if (asked_leave_ && now - *asked_leave_ < visit::Leaving::confirm_within)

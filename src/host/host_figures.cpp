@@ -244,6 +244,7 @@ nlohmann::json to_json(const HostFigures& figures) {
             {"case_problems", figures.case_problems},
             {"past_bytes", figures.past_bytes},
             {"turned_away", figures.turned_away},
+            {"offers_bbr", figures.offers_bbr},
             {"faults", figures.faults},
             {"page_problem", figures.page_problem},
             {"problems",
@@ -257,7 +258,8 @@ nlohmann::json to_json(const PortFigures& all) {
     nlohmann::json json = to_json(all.sessions.front());
     for (std::size_t i = 1; i < all.sessions.size(); ++i) {
         nlohmann::json session = to_json(all.sessions[i]);
-        for (const char* of_host : {"turned_away", "faults", "page_problem", "certificates"})
+        for (const char* of_host :
+             {"turned_away", "offers_bbr", "faults", "page_problem", "certificates"})
             session.erase(of_host);
         json["sessions"].push_back(std::move(session));
     }

@@ -78,6 +78,7 @@ struct HostFigures {
     std::vector<std::string> case_problems;  // sentences on the folder of cases
     std::size_t past_bytes = 0;              // encoded pictures that are kept for looking back
     std::uint64_t turned_away = 0;           // strangers, since the host began
+    bool offers_bbr = false;                 // the kernel (net/congestion_control.h)
     std::string page_problem;                // of the browser client (host/page.h); else empty
     std::uint64_t faults = 0;  // that cost a connection, a picture or a camera (base/fault.h)
 
@@ -117,7 +118,7 @@ struct PortFigures {
 // "adjusted","dropped_slow","bytes",
 // "sync_offset_ms","filter","filter_device"}],"skew_ms":{"p50","max"},"unpaired","overlaps":[{"a","b","apart_mm","alarm"}],
 // "registration":{"made","method","problem"},"case_problems":[…],"past_bytes","turned_away",
-// "faults","page_problem","problems":{"audit_log","room","links"},
+// "offers_bbr","faults","page_problem","problems":{"audit_log","room","links"},
 // "certificates":[{"of","fingerprint","expires","seconds_left","problem"}]}
 nlohmann::json to_json(const HostFigures& figures);
 // One of its visitors; who has no name there has none here.

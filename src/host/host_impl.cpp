@@ -8,6 +8,7 @@
 #include "base/fault.h"
 #include "base/hex_text.h"
 #include "base/log.h"
+#include "net/congestion_control.h"
 
 namespace theatron::host {
 namespace {
@@ -566,7 +567,8 @@ void Host::Impl::measure_links() {
     for (const auto& [id, participant] : session->participants()) {
         const auto f = server->take_figures(net::PeerId(std::uint32_t(id)));
         session->on_link(id,
-                         {f.bytes_per_second, f.round_trip, f.delay, f.dropped, f.takes_nothing},
+                         {f.bytes_per_second, f.round_trip, f.delay, f.dropped, f.takes_nothing,
+                          f.loses_packets},
                          steady_now());
     }
 }
@@ -602,6 +604,8 @@ HostFigures Host::Impl::figures() const {
     figures.has_ended = ended_figure;
     figures.past_bytes = past_figure;
     figures.turned_away = port->turned_away();
+    static const bool offers_bbr = net::kernel_offers_bbr();
+    figures.offers_bbr = offers_bbr;
     figures.faults = fault_count();
     figures.page_problem = port->page_problem();
     figures.problems = problems();

@@ -11,6 +11,7 @@
 #include "base/thread_name.h"
 #include "host/operators_page.h"
 #include "host/port_pages.h"
+#include "net/congestion_control.h"
 
 namespace theatron::host {
 
@@ -45,6 +46,10 @@ void HostPort::open() {
         return;
     server_ =
         std::make_unique<net::Server>(options_.listen, certificate_->current(), handler(), access_);
+    if (!net::kernel_offers_bbr())
+        log::info("host",
+                  "this kernel offers no BBR, so people whose links lose packets get few pictures: "
+                  "load the module tcp_bbr (docs/adaptive_sending.md)");
     note_link();
 }
 

@@ -8,7 +8,9 @@
 #include <bit>
 #include <utility>
 
+#include "net/congestion_control.h"
 #include "net/silence.h"
+#include "net/tcp_path.h"
 #include "phrases/phrase.h"
 
 namespace theatron::net {
@@ -148,6 +150,26 @@ void Connection::limit_unsent() {
                TCP_NOTSENT_LOWAT, &value, sizeof(value));
 }
 
+// True: more may leave than before. BBR keeps its rate on a link that loses packets; on others it
+// would stop for 0.2 s every ten seconds to measure the round trip.
+bool Connection::see_path() {
+    const int descriptor = beast::get_lowest_layer(socket_).socket().native_handle();
+    const auto path = tcp_path(descriptor);
+    if (!path)
+        return false;
+    if (!prefers_bbr_ && losses_.note(path->sent_again, now_())) {
+        prefers_bbr_ = true;
+        prefer_bbr(descriptor);
+    }
+    return outbox_.see(*path, now_());
+}
+
+// The window is also full when much waits at the peer behind a packet that was lost.
+bool Connection::choose(Bytes& envelope) {
+    return outbox_.next(envelope, now_()) ||
+           (outbox_.window_is_full() && see_path() && outbox_.next(envelope, now_()));
+}
+
 Outbox::Pushed Connection::send_media(Media media) {
     if (finished_ || !closing_.empty())
         return {1, false};
@@ -164,6 +186,7 @@ void Connection::set_ceiling(double bytes_per_second) {
 
 SendingFigures Connection::take_figures() {
     SendingFigures figures = outbox_.take_figures(now_());
+    figures.loses_packets = prefers_bbr_;
     figures.round_trip = std::max(figures.round_trip - 2 * out_.delay(), Duration(0));
     figures.delay = std::max(figures.delay - out_.delay(), Duration(0));
     return figures;
@@ -214,6 +237,7 @@ void Connection::take(ByteView envelope) {
     if (!unwrapped)
         return finish(say(Phrase::other_side_wrong, to_text(unwrapped.error())));
     if (unwrapped->acknowledgement) {
+        (void)see_path();
         outbox_.acknowledge(*unwrapped->acknowledgement, now_());
         return write();
     }
@@ -299,7 +323,7 @@ void Connection::write() {
     if (out_.is_used())
         return write_delayed();
     const std::uint64_t begun_before = outbox_.begun_frames();
-    if (!outbox_.next(outgoing_, now_())) {
+    if (!choose(outgoing_)) {
         if (!closing_.empty() && !outbox_.control_waits())
             return bid_farewell();
         if (const auto again = outbox_.ask_again())
@@ -312,7 +336,7 @@ void Connection::write() {
 // The outbox chooses as if the bytes left at once; they leave when their time has come.
 void Connection::write_delayed() {
     const std::uint64_t begun_before = outbox_.begun_frames();
-    for (Bytes envelope; outbox_.next(envelope, now_()); envelope.clear())
+    for (Bytes envelope; choose(envelope); envelope.clear())
         out_.push(std::move(envelope), now_());
     if (auto envelope = out_.take(now_())) {
         outgoing_ = std::move(*envelope);

@@ -19,6 +19,7 @@
 #include "base/fault.h"
 #include "net/acknowledger.h"
 #include "net/delay_line.h"
+#include "net/loss_watch.h"
 #include "net/outbox.h"
 #include "wire/envelope.h"
 
@@ -111,6 +112,8 @@ private:
     void hand_on(const wire::Unwrapper::Unwrapped& unwrapped);
     void acknowledge();
     void limit_unsent();
+    bool see_path();
+    bool choose(Bytes& envelope);
     void read();
     void write();
     void write_later(TimePoint then);
@@ -137,6 +140,8 @@ private:
     Acknowledger acknowledger_;
     Outbox outbox_;
     std::size_t unsent_limit_ = 0;  // bytes, as set on the socket
+    LossWatch losses_;
+    bool prefers_bbr_ = false;
     boost::asio::steady_timer ceiling_timer_, acknowledgement_timer_, farewell_timer_, in_timer_,
         out_timer_;
     bool acknowledgement_is_timed_ = false;

@@ -38,6 +38,11 @@ constexpr Duration longest_queue = std::chrono::milliseconds(30);
 constexpr double chunk_s = 0.003, unsent_s = 0.006;
 constexpr std::size_t smallest_chunk = 2 * 1024;
 constexpr std::size_t smallest_unsent = 4 * 1024, largest_unsent = 64 * 1024;
+// BBR's PROBE_RTT: packets in flight, its length with the round trip before it, and the shortest
+// time from one to the next. A link that needs no more packets in flight has this window always.
+constexpr std::uint32_t window_of_probe = 4;
+constexpr Duration longest_probe = std::chrono::milliseconds(400);
+constexpr Duration probe_apart = std::chrono::seconds(5);
 // A peer that acknowledges nothing must not cost memory.
 constexpr std::size_t max_chunks = 8192;
 
@@ -89,21 +94,33 @@ void Flight::note_round_trip(Duration took, TimePoint now) {
     }
 }
 
+// BBR stops for a moment to measure the round trip: nothing is lost, and the bytes wait here.
+bool Flight::is_probing(const TcpPath& path, TimePoint now) {
+    if (path.window == 0 || path.window > window_of_probe)
+        return false;
+    if (!probe_began_ || now - *probe_began_ > probe_apart)
+        probe_began_ = now;
+    return now - *probe_began_ < longest_probe;
+}
+
+bool Flight::see(const TcpPath& path, TimePoint now) {
+    if (path.sent_again > sent_again_ || is_probing(path, now))
+        gap_seen_at_ = now;
+    sent_again_ = path.sent_again;
+    kernel_queue_ = path.queue;
+    kernel_rate_ = path.bytes_per_second;
+    return std::exchange(behind_gap_, path.behind_gap) < path.behind_gap;
+}
+
 void Flight::learn(double bytes, const Chunk& newest, Duration took, TimePoint now) {
-    const Duration queued = took - round_trip();
+    const bool was_behind_gap = gap_seen_at_ && newest.sent <= *gap_seen_at_;
+    const Duration queued =
+        was_behind_gap ? std::min(kernel_queue_, took - round_trip()) : took - round_trip();
     if (queued > jitter) {
         // The queue of a chunk that met an empty path began after the last answer.
         const double busy = to_seconds(std::min(now - last_answer_, queued));
-        const double kept = std::exp(-busy / memory_s);
-        busy_bytes_ = busy_bytes_ * kept + bytes;
-        busy_seconds_ = busy_seconds_ * kept + busy;
-        // A peer that paused for seconds must not weigh so much that the rate also stays low for
-        // seconds after the pause.
-        if (const double scale = busy_time_s / busy_seconds_; scale < 1) {
-            busy_bytes_ *= scale;
-            busy_seconds_ = busy_time_s;
-        }
-        busy_at_ = now;
+        // Bytes behind a gap are taken at once, however slowly they came.
+        learn_rate(was_behind_gap ? kernel_rate_ * busy : bytes, busy, now);
     } else if (newest.held_back) {
         // It was held back and met no queue: the path carries more than the measured rate.
         if (busy_seconds_ > 0)
@@ -111,6 +128,19 @@ void Flight::learn(double bytes, const Chunk& newest, Duration took, TimePoint n
         else
             window_at_first_ += bytes;
     }
+}
+
+void Flight::learn_rate(double bytes, double busy_seconds, TimePoint now) {
+    const double kept = std::exp(-busy_seconds / memory_s);
+    busy_bytes_ = busy_bytes_ * kept + bytes;
+    busy_seconds_ = busy_seconds_ * kept + busy_seconds;
+    // A peer that paused for seconds must not weigh so much that the rate also stays low for
+    // seconds after the pause.
+    if (const double scale = busy_time_s / busy_seconds_; scale < 1) {
+        busy_bytes_ *= scale;
+        busy_seconds_ = busy_time_s;
+    }
+    busy_at_ = now;
 }
 
 Duration Flight::round_trip() const {
@@ -133,12 +163,13 @@ double Flight::window(TimePoint now) const {
 bool Flight::may_send(TimePoint now) {
     if (!answering_)
         return true;
-    held_back_ = held_back_ || double(bytes_on_the_way()) >= window(now);
-    return double(bytes_on_the_way()) < window(now);
+    const bool may = double(bytes_in_network()) < window(now);
+    held_back_ = held_back_ || !may;
+    return may;
 }
 
 bool Flight::may_send_interaction(TimePoint now) const {
-    return !answering_ || double(bytes_on_the_way()) < window(now) + interaction_reserve;
+    return !answering_ || double(bytes_in_network()) < window(now) + interaction_reserve;
 }
 
 Duration Flight::allowed_queue(double bytes_per_second) {

@@ -9,13 +9,19 @@
 // times the sum of round trip and a short queue: a frame that is chosen late is then
 // still new on arrival, and a state waits behind few bytes. Control, states and voice
 // count too and may exceed the window by interaction_reserve.
+//
+// A lost packet holds back what came behind it. Where the kernel tells so (see()), such bytes
+// neither fill the window nor count as queued: the path carries them.
 // Pure: time is an argument.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <deque>
+#include <optional>
 
 #include "base/time.h"
+#include "net/tcp_path.h"
 #include "wire/envelope.h"
 
 namespace theatron::net {
@@ -55,6 +61,10 @@ public:
     // this. Totals that are impossible or not newer are ignored.
     void acknowledge(std::uint64_t total, Duration held, TimePoint now);
 
+    // Takes the kernel's present word. To be called before acknowledge(), and when may_send()
+    // refused: true if more may be sent than before.
+    bool see(const TcpPath& path, TimePoint now);
+
     // False if the window is full. True for a peer that has never acknowledged anything.
     // Call only if there is media to send: a refusal marks the next chunk as held back.
     bool may_send(TimePoint now);
@@ -65,6 +75,8 @@ public:
 
     std::uint64_t bytes_on_the_way() const { return sent_ - acknowledged_; }
     double window(TimePoint now) const;
+    // The window was full when media waited.
+    bool is_held_back() const { return held_back_; }
 
     // Sizes that suit the measured rate; the largest ones before the first measurement.
     std::size_t chunk_size() const;    // bytes of media in one envelope
@@ -82,8 +94,13 @@ private:
     void note_sent(std::size_t bytes, Chunk chunk);
 
     double rate() const { return busy_bytes_ / busy_seconds_; }  // if busy_seconds_ > 0
+    std::uint64_t bytes_in_network() const {
+        return bytes_on_the_way() - std::min(behind_gap_, bytes_on_the_way());
+    }
     void note_round_trip(Duration round_trip, TimePoint now);
     void learn(double bytes, const Chunk& newest, Duration round_trip, TimePoint now);
+    bool is_probing(const TcpPath& path, TimePoint now);
+    void learn_rate(double bytes, double busy_seconds, TimePoint now);
 
     std::uint64_t sent_ = 0, acknowledged_ = 0;
     bool answering_ = false;
@@ -99,6 +116,14 @@ private:
     Duration shortest_now_ = Duration::max(), shortest_before_ = Duration::max();
     TimePoint bucket_began_, low_seen_, draining_until_;
     Duration delay_{};
+
+    // As see() was told last.
+    std::uint32_t sent_again_ = 0;
+    std::uint64_t behind_gap_ = 0;
+    Duration kernel_queue_{};
+    double kernel_rate_ = 0;
+    std::optional<TimePoint> gap_seen_at_;  // when a packet had been sent again, or BBR probed
+    std::optional<TimePoint> probe_began_;  // the last one
 };
 
 }  // namespace theatron::net

@@ -53,6 +53,7 @@ struct SendingFigures {
     int dropped = 0;              // frames
     std::size_t bytes_on_the_way = 0;
     bool takes_nothing = false;  // bytes are on the way, and the peer has taken none
+    bool loses_packets = false;  // the path, by chance (net/loss_watch.h)
 };
 
 // Not thread safe.
@@ -117,6 +118,10 @@ public:
     std::optional<TimePoint> ask_again() const { return ask_again_; }
 
     void acknowledge(const wire::Acknowledgement& word, TimePoint now);
+
+    // As Flight: what the kernel says, before acknowledge() and while the window is full.
+    bool see(const TcpPath& path, TimePoint now) { return flight_.see(path, now); }
+    bool window_is_full() const { return !idle_ && flight_.is_held_back(); }
 
     // Bytes that the kernel should keep unsent at most.
     std::size_t unsent_limit() const { return flight_.unsent_limit(); }

@@ -39,14 +39,14 @@ void HostSession::join(ParticipantId id, const wire::Join& hello, TimePoint now)
         return refuse_entry({TextCode::removed_by_operator});
     if (has_ended_ && !may(verdict.role, Right::manage))
         return refuse_entry({TextCode::session_has_ended});
-    if (hello.records && !may(judged.role, Right::record))
-        return refuse_entry({TextCode::observer_records});
     const bool is_relay = asks_for(hello, wire::Feature::relays);
     if (is_relay != (verdict.role == Role::relay))
         return refuse_entry(wire::as_written(
             is_relay ? "A relay comes by a link of its own, which 'theatron link --role relay' "
                        "prints at the host."
                      : "This link is for a relay: give it to 'theatron relay'."));
+    if (hello.records && !may(judged.role, Right::record))
+        return refuse_entry({TextCode::observer_records});
     const bool waits = judged.entry == Membership::Entry::waits;
     if (waits)
         admission_.find_door_place(hello, verdict);

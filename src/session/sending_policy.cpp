@@ -24,6 +24,7 @@ constexpr int late_measures = 3;
 constexpr Duration at_first = std::chrono::seconds(2);
 constexpr int loading_measures = 6;  // measures in a row without an answer
 constexpr Duration shortest_settling = std::chrono::milliseconds(400);
+constexpr Duration time_of_bbr = std::chrono::milliseconds(300);
 constexpr Duration calm_to_go_up = std::chrono::milliseconds(600);
 // Before trials of a receiver with which none has failed. Nothing shows the rate of a link that
 // holds nothing back, as behind a pause of the receiver: a browser's page that loads takes nothing
@@ -161,6 +162,10 @@ bool SendingPolicy::step_up(const LinkMeasure& link, std::span<const StepNeed> n
         return false;
     trying_ = true;
     went_up_ = now;
+    // On a link that loses packets the sender goes by BBR, which needs some round trips to find a
+    // higher rate than the one that it was offered before.
+    if (link.loses_packets)
+        settled_ = now + time_of_bbr + 8 * link.round_trip;
     go(step_ - 1, has_room ? SendingReason::room : SendingReason::trial, now);
     return true;
 }

@@ -26,6 +26,7 @@ struct LinkMeasure {
     Duration delay{};             // the longest of a frame, from encoded to arrived
     int dropped = 0;              // frames that were dropped because the link was too slow
     bool takes_nothing = false;   // frames wait for the receiver, and it has taken nothing
+    bool loses_packets = false;   // by chance, and not because it is full
 };
 
 // The rate that a step of the ladder needs.

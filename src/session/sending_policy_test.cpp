@@ -105,6 +105,32 @@ TEST(SendingPolicy, ComesBackWhenTheLinkDoes) {
     EXPECT_EQ(r.changes, 0);
 }
 
+// A sender by BBR was offered little, and needs half a second to find that the link carries more.
+TEST(SendingPolicy, ALinkThatLosesPacketsHasTimeToFindAHigherRate) {
+    for (const bool loses : {true, false}) {
+        SCOPED_TRACE(loses);
+        Trial r;
+        r.link.carries = 10 * mbit;
+        r.run(5);
+        ASSERT_GT(r.policy.step(), 0);
+        int searches = 0;  // tenths of a second
+        for (int i = 0; i < 200; ++i, r.now += 100ms) {
+            const int before = r.policy.step();
+            const bool searching = searches-- > 0;
+            LinkMeasure m;
+            m.bytes_per_second = 1.3 * r.needs[std::size_t(before)].bytes_per_second;
+            m.round_trip = 40ms;
+            m.delay = searching ? 200ms : 70ms;
+            m.dropped = searching;
+            m.loses_packets = loses;
+            r.policy.update(m, r.needs, r.goal, r.now);
+            if (r.policy.step() < before)
+                searches = 5;
+        }
+        EXPECT_EQ(r.policy.step() == 0, loses);
+    }
+}
+
 TEST(SendingPolicy, DoesNotSwingOnASlowLink) {
     for (const double megabits : {9.0, 10.0, 14.0, 20.0, 30.0, 39.0}) {
         SCOPED_TRACE(megabits);

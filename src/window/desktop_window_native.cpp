@@ -17,11 +17,8 @@
 namespace theatron::window {
 namespace {
 
-constexpr const char* instead =
-    " Use --offscreen FILE.png for a picture, or --no-window to receive without one.";
-
 [[noreturn]] void fail(const std::string& what) {
-    throw Error(what + " (" + SDL_GetError() + ")." + instead);
+    throw Error(what + " (" + SDL_GetError() + ").");
 }
 
 // SDL's video, for as long as the window. Its events stay until the program's end, since sounds
@@ -41,11 +38,11 @@ struct Library {
         SDL_SetHint(SDL_HINT_VIDEODRIVER, wayland ? "x11,wayland" : "x11");
         [[maybe_unused]] static const int events = SDL_InitSubSystem(SDL_INIT_EVENTS);
         if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0)
-            throw Error(std::string("There is no display to open a window on.") + instead);
+            throw Error("There is no display to open a window on.");
         const std::string driver = SDL_GetCurrentVideoDriver();
         if (driver == "offscreen" || driver == "dummy") {
             SDL_QuitSubSystem(SDL_INIT_VIDEO);
-            throw Error(std::string("There is no display to open a window on.") + instead);
+            throw Error("There is no display to open a window on.");
         }
     }
     ~Library() { SDL_QuitSubSystem(SDL_INIT_VIDEO); }
@@ -292,7 +289,7 @@ bool DesktopWindow::Parts::open(const std::string& title, Size size, int profile
     return context != nullptr;
 }
 
-DesktopWindow::DesktopWindow(const std::string& title, Size size)
+DesktopWindow::DesktopWindow(const std::string& title, Size size, const std::string& instead) try
     : parts_(std::make_unique<Parts>()) {
     // The clouds are drawn elsewhere and copied here.
     SDL_GL_SetAttribute(SDL_GL_DEPTH_SIZE, 0);
@@ -306,6 +303,8 @@ DesktopWindow::DesktopWindow(const std::string& title, Size size)
     SDL_GL_SetSwapInterval(1);
     parts_->wake_event = SDL_RegisterEvents(1);
     parts_->errors.watch();
+} catch (const Error& problem) {
+    throw Error(problem.what() + (instead.empty() ? "" : " " + instead));
 }
 
 DesktopWindow::~DesktopWindow() = default;

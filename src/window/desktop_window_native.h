@@ -19,7 +19,8 @@ public:
     // Opens the window and makes its GL context current. `size` is in the desktop's
     // units, which are several pixels each on some screens. Throws Error where
     // there is no display, or none that can do OpenGL ES 3 or OpenGL 4.2.
-    DesktopWindow(const std::string& title, Size size);
+    // `instead`: a sentence on what a person without one can do, which the error ends with.
+    DesktopWindow(const std::string& title, Size size, const std::string& instead = "");
     // No object of the GL context may be left.
     ~DesktopWindow();
     DesktopWindow(const DesktopWindow&) = delete;

@@ -123,6 +123,11 @@ class FacePhotos(unittest.TestCase):
                     wait_until(lambda: not self.is_marking(screen), of=process)
             finish = screen.buttons(WIDTH, HEIGHT)[-1]  # "No more photos"
             screen.do("mousemove", *finish, "click", 1)
+            # Four emotions have no photo: "Make the face now" or "Go on with photos".
+            wait_until(lambda: len(screen.buttons(WIDTH, HEIGHT)) == 2, of=process)
+            self.save(screen, "face_enough")
+            self.assertFalse(process.has_ended())
+            screen.do("key", "Return")
             wait_until(process.has_ended, of=process)
         self.assertEqual(process.process.returncode, 0, process.errors)
         made = json.loads(process.last_line)
@@ -150,6 +155,35 @@ class FacePhotos(unittest.TestCase):
         self.assertEqual(process.process.returncode, 1)
         self.assertIn("nothing was written", "".join(process.errors))
         self.assertFalse(out.exists())
+
+    def test_landmarks_that_are_no_faces_are_refused(self):
+        right = landmarks(self.photos / "neutral.pts")
+        wrong = {
+            "exchanged": [(960 - x, y) for x, y in right],
+            "head": [(960 - x, 1080 - y) for x, y in right],
+            "too small": [(400 + x / 50, 400 + y / 50) for x, y in right],
+            "not lie as on a face": [(480, 540)] * 68,
+            "outside": [(x + 900, y) for x, y in right],
+        }
+        for word, points in wrong.items():
+            with self.subTest(word):
+                file = self.folder / "wrong.pts"
+                file.write_text("version: 1\nn_points: 68\n{\n" + "".join(f"{x} {y}\n" for x, y in points) + "}\n")
+                code, _, errors = run("face", "enrol", "--photo", self.photos / "neutral.jpg", "--landmarks", file,
+                                      "--out", self.folder / "wrong.face", "--passphrase-file", self.passphrase)
+                file.unlink()
+                self.assertEqual(code, 1)
+                self.assertIn(word, errors)
+                self.assertIn("wrong.pts", errors)
+        self.assertFalse((self.folder / "wrong.face").exists())
+
+    def test_without_a_display_the_other_way_is_said(self):
+        code, _, errors = run("face", "landmarks", self.photos / "neutral.jpg", "--mark", "--out", self.folder / "x.pts",
+                              *self.none, env={**os.environ, "DISPLAY": "", "WAYLAND_DISPLAY": ""})
+        self.assertEqual(code, 1)
+        self.assertIn("no display", errors)
+        self.assertIn(".pts", errors)
+        self.assertNotIn("--offscreen", errors)
 
     def test_what_cannot_be_found_is_said(self):
         photo = self.photos / "neutral.jpg"

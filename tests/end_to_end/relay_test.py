@@ -4,6 +4,7 @@ import json
 import pathlib
 import shutil
 import signal
+import socket
 import tempfile
 import unittest
 
@@ -86,6 +87,25 @@ class Relays(unittest.TestCase):
         self.go_on(viewer, True)
         self.assertEqual(viewer.newest_json()["joins"], 1)
 
+    def test_a_relay_that_stands_still_is_left_until_it_goes_on(self):
+        relay, viewer = self.relay(), self.join()
+        self.go_on(viewer, True)
+        relay.send(signal.SIGSTOP)
+        self.go_on(viewer, False)
+        relay.send(signal.SIGCONT)
+        self.go_on(viewer, True)
+
+    def test_strangers_at_its_port_cost_receivers_nothing(self):
+        relay, viewer = self.relay(), self.join()
+        self.go_on(viewer, True)
+        port = relay.newest_json()["port"]
+        strangers = [socket.create_connection(("127.0.0.1", port)) for _ in range(100)]
+        for i, stranger in enumerate(strangers):
+            self.addCleanup(stranger.close)
+            # Nothing, a page's request, or what is no TLS.
+            stranger.sendall((b"", b"GET / HTTP/1.1\r\nHost: relay\r\n\r\n", bytes(range(256)) * 4)[i % 3])
+        self.go_on(viewer, True)
+
     def test_of_two_relays_the_other_one_takes_over(self):
         relays = [self.relay("--name", "one"), self.relay("--name", "two")]
         viewer = self.join()
@@ -142,10 +162,12 @@ class Relays(unittest.TestCase):
         return next(link["name"] for link in json.loads(done.stdout) if link["role"] == "relay")
 
     def test_links_are_for_what_they_say(self):
-        for words in (["join", self.relay_link, "--no-window", "--seconds", "5"], ["relay", self.host.greeting["link"], "--seconds", "5"]):
+        for words, sentence in ((["join", self.relay_link, "--no-window", "--seconds", "5"], "theatron relay"),
+                                (["record", self.relay_link, self.folder / "recording", "--seconds", "5"], "theatron relay"),
+                                (["relay", self.host.greeting["link"], "--seconds", "5"], "--role relay")):
             done = patience.run([PROGRAM, *words])
             self.assertNotEqual(done.returncode, 0, words)
-            self.assertIn("theatron relay" if words[0] == "join" else "--role relay", done.stderr)
+            self.assertIn(sentence, done.stderr)
 
     def test_mistakes_are_said_before_anything_begins(self):
         for options, sentence in ((["--for", "10.2.0.0/99"], "no IPv4 network"),

@@ -5,6 +5,7 @@ import shutil
 import tempfile
 import unittest
 
+from lossy_run import system_congestion_control
 from shaped_link import missing
 from theatron_process import make_recording
 from throttled_run import run, summary
@@ -35,6 +36,18 @@ class ShapedLink(unittest.TestCase):
         slowest = max(samples, key=lambda s: s.level)
         self.assertIn("frames", slowest.sent)
         self.assertNotEqual(slowest.reason, "")
+
+    def test_a_link_that_loses_packets_carries_the_pictures_all_the_same(self):
+        if "bbr" not in pathlib.Path("/proc/sys/net/ipv4/tcp_available_congestion_control").read_text().split():
+            self.skipTest("this kernel offers no BBR: modprobe tcp_bbr")
+        camera = f"folder:{make_recording(self.folder / 'box')},loop=1,preload=1"
+        with system_congestion_control("cubic"):
+            samples = run(self.folder / "state", [camera],
+                          ["delay_ms=20", f"rate_mbit={2 * NEED_MBIT}", "loss=1%"], 10, {"seconds": 1, "percent": 100}, 10,
+                          ["--depth-codec", "raw", "--color-codec", "raw"])
+        later = [s for s in samples if s.at > 8]
+        self.assertGreater(sorted(s.fps for s in later)[len(later) // 2], 25)
+        self.assertLess(sorted(max(s.ages) for s in later)[len(later) // 2], 120)
 
 
 if __name__ == "__main__":

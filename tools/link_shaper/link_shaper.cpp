@@ -12,6 +12,8 @@
 //   rate=25%         of the last rate_mbit
 //   buffer_ms=500    packets that wait longer than this for the rate are dropped
 //   loss=1%          of packets
+//   burst=4          packets that are lost in a row, on average (Gilbert's model); 1: each by
+//   chance jitter_ms=5      each packet takes up to that much longer; none overtakes another
 //   reorder=2%       of packets overtake those that were sent up to 10 ms before
 //
 // A line on standard input is either "begin", which sets the time to 0, or settings
@@ -66,6 +68,8 @@ struct Shape {
     double full_rate = 0, rate = 0;  // bytes a second
     double buffer_s = 0.5;
     double loss = 0, reorder = 0;
+    double burst = 1;  // packets
+    double jitter_s = 0;
 };
 
 double number(const std::string& text, const char* unit) {
@@ -92,6 +96,10 @@ void set(Shape& shape, const std::string& setting) {
         shape.buffer_s = number(value, "") / 1000;
     else if (key == "loss")
         shape.loss = number(value, "%") / 100;
+    else if (key == "burst")
+        shape.burst = std::max(1.0, number(value, ""));
+    else if (key == "jitter_ms")
+        shape.jitter_s = number(value, "") / 1000;
     else if (key == "reorder")
         shape.reorder = number(value, "%") / 100;
     else {
@@ -156,7 +164,7 @@ public:
             const ssize_t size = read(from_, packet.data(), packet.size());
             if (size <= 0)
                 return;
-            if (chance(shape.loss))
+            if (loses(shape))
                 continue;
             waiting_.emplace_back(packet.begin(), packet.begin() + size);
             waiting_bytes_ += double(size);
@@ -177,10 +185,11 @@ public:
             if (done > now)
                 break;
             free_at_ = done;
-            double delay = shape.delay_s;
+            const double delay = shape.delay_s + shape.jitter_s * unit_(random_);
+            Time there = last_there_ = std::max(last_there_, done + from_seconds(delay));
             if (chance(shape.reorder))
-                delay = std::max(0.0, delay - 0.01);
-            travelling_.emplace(done + from_seconds(delay), std::move(waiting_.front()));
+                there = std::max(done, there - from_seconds(0.01));
+            travelling_.emplace(there, std::move(waiting_.front()));
             waiting_.pop_front();
             waiting_bytes_ -= size;
         }
@@ -203,8 +212,19 @@ public:
     }
 
 private:
-    bool chance(double share) {
-        return share > 0 && std::uniform_real_distribution<>(0, 1)(random_) < share;
+    bool chance(double share) { return share > 0 && unit_(random_) < share; }
+
+    // Runs of lost packets begin so often that their share of all packets is `loss`.
+    bool loses(const Shape& shape) {
+        const double kept = 1 - shape.loss;
+        const double change = in_burst_   ? 1 / shape.burst
+                              : kept <= 0 ? 1
+                                          : shape.loss / (shape.burst * kept);
+        if (shape.burst <= 1)
+            in_burst_ = chance(shape.loss);
+        else if (chance(change))
+            in_burst_ = !in_burst_;
+        return in_burst_;
     }
 
     int from_, to_;
@@ -212,7 +232,10 @@ private:
     double waiting_bytes_ = 0;
     Time free_at_;  // when the last packet was through
     std::multimap<Time, std::vector<char>> travelling_;
+    Time last_there_;  // of the packets that have left, when the last one arrives
+    bool in_burst_ = false;
     std::mt19937 random_;
+    std::uniform_real_distribution<> unit_{0, 1};
 };
 
 struct Change {
