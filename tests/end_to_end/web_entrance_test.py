@@ -77,10 +77,14 @@ class WebEntrance(PageCase):
             again = self.open()
             self.assertEqual(again.evaluate("theatron.person.id"), second)
             self.assertEqual(again.evaluate("document.getElementById('name').value"), "Bea")
-            self.assertNotEqual(self.open("observer").evaluate("theatron.person.id"), second, "another link")
+            other = self.open("observer")
+            self.assertNotEqual(other.evaluate("theatron.person.id"), second, "another link")
         with self.subTest("no longer"):
             self.enter(again, "Bea")
             self.leave(again)
+            # A tab that is still open, with the form or behind a session, brings nothing back.
+            for tab in (other, page):
+                self.assertRegex(tab.evaluate("theatron.person.id"), "^[0-9a-f]{32}$")
             self.assertEqual(again.evaluate(NUMBERS), [])
             self.assertNotEqual(self.open().evaluate("theatron.person.id"), second)
 

@@ -51,8 +51,9 @@ export class Person {
             store(name, value, this.memory);
     }
 
+    // Another tab may have made the computer forget meanwhile.
     get memory() {
-        return this.is_remembered ? computer : tab;
+        return this.is_remembered && stored("remember") === "yes" ? computer : tab;
     }
 }
 
